@@ -8,8 +8,8 @@ use crate::wall::usage;
 use super::Scene;
 
 impl Scene {
-    /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the library
-    /// reads them from the scene.
+    /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the
+    /// library reads them from the scene.
     pub fn uses(&self, name: &str) -> bool {
         RealVariable::from_name(name).is_some_and(|variable| self.uses_real(variable))
             || BooleanVariable::from_name(name).is_some()

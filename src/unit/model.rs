@@ -200,6 +200,7 @@ impl Model for Unit {
 }
 
 /// Returns an output that follows from the state, or its derivative; `None` for other variables.
+#[allow(clippy::match_same_arms, reason = "outputs that have another source, and no outputs")]
 fn output(outputs: &Outputs, variable: RealVariable) -> Option<f64> {
     use RealVariable as V;
     match variable {

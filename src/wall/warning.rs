@@ -45,8 +45,8 @@ pub enum Warning {
     NeverRests,
     /// An elastic frequency that makes steps expensive \[rad/s\].
     #[error(
-        "omega1 = {omega1:.3e} rad/s: the wall vibrates {:.0} times in {USUAL_STEP} s, and computing takes as \
-         much longer than usual; check a1, thickness, density and overburden",
+        "omega1 = {omega1:.3e} rad/s: the wall vibrates {:.0} times in {USUAL_STEP} s, and computing takes \
+         as much longer than usual; check a1, thickness, density and overburden",
         omega1 * USUAL_STEP / std::f64::consts::TAU
     )]
     Fast { omega1: f64 },

@@ -16,14 +16,14 @@ const _: () = assert!(RealVariable::Impulse8 as usize + 1 == RealVariable::Impul
 
 /// What an input belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Source {
+pub(crate) enum Owner {
     /// The base.
     Base,
     /// A wall, counted from 0, and the coupling in which the input takes part.
     Wall(Coupling, usize),
 }
 
-impl Source {
+impl Owner {
     /// Returns what an input belongs to; `None` for other variables.
     pub(crate) fn of(variable: RealVariable) -> Option<Self> {
         let wall_from = |first: RealVariable| {
@@ -54,17 +54,17 @@ pub(crate) struct Inputs {
 impl Inputs {
     /// Returns the value of an input; 0 for other variables.
     pub(crate) fn get(&self, variable: RealVariable) -> f64 {
-        match Source::of(variable) {
-            Some(Source::Base) => self.ground.value,
-            Some(Source::Wall(Coupling::Reactions, wall)) => self.reactions[wall].value,
-            Some(Source::Wall(Coupling::Impulses, wall)) => self.impulses[wall],
+        match Owner::of(variable) {
+            Some(Owner::Base) => self.ground.value,
+            Some(Owner::Wall(Coupling::Reactions, wall)) => self.reactions[wall].value,
+            Some(Owner::Wall(Coupling::Impulses, wall)) => self.impulses[wall],
             None => 0.0,
         }
     }
 
     /// Sets an input.
     pub(crate) fn set(&mut self, variable: RealVariable, value: f64) {
-        if let Some(Source::Wall(Coupling::Impulses, wall)) = Source::of(variable) {
+        if let Some(Owner::Wall(Coupling::Impulses, wall)) = Owner::of(variable) {
             self.impulses[wall] = value;
         } else if let Some(input) = self.continuous(variable) {
             input.set(value);
@@ -73,10 +73,10 @@ impl Inputs {
 
     /// Returns a continuous input; `None` for other variables.
     pub(crate) fn continuous(&mut self, variable: RealVariable) -> Option<&mut Input> {
-        match Source::of(variable)? {
-            Source::Base => Some(&mut self.ground),
-            Source::Wall(Coupling::Reactions, wall) => Some(&mut self.reactions[wall]),
-            Source::Wall(Coupling::Impulses, _) => None,
+        match Owner::of(variable)? {
+            Owner::Base => Some(&mut self.ground),
+            Owner::Wall(Coupling::Reactions, wall) => Some(&mut self.reactions[wall]),
+            Owner::Wall(Coupling::Impulses, _) => None,
         }
     }
 

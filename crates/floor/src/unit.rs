@@ -4,7 +4,7 @@ use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec,
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Base, Inputs, Source};
+use crate::inputs::{Base, Inputs, Owner};
 use crate::motion::{Load, State, Work};
 use crate::values;
 use crate::variables::{
@@ -264,9 +264,9 @@ impl Model for Unit {
             V::BaseDisplacement => Along { base_displacement: 1.0, ..Along::default() },
             V::BaseVelocity => Along { base_velocity: 1.0, ..Along::default() },
             V::EnergyDamping => Along { energy: 1.0, ..Along::default() },
-            real_input!() => match Source::of(known)? {
-                Source::Base => Along { ground: 1.0, ..Along::default() },
-                Source::Wall(coupling, _) => {
+            real_input!() => match Owner::of(known)? {
+                Owner::Base => Along { ground: 1.0, ..Along::default() },
+                Owner::Wall(coupling, _) => {
                     let walls = self.inputs.weight(coupling, self.parameters.coupling);
                     Along { walls, ..Along::default() }
                 }

@@ -17,7 +17,7 @@ pub use cells::{Numbers, Row, Thousands};
 pub use heading::Name;
 
 use crate::error::excerpt;
-use crate::fields::{Line, lines};
+use crate::fields::{Numbered, lines};
 use cells::{Separator, cells};
 
 /// What starts a comment.
@@ -52,7 +52,7 @@ pub struct Columns<'a> {
     /// The last comment above the rows, where no line names the columns.
     remark: Vec<Name>,
     /// The line of the names, or else the first row.
-    heading: Line<'a>,
+    heading: Numbered<'a>,
     first_row: usize,
     separator: Separator,
     width: usize,
@@ -69,7 +69,7 @@ impl<'a> Columns<'a> {
     /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
     pub fn of_numbers(text: &'a str, is_first: impl Fn(&Name) -> bool, forms: &str) -> Result<Self, Fault> {
         let first = first_line(text, forms)?;
-        let titles: Vec<Line<'a>> =
+        let titles: Vec<Numbered<'a>> =
             content(text).take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES).collect();
         let is_row = |line: &str| starts_a_number(line.trim_start_matches('|'));
         refuse_foreign(content(text).take(titles.len() + 1), is_row)?;
@@ -77,7 +77,7 @@ impl<'a> Columns<'a> {
         let of_row = row.map_or(Separator::None, |(_, line)| Separator::of_row(line));
         let width = row.map_or(0, |(_, line)| filled(of_row, line));
         let names = |line: &str| heading::names(line, Separator::of_names(line, false));
-        let is_heading = |&&(_, line): &&Line<'a>| {
+        let is_heading = |&&(_, line): &&Numbered<'a>| {
             let names = names(line);
             names.len() > 1 && is_first(&names[0])
         };
@@ -85,7 +85,7 @@ impl<'a> Columns<'a> {
             titles.last().filter(|(_, line)| titles.len() > 1 && heading::is_unit_row(&names(line)));
         let titles_only = &titles[..titles.len() - usize::from(unit_row.is_some())];
         let found = titles_only.last().filter(is_heading).or_else(|| titles_only.iter().find(is_heading));
-        let fits = |&&(_, line): &&Line<'a>| width > 1 && names(line).len() == width;
+        let fits = |&&(_, line): &&Numbered<'a>| width > 1 && names(line).len() == width;
         let found = found.or_else(|| titles_only.last().filter(fits));
         let has_commas = |line| Separator::of_names(line, false) == Separator::Comma;
         if let Some(row) = row.filter(|_| !found.is_some_and(|(_, line)| has_commas(line))) {
@@ -292,10 +292,10 @@ impl<'a> Columns<'a> {
 }
 
 /// Refuses rows such as `0,5`, from the first one on: one number, or two.
-fn refuse_ambiguous_commas(text: &str, (line, first): Line<'_>, width: usize) -> Result<(), Fault> {
+fn refuse_ambiguous_commas(text: &str, (line, first): Numbered<'_>, width: usize) -> Result<(), Fault> {
     let mut rows = content(text).skip_while(|(number, _)| *number < line);
     let is_comma = Separator::of_row(first) == Separator::Comma && width == 2;
-    let is_clear = |(_, row): Line<'_>| row.contains(['.', '"']);
+    let is_clear = |(_, row): Numbered<'_>| row.contains(['.', '"']);
     if !is_comma || first.contains(char::is_whitespace) || rows.any(is_clear) {
         return Ok(());
     }
@@ -306,7 +306,7 @@ fn refuse_ambiguous_commas(text: &str, (line, first): Line<'_>, width: usize) ->
 }
 
 /// Makes the fault of a first column without a name.
-fn index_column((line, heading): Line<'_>) -> Fault {
+fn index_column((line, heading): Numbered<'_>) -> Fault {
     let remedy = "delete the first column, an index without a name (pandas: index=False)";
     Fault::excerpt(line, "a name for the first column", heading, remedy)
 }
@@ -322,7 +322,7 @@ fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
 
 /// Returns the lines that are no comments, from the first one with content on. `sep=;`, by which Excel knows
 /// the separator, counts as a comment.
-fn content(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+fn content(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     let content = lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)));
     content.skip_while(|(_, line)| line.chars().all(|c| c.is_whitespace() || matches!(c, ',' | ';' | '"')))
 }
@@ -332,7 +332,7 @@ fn is_separator_line(line: &str) -> bool {
 }
 
 /// Returns the first line that is no comment.
-fn first_line<'a>(text: &'a str, forms: &str) -> Result<Line<'a>, Fault> {
+fn first_line<'a>(text: &'a str, forms: &str) -> Result<Numbered<'a>, Fault> {
     content(text).next().ok_or_else(|| {
         let found = if lines(text).next().is_some() { "comments only" } else { "an empty file" };
         Fault::new(1, forms, found, "check that this is the right file")
@@ -341,7 +341,7 @@ fn first_line<'a>(text: &'a str, forms: &str) -> Result<Line<'a>, Fault> {
 
 /// Refuses comment marks of other programs, and bars between columns in lines that `is_row` knows.
 fn refuse_foreign<'a>(
-    lines: impl Iterator<Item = Line<'a>>,
+    lines: impl Iterator<Item = Numbered<'a>>,
     is_row: impl Fn(&str) -> bool,
 ) -> Result<(), Fault> {
     for (number, line) in lines {

@@ -5,16 +5,16 @@ use crate::motion::floor_index;
 use crate::quantity::Quantity;
 
 /// A line and its number, from 1.
-pub(crate) type Line<'a> = (usize, &'a str);
+pub(crate) type Numbered<'a> = (usize, &'a str);
 
 /// Returns the lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or
 /// `\r\r\n`; in a text without `\n`, as old Macs wrote it, `\r`.
-pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
 /// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
-pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     let end = if text.contains('\n') { '\n' } else { '\r' };
     let numbered = text.split(end).enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
@@ -105,7 +105,7 @@ pub(crate) fn check_count(
 }
 
 /// Makes the fault of numbers behind the last one.
-fn too_many((number, text): Line<'_>, count: usize, stated: usize) -> Fault {
+fn too_many((number, text): Numbered<'_>, count: usize, stated: usize) -> Fault {
     Fault::excerpt(number, format!("an end after {count} numbers, as line {stated} says"), text, DAMAGED)
 }
 
@@ -168,7 +168,7 @@ impl Layout {
     /// the line that says how many.
     pub(crate) fn numbers<'a>(
         self,
-        lines: &mut impl Iterator<Item = Line<'a>>,
+        lines: &mut impl Iterator<Item = Numbered<'a>>,
         count: usize,
         stated: usize,
     ) -> Result<(Vec<f64>, usize), Fault> {
@@ -215,7 +215,7 @@ impl Layout {
     /// Refuses more numbers where a block should have ended.
     pub(crate) fn check_ended(
         self,
-        next: Option<Line<'_>>,
+        next: Option<Numbered<'_>>,
         count: usize,
         stated: usize,
     ) -> Result<(), Fault> {

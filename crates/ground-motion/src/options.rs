@@ -25,8 +25,8 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the user
-    /// states counts; where it is one, of whatever quantity, the user's must not contradict it.
+    /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the
+    /// user states counts; where it is one, of whatever quantity, the user's must not contradict it.
     pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
         match (Quantity::of(word), self.unit) {
             (Some(Quantity::Acceleration(unit)), Some(given)) if unit != given => {

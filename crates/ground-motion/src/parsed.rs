@@ -4,7 +4,7 @@ use std::iter::Peekable;
 
 use crate::check::Warning;
 use crate::error::Fault;
-use crate::fields::{Layout, Line, check_count, leading_real, rounding};
+use crate::fields::{Layout, Numbered, check_count, leading_real, rounding};
 use crate::unit::Unit;
 
 /// How many lines of a header are kept, and how many characters of each.
@@ -67,7 +67,7 @@ impl Parsed {
     pub(crate) fn read<'a>(
         &mut self,
         layout: Layout,
-        lines: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+        lines: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
         count: usize,
         stated: usize,
     ) -> Result<(), Fault> {

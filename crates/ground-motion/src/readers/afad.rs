@@ -18,7 +18,7 @@
 use super::components::Components;
 use super::header::{count, step};
 use crate::error::Fault;
-use crate::fields::{Line, after, find, lines, real};
+use crate::fields::{Numbered, after, find, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -35,12 +35,12 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 /// Reads the components of an AFAD file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let is_row = |line: &str| line.split_whitespace().all(|word| real(word).is_some());
-    let header: Vec<Line<'_>> =
+    let header: Vec<Numbered<'_>> =
         lines(text).take(HEADER_LINES).take_while(|(_, line)| !is_row(line)).collect();
     let step = step(&header, "SAMPLING INTERVAL (sec)", |step| step, options)?;
     let (count_line, count) = count(&header, COUNT)?;
     let peaks = header.iter().find(|(_, line)| find(line, "PGA VALUES").is_some());
-    let in_brackets = |&(number, line): &Line<'_>| {
+    let in_brackets = |&(number, line): &Numbered<'_>| {
         let unit = line.split_once('(')?.1.split_once(')')?.0;
         Some((number, unit.to_owned()))
     };

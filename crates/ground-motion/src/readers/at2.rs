@@ -14,7 +14,7 @@
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, find, leading_number, lines, positive, real, touching, unit_word};
+use crate::fields::{Numbered, find, leading_number, lines, positive, real, touching, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
@@ -99,7 +99,7 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
 
 /// Finds the unit that the header states, or else the one that the user states. It is never guessed.
 fn unit<'a>(
-    header: impl Iterator<Item = Line<'a>>,
+    header: impl Iterator<Item = Numbered<'a>>,
     count_line: usize,
     options: &RecordOptions,
 ) -> Result<Unit, Fault> {

@@ -16,7 +16,7 @@
 
 use super::volume_2::{self, Channel, Dialect, REALS, Scale, in_heading};
 use crate::error::Fault;
-use crate::fields::{Line, after, find, leading_real};
+use crate::fields::{Numbered, after, find, leading_real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -55,7 +55,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 /// Takes the unit from the heading, and interval and peak from the real headers.
 fn scale(
     channel: &Channel<'_>,
-    heading: Line<'_>,
+    heading: Numbered<'_>,
     count: usize,
     options: &RecordOptions,
 ) -> Result<Scale, Fault> {

@@ -16,7 +16,7 @@
 use super::components::{Components, is_due};
 use super::header::{number, step, value};
 use crate::error::{DAMAGED, Fault, excerpt};
-use crate::fields::{Layout, Line, leading_real, real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, leading_real, real, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -36,7 +36,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 /// Reads the components of a CWA file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let lines = untrimmed_lines(text).take(HEADER_LINES);
-    let header: Vec<Line<'_>> = lines.take_while(|(_, line)| line.starts_with('#')).collect();
+    let header: Vec<Numbered<'_>> = lines.take_while(|(_, line)| line.starts_with('#')).collect();
     let step = step(&header, "SampleRate(Hz)", |rate| 1.0 / rate, options)?;
     let (unit_line, unit) = value(&header, "AmplitudeUnit")?;
     let unit = unit.split_whitespace().next().unwrap_or_default().trim_end_matches('.');

@@ -20,7 +20,7 @@
 
 use super::header::{count, step, value};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, lines, real};
+use crate::fields::{Numbered, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     while rest.next_if(|(_, line)| titles < TITLE_LINES && is_title(line)).is_some() {
         titles += 1;
     }
-    let mut header: Vec<Line<'_>> = Vec::new();
+    let mut header: Vec<Numbered<'_>> = Vec::new();
     while let Some(line) = rest.next_if(|(_, line)| header.len() < HEADER_LINES && line.contains(':')) {
         header.push(line);
     }

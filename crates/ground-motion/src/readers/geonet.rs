@@ -21,7 +21,7 @@ use std::iter::Peekable;
 
 use super::one_by_one;
 use crate::error::Fault;
-use crate::fields::{Layout, Line, find, real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, find, real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::vertical::is_vertical;
@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 
 /// Reads the next component.
 fn component<'a>(
-    rest: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+    rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
     options: &RecordOptions,
 ) -> Result<Parsed, Fault> {
     let (first, title) = rest.peek().copied().unwrap_or((1, ""));
@@ -52,7 +52,7 @@ fn component<'a>(
         let expected = "the first line of a component, `Corrected accelerogram … GNS Science`";
         return Err(Fault::excerpt(first, expected, title.trim(), "check that this is a GeoNet file"));
     }
-    let mut header: Vec<Line<'a>> = Vec::new();
+    let mut header: Vec<Numbered<'a>> = Vec::new();
     while let Some(line) = rest.next_if(|(_, line)| header.len() < TEXT_LINES && !is_numbers(line)) {
         header.push(line);
     }

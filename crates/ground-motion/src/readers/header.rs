@@ -1,12 +1,12 @@
 //! Values in the header of a record, by their keys.
 
 use crate::error::Fault;
-use crate::fields::{Line, leading_number, positive};
+use crate::fields::{Numbered, leading_number, positive};
 use crate::options::RecordOptions;
 
 /// Finds the value of a key in header lines `KEY : value`, and its line.
-pub(super) fn value<'a>(header: &[Line<'a>], key: &str) -> Result<Line<'a>, Fault> {
-    let of_key = |&(number, line): &Line<'a>| {
+pub(super) fn value<'a>(header: &[Numbered<'a>], key: &str) -> Result<Numbered<'a>, Fault> {
+    let of_key = |&(number, line): &Numbered<'a>| {
         let (name, value) = line.trim_start_matches('#').split_once(':')?;
         name.trim().eq_ignore_ascii_case(key).then_some((number, value.trim()))
     };
@@ -15,10 +15,10 @@ pub(super) fn value<'a>(header: &[Line<'a>], key: &str) -> Result<Line<'a>, Faul
 
 /// Refuses a header without a value for a key, or with an empty one.
 pub(super) fn required<'a>(
-    header: &[Line<'a>],
+    header: &[Numbered<'a>],
     key: &str,
-    found: Option<Line<'a>>,
-) -> Result<Line<'a>, Fault> {
+    found: Option<Numbered<'a>>,
+) -> Result<Numbered<'a>, Fault> {
     found.filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
         let line = found.or(header.last().copied()).map_or(1, |(number, _)| number);
         Fault::missing(line, format!("a value for `{key}` in the header"))
@@ -26,7 +26,7 @@ pub(super) fn required<'a>(
 }
 
 /// Reads the positive number that a value starts with; a unit may follow.
-pub(super) fn number((line, text): Line<'_>, key: &str) -> Result<(usize, f64), Fault> {
+pub(super) fn number((line, text): Numbered<'_>, key: &str) -> Result<(usize, f64), Fault> {
     let number = positive(leading_number(text).0);
     number
         .map(|number| (line, number))
@@ -34,7 +34,7 @@ pub(super) fn number((line, text): Line<'_>, key: &str) -> Result<(usize, f64), 
 }
 
 /// Reads the value of a key as a whole number, and its line.
-pub(super) fn count(header: &[Line<'_>], key: &str) -> Result<(usize, usize), Fault> {
+pub(super) fn count(header: &[Numbered<'_>], key: &str) -> Result<(usize, usize), Fault> {
     let (line, text) = value(header, key)?;
     text.parse()
         .map(|count| (line, count))
@@ -43,7 +43,7 @@ pub(super) fn count(header: &[Line<'_>], key: &str) -> Result<(usize, usize), Fa
 
 /// Reads the step from the value of a key, and compares it with the one that the user states.
 pub(super) fn step(
-    header: &[Line<'_>],
+    header: &[Numbered<'_>],
     key: &str,
     to_step: impl Fn(f64) -> f64,
     options: &RecordOptions,

@@ -19,7 +19,7 @@
 
 use super::header::{number, required};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, check_count, leading_number, lines, positive};
+use crate::fields::{Numbered, check_count, leading_number, lines, positive};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -39,7 +39,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 
 /// Reads the text of a K-NET or KiK-net file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-    let header: Vec<Line<'_>> = lines(text).take(HEADER_LINES).collect();
+    let header: Vec<Numbered<'_>> = lines(text).take(HEADER_LINES).collect();
     let (frequency_line, frequency) = number(field(&header, FREQUENCY)?, FREQUENCY)?;
     let step = 1.0 / frequency;
     options.check_step(step, frequency_line)?;
@@ -76,7 +76,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 }
 
 /// Finds the value after a label, and its line.
-fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
+fn field<'a>(header: &[Numbered<'a>], label: &str) -> Result<Numbered<'a>, Fault> {
     let found = header.iter().find_map(|&(number, line)| Some((number, line.strip_prefix(label)?.trim())));
     required(header, label, found)
 }

@@ -16,7 +16,7 @@
 use super::components::{Components, MOST, is_due};
 use super::header::{number, required};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, find, lines, real};
+use crate::fields::{Numbered, find, lines, real};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -41,7 +41,7 @@ fn names_columns(line: &str) -> bool {
 /// Reads the components of such a file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let end = lines(text).take(HEADER_LINES).position(|(_, line)| names_columns(line));
-    let header: Vec<Line<'_>> = lines(text).take(end.map_or(0, |end| end + 1)).collect();
+    let header: Vec<Numbered<'_>> = lines(text).take(end.map_or(0, |end| end + 1)).collect();
     let Some(&(names_line, names)) = header.last() else {
         let expected = format!("a line that names the columns, `#Time,{TIME},N-S(gal)`");
         return Err(Fault::new(1, expected, "none", "check that this is a K-NET file as CSV"));
@@ -89,7 +89,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 }
 
 /// Reads the positive number on the line below a label; `None` without the label.
-fn below(header: &[Line<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
+fn below(header: &[Numbered<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
     let place = header.iter().position(|(_, line)| line.trim_start_matches('#').starts_with(label));
     let Some(place) = place else { return Ok(None) };
     let value = header.get(place + 1).map(|(line, value)| (*line, value.trim_start_matches('#').trim()));

@@ -27,7 +27,7 @@ use std::iter::Peekable;
 use std::path::Path;
 
 use crate::error::{Fault, UNEVEN};
-use crate::fields::{Line, find, untrimmed_lines};
+use crate::fields::{Numbered, find, untrimmed_lines};
 use crate::format::Format;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -46,9 +46,9 @@ type Known = (Format, &'static str, &'static str, &'static [&'static str], Recog
 
 const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
-/// The formats in the order of the enumeration, in which they are tried. CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose
-/// first lines may have the same words; AT2, known by two words anywhere in its header, comes after tables,
-/// whose title may have them too.
+/// The formats in the order of the enumeration, in which they are tried. CSMIP comes after GeoNet, volume 1,
+/// COSMOS and SMC, whose first lines may have the same words; AT2, known by two words anywhere in its header,
+/// comes after tables, whose title may have them too.
 const KNOWN: [Known; Format::ALL.len()] = [
     (Format::Esm, "esm", "ESM/ITACA", &["asc"], esm::recognises, esm::parse),
     (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], geonet::recognises, geonet::parse),
@@ -111,7 +111,7 @@ impl Format {
 }
 
 /// Reads channels that follow one another, each by `read`, and numbers them.
-fn one_by_one<'a, Lines: Iterator<Item = Line<'a>>>(
+fn one_by_one<'a, Lines: Iterator<Item = Numbered<'a>>>(
     mut lines: Peekable<Lines>,
     read: impl Fn(&mut Peekable<Lines>) -> Result<Parsed, Fault>,
 ) -> Result<Vec<Parsed>, Fault> {

@@ -15,7 +15,7 @@
 //! 30 and 32 the largest and the smallest sample.
 
 use crate::error::{DAMAGED, Fault, UNEVEN};
-use crate::fields::{Layout, Line, after, find, untrimmed_lines};
+use crate::fields::{Layout, Numbered, after, find, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::vertical::is_vertical;
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         ));
     }
     let unit = options.unit_of("cm/s2", first_line)?;
-    let header: Vec<Line<'_>> = rest.by_ref().take(TEXT_LINES).collect();
+    let header: Vec<Numbered<'_>> = rest.by_ref().take(TEXT_LINES).collect();
     let text_end = header.last().map_or(1, |(number, _)| *number);
     let (count, layout) = INTEGERS;
     let (integers, _) = layout.numbers(&mut rest, count, text_end)?;

@@ -21,7 +21,7 @@ use super::components::{Components, MOST};
 use super::header::value;
 use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Layout, Line, check_count, find, positive, untrimmed_lines};
+use crate::fields::{Layout, Numbered, check_count, find, positive, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -42,7 +42,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let is_ruler = |line: &&str| line.trim_start().starts_with(RULER);
     let mut rows = untrimmed_lines(text);
-    let (mut header, mut rulers): (Vec<Line<'_>>, usize) = (Vec::new(), 0);
+    let (mut header, mut rulers): (Vec<Numbered<'_>>, usize) = (Vec::new(), 0);
     for (number, line) in rows.by_ref().take(HEADER_LINES) {
         rulers += usize::from(is_ruler(&line));
         header.push((number, line));
@@ -98,7 +98,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 }
 
 /// Finds the values of all channels for a key, and the line of the first of them.
-fn of_channels<'a>(header: &[Line<'a>], key: &str) -> Result<(usize, Vec<&'a str>), Fault> {
+fn of_channels<'a>(header: &[Numbered<'a>], key: &str) -> Result<(usize, Vec<&'a str>), Fault> {
     let (mut first, mut values) = (None, Vec::new());
     for &(number, line) in header {
         let Some((name, listed)) = line.split_once(':') else { continue };

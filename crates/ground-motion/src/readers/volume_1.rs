@@ -21,7 +21,7 @@ use std::iter::Peekable;
 use super::one_by_one;
 use crate::check::Warning;
 use crate::error::{CUT_SHORT, Fault, UNEVEN, excerpt};
-use crate::fields::{Layout, Line, after, find, leading_number, positive, real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, after, find, leading_number, positive, real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -49,10 +49,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 
 /// Reads the next channel.
 fn channel<'a>(
-    rest: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+    rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
     options: &RecordOptions,
 ) -> Result<Parsed, Fault> {
-    let mut header: Vec<Line<'a>> = Vec::new();
+    let mut header: Vec<Numbered<'a>> = Vec::new();
     while let Some(line) = rest.next_if(|(_, line)| header.len() < TEXT_LINES && !is_integers(line)) {
         header.push(line);
     }
@@ -101,7 +101,7 @@ fn channel<'a>(
 }
 
 /// Reads the number of points and the length (s) from their line.
-fn count_and_length(header: &[Line<'_>]) -> Result<(usize, usize, f64), Fault> {
+fn count_and_length(header: &[Numbered<'_>]) -> Result<(usize, usize, f64), Fault> {
     let expected = "the number of points and the length, `NO. OF POINTS = 5652  RECORD LENGTH = 28.260 SEC`";
     let stated = header.iter().find(|(_, line)| find(line, "NO. OF POINTS").is_some());
     let Some(&(number, line)) = stated else {
@@ -119,7 +119,7 @@ fn count_and_length(header: &[Line<'_>]) -> Result<(usize, usize, f64), Fault> {
 
 /// Skips the integers, which have no point, and 50 reals, which have one each and are fewer on a line than
 /// the samples. BHRC cuts their lines.
-fn skip_headers<'a>(rest: &mut Peekable<impl Iterator<Item = Line<'a>>>) {
+fn skip_headers<'a>(rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>) {
     while rest.next_if(|(_, line)| is_integers(line)).is_some() {}
     let mut reals = 0;
     while reals < REALS {
