@@ -15,7 +15,7 @@
 //!
 //! AFAD's newer files (`.asc`) are in the form of ESM.
 
-use super::components::Components;
+use super::components::{components, finish, push_row};
 use super::header::{count, step};
 use crate::error::Fault;
 use crate::fields::{Numbered, after, find, lines, real};
@@ -53,16 +53,16 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let expected = "the names of the columns, `N-S E-W U-D`";
         return Err(Fault::excerpt(names_line, expected, names, "complete the header"));
     }
-    let mut components = Components::new([step, 0.0], unit, names.split_whitespace(), names_line)?;
-    for (channel, name) in components.channels.iter_mut().zip(names.split_whitespace()) {
+    let mut channels = components([step, 0.0], unit, names.split_whitespace(), names_line)?;
+    for (channel, name) in channels.iter_mut().zip(names.split_whitespace()) {
         let stated = peaks.and_then(|(_, line)| after(line, &format!("({name})")));
         if let Some(text) = stated {
             channel.state_peak(text);
         }
     }
     for (number, line) in lines(text).skip(header.len()) {
-        components.push(line.split_whitespace(), number)?;
+        push_row(&mut channels, line.split_whitespace(), number)?;
     }
     let stated_by = format!("{COUNT} on line {count_line}");
-    components.finish(count, &stated_by, &header.iter().map(|(_, line)| *line))
+    finish(channels, count, &stated_by, &header.iter().map(|(_, line)| *line))
 }

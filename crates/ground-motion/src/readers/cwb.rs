@@ -13,7 +13,7 @@
 //!      0.000     0.000     0.000     0.000
 //! ```
 
-use super::components::{Components, is_due};
+use super::components::{components, finish, is_due, push_row};
 use super::header::{number, step, value};
 use crate::error::{DAMAGED, Fault, excerpt};
 use crate::fields::{Layout, Numbered, leading_real, real, untrimmed_lines};
@@ -60,8 +60,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let mut rows = untrimmed_lines(text).skip(header.len()).peekable();
     let first = rows.peek().and_then(|(_, line)| real(layout.fields(line).next()?));
     let start = first.filter(|time| time.is_finite()).unwrap_or(0.0);
-    let mut components = Components::new([step, start], unit, names().skip(1), sequence_line)?;
-    for (channel, name) in components.channels.iter_mut().zip(names().skip(1)) {
+    let mut channels = components([step, start], unit, names().skip(1), sequence_line)?;
+    for (channel, name) in channels.iter_mut().zip(names().skip(1)) {
         if let Ok((_, extremes)) = value(&header, &format!("AmplitudeMAX. {name}")) {
             let size = |text: &str| leading_real(text).map_or(0.0, f64::abs);
             let larger = extremes.split('~').max_by(|a, b| size(a).total_cmp(&size(b)));
@@ -74,10 +74,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         if !is_due(time, due) {
             return Err(Fault::new(line, format!("the time {due:.3} s"), excerpt(time), DAMAGED));
         }
-        components.push(fields, line)?;
+        push_row(&mut channels, fields, line)?;
     }
     let (length_line, length) = number(value(&header, LENGTH)?, LENGTH)?;
     let stated_by = format!("{LENGTH} on line {length_line}, {length} s at {step} s,");
     let stated = floor_index((length / step).round());
-    components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
+    finish(channels, stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
 }

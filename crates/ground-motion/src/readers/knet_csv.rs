@@ -13,7 +13,7 @@
 //! 2011/03/11 14:48:19.00,0.00,0.12,-0.04,0.01
 //! ```
 
-use super::components::{Components, MOST, is_due};
+use super::components::{MOST, components, finish, is_due, push_row};
 use super::header::{number, required};
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Numbered, find, lines, real};
@@ -64,7 +64,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         return Err(Fault::in_header(names_line, format!("one unit for all components, {unit}"), other));
     }
     let names = columns.iter().map(|(name, _)| *name);
-    let mut components = Components::new([step, 0.0], unit, names, names_line)?;
+    let mut channels = components([step, 0.0], unit, names, names_line)?;
     for (index, (number, line)) in lines(text).skip(header.len()).enumerate() {
         let mut cells = line.split(',').map(str::trim).skip(1);
         let time = cells.next().unwrap_or_default();
@@ -73,9 +73,9 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             let expected = format!("{TIME} of {due:.3} s");
             return Err(Fault::excerpt(number, expected, time, DAMAGED));
         }
-        components.push(cells, number)?;
+        push_row(&mut channels, cells, number)?;
     }
-    let found = components.channels[0].samples.len();
+    let found = channels[0].samples.len();
     let (stated, stated_by) = match below(&header, DURATION)? {
         Some((line, duration)) => {
             let stated = floor_index((duration / step).round());
@@ -85,7 +85,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         None => (found, String::new()),
     };
-    components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#')))
+    finish(channels, stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#')))
 }
 
 /// Reads the positive number on the line below a label; `None` without the label.

@@ -17,7 +17,7 @@
 //!    -0.0083   -0.0214    0.0000
 //! ```
 
-use super::components::{Components, MOST};
+use super::components::{MOST, components, push_row};
 use super::header::value;
 use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
@@ -74,14 +74,13 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let found = format!("{} orientations and {} counts", names.len(), counts.len());
         return Err(Fault::new(counts_line, expected, found, "correct the header"));
     }
-    let mut components = Components::new([step, 0.0], unit, names.iter().copied(), last)?;
+    let mut channels = components([step, 0.0], unit, names.iter().copied(), last)?;
     if let Ok((_, peaks)) = of_channels(&header, "ACEL. MAX.(Gal)") {
-        components.channels.iter_mut().zip(peaks).for_each(|(channel, peak)| channel.state_peak(peak));
+        channels.iter_mut().zip(peaks).for_each(|(channel, peak)| channel.state_peak(peak));
     }
     for (number, row) in rows {
-        components.push(layout.fields(row), number)?;
+        push_row(&mut channels, layout.fields(row), number)?;
     }
-    let mut channels = components.channels;
     for (channel, count) in channels.iter_mut().zip(counts) {
         let stated =
             count.parse().map_err(|_| Fault::excerpt(counts_line, "a whole number", count, DAMAGED))?;
