@@ -11,21 +11,16 @@ impl Scene {
     /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the
     /// library reads them from the scene.
     pub fn uses(&self, name: &str) -> bool {
-        RealVariable::from_name(name).is_some_and(|variable| self.uses_real(variable))
-            || BooleanVariable::from_name(name).is_some()
-    }
-
-    /// Returns whether a Real variable is used with the scene's choices.
-    fn uses_real(&self, variable: RealVariable) -> bool {
         use RealVariable as V;
         let p = &self.parameters;
-        match variable {
-            V::AG | V::ABottom | V::ATop | V::Drift => self.inputs.contains(&variable),
+        match V::from_name(name) {
+            None => BooleanVariable::from_name(name).is_some(),
+            Some(input @ (V::AG | V::ABottom | V::ATop | V::Drift)) => self.inputs.contains(&input),
             // 0 stands for "none"
-            V::Overburden if p.overburden == 0.0 => false,
-            V::TieStiffness if p.tie_stiffness == 0.0 => false,
-            V::TieStrength if p.tie_strength == 0.0 => false,
-            _ => usage(p).any(|usage| usage.name == variable.variable().name && usage.matters),
+            Some(V::Overburden) if p.overburden == 0.0 => false,
+            Some(V::TieStiffness) if p.tie_stiffness == 0.0 => false,
+            Some(V::TieStrength) if p.tie_strength == 0.0 => false,
+            Some(_) => usage(p).any(|usage| usage.name == name && usage.matters),
         }
     }
 }

@@ -156,7 +156,7 @@ impl Wall {
 
     /// Returns whether C is constant on every branch.
     pub fn has_constant_damping(&self) -> bool {
-        self.damping.is_constant()
+        self.damping.rocking.constant().is_some()
     }
 
     /// Returns whether the motion on each branch has a closed form: C is constant there, and rotations are

@@ -4,7 +4,7 @@ use std::iter::Peekable;
 
 use crate::check::Warning;
 use crate::error::Fault;
-use crate::fields::{Layout, Numbered, check_count, leading_real, rounding};
+use crate::fields::{Layout, Numbered, leading_real, rounding};
 use crate::unit::Unit;
 
 /// How many lines of a header are kept, and how many characters of each.
@@ -75,21 +75,6 @@ impl Parsed {
         self.samples = numbers.into_iter().map(|value| self.unit.to_si(value)).collect();
         self.last_line = self.last_line.max(last_line);
         layout.check_ended(lines.peek().copied(), count, stated)
-    }
-
-    /// Refuses a number of samples other than the one that `stated_by` says.
-    pub(crate) fn check_count(&self, stated: usize, stated_by: &str) -> Result<(), Fault> {
-        check_count(self.samples.len(), stated, stated_by, self.last_line)
-    }
-
-    /// Leaves out zeros with which the last line was filled up: `line_start` samples precede that line, and
-    /// all beyond `stated` are zeros on it.
-    pub(crate) fn trim_padding(&mut self, stated: usize, line_start: usize) {
-        let is_padding = line_start < stated
-            && self.samples.get(stated..).is_some_and(|rest| rest.iter().all(|a| *a == 0.0));
-        if is_padding {
-            self.samples.truncate(stated);
-        }
     }
 
     /// Takes the peak that a header states, in the unit of the file and rounded as it is written there. A

@@ -14,7 +14,9 @@
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Numbered, find, leading_number, lines, positive, real, touching, unit_word};
+use crate::fields::{
+    Numbered, check_count, find, leading_number, lines, positive, real, touching, unit_word,
+};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
@@ -63,8 +65,12 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
     }
-    parsed.trim_padding(count, line_start);
-    parsed.check_count(count, &format!("NPTS on line {count_line}"))?;
+    // the last line may be filled up with zeros
+    let surplus = parsed.samples.get(count..).filter(|_| line_start < count);
+    if surplus.is_some_and(|rest| rest.iter().all(|a| *a == 0.0)) {
+        parsed.samples.truncate(count);
+    }
+    check_count(parsed.samples.len(), count, &format!("NPTS on line {count_line}"), parsed.last_line)?;
     // event, date, station, component, and in old files the station's number in brackets
     let place = header().nth(1).and_then(|(_, line)| line.rsplit_once(", "));
     let direction = place.and_then(|(_, component)| component.split_whitespace().next());

@@ -20,7 +20,7 @@
 
 use super::header::{count, step, value};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Numbered, lines, real};
+use crate::fields::{Numbered, check_count, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -80,7 +80,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     for (number, line) in rest {
         parsed.push(real(line), number, || Fault::excerpt(number, "one finite number", line, DAMAGED))?;
     }
-    parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
+    check_count(parsed.samples.len(), count, &format!("NDATA on line {count_line}"), parsed.last_line)?;
     // the last letter of a stream is its direction, HNZ; before DYNA 1.0 it is a component, UP
     let stream = optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
     parsed.is_vertical = stream || optional("COMPONENT").is_some_and(|(_, component)| is_vertical(component));
