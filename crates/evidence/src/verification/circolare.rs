@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::{Place, Scene, SceneError};
+use rocking_wall::scene::Scene;
 
 use super::studies::{SIX_DIGITS, within};
 use crate::{Comparison, EvidenceError};
-use check::circolare::{
-    GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
-};
+use check::CheckFile;
+use check::circolare::{GroundSpectrum, Hazard, Outcome, SideVerdict, Soil, Statement, damping_factor};
 
 /// The site of the examples, and walls: a parapet, the same with a tie, a strip wall under the roof.
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
@@ -20,7 +19,7 @@ const STRIP: &str = "geometry.mechanism = \"vertical_spanning\"\ngeometry.height
                      force_law = { a1 = 0.03 }\n";
 
 /// Checks a wall on the ground, or at z/H of a building of three storeys.
-fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, EvidenceError> {
+fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Outcome, EvidenceError> {
     let (mut building, mut damping) = (String::new(), [""; 2]);
     if let Some(ratio) = height_ratio {
         building = format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio:?} }}\n");
@@ -31,15 +30,10 @@ fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, EvidenceErr
         "{wall}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n{building}\
          SLD = {{ {SITE}{sld} }}\nSLV = {{ {SITE}{ultimate} }}\nSLC = {{ {SITE}{ultimate} }}\n"
     );
-    let (place, folder) = (Place::new("example", &text), Path::new("."));
-    let scene = Scene::parse("example", &text, folder)?;
-    let missing = || SceneError::Value { message: "the example has no table [check]".into() };
-    let table = read_table(&place)?.ok_or_else(missing)?;
-    let records = Records::read(&table, &place, folder)?;
-    let verdict = table
-        .statement()
-        .and_then(|statement| check(&scene.parameters, scene.floors.as_ref(), &statement, &records));
-    Ok(verdict.map_err(|error| in_table(error, &place))?)
+    let scene = Scene::parse("example", &text, Path::new("."))?;
+    let file = CheckFile::parse("example", &text)?;
+    let outcome = || Ok(Statement::read(&file)?.checked((&scene).into())?.outcome);
+    Ok(outcome().map_err(|error| file.located(error))?)
 }
 
 /// T0, the onset `a_y`, and ζ of SLD, SLV and SLC of the side u > 0.
