@@ -48,7 +48,7 @@ pub struct Entry {
     pub symbol: &'static str,
     /// Names of the checks that tables of walls show.
     pub checks: &'static [&'static str],
-    /// The smallest table `[check]` that it takes.
+    /// The smallest table `[check]` that it takes, in one line.
     pub example: &'static str,
     /// Reads that table.
     pub(crate) read: fn(&CheckFile<'_>) -> Result<Box<dyn Code>, CheckError>,
@@ -186,6 +186,13 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>) -> Table {
     Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, Digits::Significant(6)))))
 }
 
+/// Says how to write a table `[check]`.
+pub fn how_to_write() -> String {
+    let names = CODES.map(|code| format!("{:?}", code.name)).join(" and ");
+    let example = CODES[0].example;
+    format!("the codes are {names}; in one line above all tables: {example}")
+}
+
 /// Reads the table `[check]` of a file.
 ///
 /// # Errors
@@ -193,12 +200,7 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>) -> Table {
 pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
     let names = CODES.map(|code| format!("{:?}", code.name));
     let Some(name) = file.code() else {
-        return Err(CheckError::wall(format!(
-            "the table [check] is missing; the codes are {}. The smallest table of {} is:\n\n{}",
-            names.join(" and "),
-            names[0],
-            CODES[0].example
-        )));
+        return Err(CheckError::wall(format!("the table [check] is missing; {}", how_to_write())));
     };
     if let Some(code) = CODES.into_iter().find(|code| code.name == name) {
         return (code.read)(file);

@@ -60,8 +60,8 @@ pub const ENTRY: Entry = Entry {
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
     symbol: "zeta_E",
     checks: &["SLD", "SLV with q", "SLV", "SLC"],
-    example: "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
-              SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }",
+    example: "check = { code = \"circolare-2019\", before_activation = \"rigid\", soil = \"B\", \
+              SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }",
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 

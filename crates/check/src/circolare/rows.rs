@@ -141,7 +141,7 @@ fn deciding(statement: &Statement) -> String {
         Method::Dynamic => "The runs under records",
     };
     let class_iv = statement.table.use_class == Some(UseClass::IV);
-    format!("{method}{}", if class_iv { ", and SLD of use class IV," } else { "" })
+    format!("{method}{}", if class_iv { ", and SLD in use class IV," } else { "" })
 }
 
 /// The dynamic check of a limit state, and its runs.

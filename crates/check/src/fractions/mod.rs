@@ -41,8 +41,7 @@ pub const ENTRY: Entry = Entry {
              against a response spectrum",
     symbol: "ratio",
     checks: &["onset", "displacement"],
-    example: "[check]\ncode = \"fractions\"\nspectrum = [[0, 2.0], [0.1, 5.0], [0.5, 5.0], [4, 0.6]]\n\
-              unit = \"m/s2\"",
+    example: "check = { code = \"fractions\", spectrum = [[0, 2.0], [0.5, 5.0], [4, 0.6]], unit = \"m/s2\" }",
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 

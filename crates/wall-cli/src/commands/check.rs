@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use check::{CODES, CheckFile, Code, Origin, Sought, check_walls, find, page, read};
+use check::{CheckFile, Code, Origin, Sought, check_walls, find, how_to_write, page, read};
 use clap::Args;
 use rocking_wall::scene::{Scene, read_text};
 use run::parallel;
@@ -44,7 +44,7 @@ const MAX_FILE_BYTES: u64 = 4 << 20;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Some(path) = &arguments.scene.scene else {
-        bail!("there is no file; give one with a table [check], such as\n\n{}", CODES[0].example);
+        bail!("there is no file; give a scene or walls with a table [check]; {}", how_to_write());
     };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     let file = CheckFile::parse(&name, &text)?;

@@ -174,7 +174,7 @@ fn parameter(variable: &Variable) -> Option<Value> {
 mod tests {
     use super::*;
     use ::building::Building;
-    use rocking_wall::scene::{Place, Scene};
+    use rocking_wall::scene::Scene;
     use study::document::StudyFile;
 
     /// The keys that an object of a schema lists, in order.
@@ -219,7 +219,11 @@ mod tests {
             ("CheckBuilding", "[check]\ncode = \"\"\nbuilding = { x = 1 }"),
             ("CheckMode", "[check]\ncode = \"\"\nbuilding = { modes = [{ x = 1 }] }"),
         ] {
-            let error = check::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
+            let text = text
+                .replace("\"\"", "\"circolare-2019\"")
+                .replace("[check]\nx", "[check]\ncode = \"circolare-2019\"\nx");
+            let error =
+                check::read(&check::CheckFile::parse("scene", &text).unwrap()).unwrap_err().to_string();
             assert_keys(&scene().unwrap()["$defs"][table], &error);
         }
     }

@@ -1,6 +1,7 @@
 //! `wall check` and `wall tie`.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use ground_motion::{Spectrum, SyntheticMotion};
 use rocking_wall::scene::Scene;
@@ -9,12 +10,17 @@ use crate::command_line::{
     assert_has, content, fails, folder, json, printed, refused, setting, succeed, text, wall,
 };
 
+/// Writes a scene that is checked by the code `fractions`, with more keys of `[check]`.
+fn of_fractions(folder: &Path, more: &str) {
+    std::fs::write(folder.join("scene.toml"), format!("[check]\ncode = \"fractions\"\n{more}\n")).unwrap();
+}
+
 /// The hand calculations of docs/model.md, to the last printed digit.
 #[test]
 fn a_check_is_that_by_hand() {
     let folder = folder("check_by_hand");
     std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n0.1,5\n0.5,5\n1,2.5\n2,1.25\n4,0.3\n").unwrap();
-    let spectrum = ["--spectrum", "spectrum.csv", "--unit", "m/s2"];
+    of_fractions(&folder, "spectrum = \"spectrum.csv\"\nunit = \"m/s2\"");
     let strip = "mechanism=vertical_spanning height=3 thickness=0.25 overburden=10000";
     let tied = "tie_height=3 tie_stiffness=2e5 tie_slack=0.03 tie_strength=5000";
     let document = std::fs::read_to_string(crate::root().join("docs/model.md")).unwrap();
@@ -27,16 +33,18 @@ fn a_check_is_that_by_hand() {
         .collect();
     assert_eq!(rows.len(), 10);
     for (column, set) in ["", strip, tied].into_iter().enumerate() {
-        let text = printed(&folder, &[&setting("check", set)[..], &spectrum].concat());
+        let text = printed(&folder, &setting("check scene.toml", set));
         for row in &rows {
             let line = text.lines().find(|line| line.starts_with(row[0])).unwrap();
             let value = line[row[0].len()..].split_whitespace().nth(1).unwrap();
             assert_eq!(value, row[2 + column], "{}: {text}", row[0]);
         }
     }
-    let value = json(&folder, &[&["check", "--json", "--html", "check.html"], &spectrum[..]].concat());
-    assert_eq!(value["secant_fraction"], 0.4);
-    assert!(content(&folder, "check.html").contains("<svg"));
+    let value = json(&folder, &["check", "scene.toml", "--json", "--report", "report.html"]);
+    assert_eq!((&value["code"], &value["secant_fraction"]), (&"fractions".into(), &0.4.into()));
+    assert_eq!(value["passed"], true);
+    let page = content(&folder, "report.html");
+    assert_has(&page, &["<svg", "PASSED: displacement governs with ratio = 1.050", "the wall rocks"]);
 }
 
 #[test]
@@ -45,77 +53,74 @@ fn a_spectrum_states_its_unit() {
     let write = |header: &str| {
         std::fs::write(folder.join("s.csv"), format!("{header}\n0,0.2\n0.5,0.5\n4,0.03\n")).unwrap();
     };
-    let check = ["check", "--spectrum", "s.csv"];
+    let with = |more: &str| {
+        of_fractions(&folder, &format!("spectrum = \"s.csv\"\n{more}"));
+        ["check", "scene.toml"]
+    };
     for header in ["T [s],Sa [g]", "T,Sa (g)", "\"T\",\"Sa [g]\""] {
         write(header);
         // 0.2 g
-        assert!(printed(&folder, &check).contains("1.96133"), "{header}");
-        refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave out --unit"]);
+        assert!(printed(&folder, &with("")).contains("1.96133"), "{header}");
+        refused(&folder, &with("unit = \"m/s2\""), &["line 1", "g", "leave out"]);
     }
     write("T,Sa (5 %)");
-    refused(&folder, &check, &["s.csv, line 1", "a unit of acceleration", "--unit"]);
-    assert!(printed(&folder, &[&check[..], &["--unit", "m/s2"]].concat()).contains("0.200000"));
+    refused(&folder, &with(""), &["s.csv, line 1", "a unit of acceleration"]);
+    assert!(printed(&folder, &with("unit = \"m/s2\"")).contains("0.200000"));
     // the column that is read is said
     let rows = "T [s],Sa 2% [g],Sa 5% [g]\n0,0.3,0.2\n0.5,0.6,0.5\n4,0.04,0.03\n";
     std::fs::write(folder.join("s.csv"), rows).unwrap();
-    refused(&folder, &check, &["s.csv, line 1", "one column beside T", "--column"]);
-    let text = printed(&folder, &[&check[..], &["--column", "Sa 5%"]].concat());
+    refused(&folder, &with(""), &["s.csv, line 1", "one column beside T"]);
+    let text = printed(&folder, &with("column = \"Sa 5%\""));
     assert_has(&text, &["s.csv, column Sa 5% [g], Sa in g", "1.96133"]);
     // and so is its damping
-    let two = [&check[..], &["--column", "Sa 2%"]].concat();
-    assert_has(&printed(&folder, &two), &["2 % damping"]);
-    let words = ["s.csv: expected the damping ratio", "0.02, found --damping 0.05"];
-    refused(&folder, &[&two[..], &["--damping", "0.05"]].concat(), &words);
+    assert_has(&printed(&folder, &with("column = \"Sa 2%\"")), &["2 % damping"]);
+    let words = ["scene.toml, line 5", "s.csv: expected the damping ratio", "0.02, found damping = 0.05"];
+    refused(&folder, &with("column = \"Sa 2%\"\ndamping = 0.05"), &words);
 }
 
 #[test]
 fn a_check_refuses_what_it_cannot_use() {
     let folder = folder("check_refuses");
-    let refuses = |spectrum: &str, words: &str| {
+    let refuses = |spectrum: &str, words: &[&str]| {
         std::fs::write(folder.join("spectrum.csv"), spectrum).unwrap();
-        refused(&folder, &["check", "--spectrum", "spectrum.csv", "--unit", "g"], &[words]);
+        of_fractions(&folder, "spectrum = \"spectrum.csv\"\nunit = \"g\"");
+        refused(&folder, &["check", "scene.toml"], words);
     };
-    refuses("T,Sa\n0.1,1\n2,0.5\n", "no T = 0");
-    refuses(
-        "0,1\n1,0.5\n0.5,0.3\n",
-        "line 3: expected periods that rise: a finite one above T = 1 s, found T = 0.5 s",
-    );
-    refuses("0,1\n1,-0.5\n", "line 2: expected a finite Sa above 0, found Sa = -");
-    refuses("0,1\n1,0.5\n", "has no T = 1.4");
-    refuses("0,1.0\n1\n", "line 2: expected 2 values");
-}
-
-/// A folder stands for the records in it, without vertical ones.
-#[test]
-fn a_check_reads_the_records_of_a_folder() {
-    let folder = folder("check_folder");
-    std::fs::create_dir(folder.join("records")).unwrap();
-    succeed(&folder, &["motion", "--synthetic", "--csv", "records/a.csv"]);
-    let record = content(&folder, "records/a.csv");
-    std::fs::write(folder.join("records/b.csv"), &record).unwrap();
-    let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
-    std::fs::write(folder.join("records/c.csv"), vertical).unwrap();
-    let output = succeed(&folder, &["check", "--records", "records", "--json"]);
-    assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
-    assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
-    let over = ["check", "--records", "records", "--html", "records/a.csv"];
-    refused(&folder, &over, &["the input records/a.csv"]);
-    std::fs::create_dir(folder.join("empty")).unwrap();
-    refused(&folder, &["check", "--records", "empty"], &["empty: a folder without horizontal records"]);
+    refuses("T,Sa\n0.1,1\n2,0.5\n", &["scene.toml, line 3", "no T = 0"]);
+    let rise = "line 3: expected periods that rise: a finite one above T = 1 s, found T = 0.5 s";
+    refuses("0,1\n1,0.5\n0.5,0.3\n", &[rise]);
+    refuses("0,1\n1,-0.5\n", &["line 2: expected a finite Sa above 0, found Sa = -"]);
+    refuses("0,1\n1,0.5\n", &["has no T = 1.4"]);
+    refuses("0,1.0\n1\n", &["line 2: expected 2 values"]);
+    for (more, words) in [
+        ("", "there is no demand"),
+        ("spectrum = [[0, 1], [4, 1]]", "unit is missing"),
+        ("spectrum = [[0, 1], [4, 1]]\nunit = \"g\"\nsecant_fraction = 2", "above 0 and at most 1"),
+        ("records = { synthetic = { count = 1 } }\nunit = \"g\"", "records.unit"),
+        ("spectrum = \"s.csv\"\nrecords = { synthetic = { count = 1 } }", "leave one out"),
+    ] {
+        of_fractions(&folder, more);
+        refused(&folder, &["check", "scene.toml"], &["scene.toml, line", words]);
+    }
+    refused(&folder, &["check"], &["there is no file", "[check]", "code = \"circolare-2019\""]);
 }
 
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
 #[test]
 fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     let folder = folder("check_storeys");
-    let scene = crate::root().join("scenes/parapet_on_a_roof.toml");
+    let scene = std::fs::read_to_string(crate::root().join("scenes/parapet_on_a_roof.toml")).unwrap();
+    let with = |table: &str| {
+        let text = format!("{scene}\n[check]\ncode = \"fractions\"\n{table}\n");
+        std::fs::write(folder.join("roof.toml"), text).unwrap();
+    };
     let ground = SyntheticMotion::default().motion().unwrap();
-    succeed(&folder, &["motion", "--synthetic", "--csv", "record.csv"]);
-    let value = json(&folder, &["check", scene.to_str().unwrap(), "--records", "record.csv", "--json"]);
+    with("records = { synthetic = { count = 1 } }");
+    let value = json(&folder, &["check", "roof.toml", "--json"]);
     assert_eq!(value["demand"], "median of 1 record felt on 3 storeys, T = 0.510, 0.211, 0.144 s");
     let side = &value["sides"][0];
     let number = |name: &str| side[name].as_f64().unwrap();
-    let storeys = Scene::read(&scene).unwrap().floors.unwrap().storeys().clone();
+    let storeys = Scene::read(&folder.join("roof.toml")).unwrap().floors.unwrap().storeys().clone();
     let roof = storeys.floor(&ground, ground.duration() + 10.0, 3).unwrap().acceleration;
     let period = number("secant_period");
     let demand = Spectrum::default().acceleration(&roof, period).unwrap() * (period / TAU).powi(2);
@@ -123,10 +128,37 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
         assert!((number(name) / expected - 1.0).abs() < 1e-9, "{name}: {side} for {expected}");
     }
     assert!(roof.peak() > 1.5 * ground.peak());
-    std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n4,0.3\n").unwrap();
-    let output =
-        wall(&folder, &["check", scene.to_str().unwrap(), "--spectrum", "spectrum.csv", "--unit", "m/s2"]);
-    assert!(text(&output.stderr).contains("storeys are not applied to --spectrum"));
+    with("spectrum = [[0, 2], [4, 0.3]]\nunit = \"m/s2\"");
+    let output = wall(&folder, &["check", "roof.toml"]);
+    assert!(text(&output.stderr).contains("storeys are not applied to the spectrum"));
+}
+
+/// What every code has works for the second one, too: rows, a search, and many walls.
+#[test]
+fn the_second_code_finds_and_lists_walls() {
+    let folder = folder("check_fractions");
+    let table = "spectrum = [[0, 2], [0.1, 5], [0.5, 5], [1, 2.5], [2, 1.25], [4, 0.6]]\nunit = \"m/s2\"";
+    of_fractions(&folder, table);
+    let found = json(&folder, &["check", "scene.toml", "--find", "thickness", "--json", "--plot", "f.svg"]);
+    let value = found["value"].as_f64().unwrap();
+    assert!(value > 0.1 && content(&folder, "f.svg").contains("thickness"));
+    for (factor, passes) in [(1.0, true), (1.0 - 1e-6, false)] {
+        let set = format!("thickness={}", value * factor);
+        assert_eq!(json(&folder, &["check", "scene.toml", "--json", "--set", &set])["passed"], passes);
+    }
+    succeed(&folder, &["check", "scene.toml", "--csv", "rows.csv"]);
+    let rows = content(&folder, "rows.csv");
+    assert!(rows.starts_with("check,side,ratio,passed,capacity,demand,unit,decides,clause\n"), "{rows}");
+    let walls = "[[walls]]\nname = \"thin\"\ngeometry = { thickness = 0.1 }\n\
+                 [[walls]]\nname = \"thick\"\ngeometry = { thickness = 0.8 }\n";
+    let text = format!("{walls}[check]\ncode = \"fractions\"\n{table}\n");
+    std::fs::write(folder.join("walls.toml"), text).unwrap();
+    let arguments = ["check", "walls.toml", "--csv", "walls.csv", "--html", "walls.html"];
+    assert_has(&printed(&folder, &arguments), &["thin", "thick", "displacement"]);
+    let rows = content(&folder, "walls.csv");
+    assert!(rows.starts_with("name,passed,ratio,governs,side,ratio_onset,ratio_displacement,"), "{rows}");
+    assert!(rows.lines().nth(1).unwrap().starts_with("thin,false,"), "{rows}");
+    assert!(content(&folder, "walls.html").contains("1 of 2 walls pass"));
 }
 
 /// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.
@@ -191,8 +223,10 @@ fn a_check_by_the_code() {
     assert_eq!(check(&["--set", "thickness=1.2"])["passed"], true);
     let one_side = printed(&folder, &["check", "scene.toml", "--set", "tie_stiffness=0"]);
     assert_has(&one_side, &["(both sides alike)"]);
-    refused(&folder, &["check", "scene.toml", "--records", "a.AT2"], &["scene.toml", "--records", "[check]"]);
-    refused(&folder, &["check"], &["there is no demand", "[check]", "--spectrum"]);
+    succeed(&folder, &["check", "scene.toml", "--csv", "rows.csv"]);
+    let rows = content(&folder, "rows.csv");
+    let heads = "check,side,zeta_E,passed,ag_g,site_ag_g,capacity,demand,unit,decides,clause\n";
+    assert!(rows.starts_with(heads) && rows.lines().count() == 5, "{rows}");
 }
 
 /// The wall that is found passes, and one a millionth thinner does not.
@@ -233,7 +267,7 @@ fn many_walls_are_checked() {
     let rows = content(&folder, "out.csv");
     let rows: Vec<&str> = rows.lines().collect();
     assert!(rows[1].starts_with("loaded,") && rows[1].contains("overburden_mass is missing"), "{rows:?}");
-    assert!(rows[2].starts_with("\"tall, thin\",no,") && rows[3].starts_with("low,yes,"), "{rows:?}");
+    assert!(rows[2].starts_with("\"tall, thin\",false,") && rows[3].starts_with("low,true,"), "{rows:?}");
     let page = content(&folder, "out.html");
     assert!(page.contains("1 of 3 walls pass") && page.contains("tall, thin"));
     // warnings come by wall, its name first
@@ -252,6 +286,6 @@ fn many_walls_are_checked() {
     let warned = text(&wall(&folder, &["check", "walls.toml"]).stderr);
     assert_has(&warned, &["walls.csv: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
-    refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);
-    refused(&folder, &["check", "walls.toml", "--find", "height"], &["take one wall"]);
+    refused(&folder, &["check", "none.toml"], &["none.toml", "the table [check] is missing"]);
+    refused(&folder, &["check", "walls.toml", "--find", "height"], &["takes one wall"]);
 }
