@@ -9,30 +9,31 @@ wall = rw.Wall(height=1.5, thickness=0.3)
 records = [rw.synthetic_record(seed, pga=1.5) for seed in (1, 2, 3)]
 
 # %% The demand is the median spectrum of the records. In a notebook the check draws itself.
-check = wall.check(records)
+check = wall.check(records, code="fractions")
 print(check)
-side = check.onset
-print(f"onset {side.onset_acceleration:.3f} m/s², Sa(0) {side.peak_acceleration:.3f} m/s²")
-side = check.displacement
-print(f"capacity {1000 * side.displacement_capacity:.0f} mm, demand {1000 * side.displacement_demand:.0f} mm")
+side = check.numbers["sides"][0]
+print(f"onset {side['onset_acceleration']:.3f} m/s², Sa(0) {side['peak_acceleration']:.3f} m/s²")
+capacity, demand = side["displacement_capacity"], side["displacement_demand"]
+print(f"capacity {1000 * capacity:.0f} mm, demand {1000 * demand:.0f} mm")
 
 # %% On a storey of 0.3 s the demand is that of the floor.
 on_floor = wall.on_storeys([rw.Storey(period=0.3, damping_ratio=0.05)])
-print(on_floor.check(records))
+print(on_floor.check(records, code="fractions"))
 print(on_floor.simulate(records[0]))
 
 # %% A spectrum of a code: periods and Sa.
-print(wall.check(spectrum=([0.0, 0.1, 0.5, 1.0, 2.0, 4.0], [2.0, 5.0, 5.0, 2.5, 1.25, 0.3])))
+spectrum = [[0.0, 2.0], [0.1, 5.0], [0.5, 5.0], [1.0, 2.5], [2.0, 1.25], [4.0, 0.3]]
+print(wall.check(code="fractions", spectrum=spectrum, unit="m/s2"))
 
 # %% The Italian code: the site, and what the engineer states of the wall. In a notebook it draws itself.
-site = {"SLV": {"ag": 0.15, "F0": 2.45, "TC": 0.32, "building_damping": 0.10}}
+hazard = {"ag": 0.15, "F0": 2.45, "TC": 0.32, "building_damping": 0.10}
 building = {"storeys": 3, "period": 0.3, "height_ratio": 1.0}
-verdict = wall.check(site=site, building=building, soil="B", before_activation="law")
+verdict = wall.check(SLV=hazard, building=building, soil="B", before_activation="law")
 print(verdict)
-print(f"holds up to a_g = {verdict.sides.positive.SLV.ag:.3f} g, reference {site['SLV']['ag']} g")
+print(*verdict.notes, sep="\n")
 
 # %% With records the wall is run too: none beyond d_0, and the mean of the maxima within d_SLV.
-dynamic = wall.check(records, site=site, soil="B", before_activation="law", method="dynamic")
+dynamic = wall.check(records, SLV=hazard, soil="B", before_activation="law", method="dynamic")
 print(dynamic)
-for run in dynamic.dynamic.SLV.runs:
-    print(f"{run.record}: times {run.factor:.3f}, d = {1000 * max(run.d):.0f} mm")
+for run in dynamic.numbers["dynamic"]["SLV"]["runs"]:
+    print(f"{run['record']}: times {run['factor']:.3f}, d = {1000 * max(run['d']):.0f} mm")

@@ -269,16 +269,14 @@ fn the_check_has_the_numbers_of_the_code() {
         let answer = checked(&parameters, &more);
         let check = &answer["check"];
         // six digits
-        assert!((check["zeta_E"].as_f64().unwrap() - zeta).abs() < 5e-7, "{check}");
+        assert!((check["zeta"].as_f64().unwrap() - zeta).abs() < 5e-7, "{check}");
         assert_eq!(check["state"], "falls");
         assert!(check["svg"].as_str().unwrap().starts_with("<svg"));
         let toml = answer["toml"].as_str().unwrap();
         let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
-        let place = rocking_wall::scene::Place::new("scene.toml", toml);
-        let statement = check::circolare::read_table(&place).unwrap().unwrap().statement().unwrap();
-        let records = check::circolare::Records::default();
-        let again = check::circolare::check(&scene.parameters, None, &statement, &records).unwrap();
-        assert_eq!(check["zeta_E"], again.governs.zeta);
+        let code = check::read(&check::CheckFile::parse("scene.toml", toml).unwrap()).unwrap();
+        let again = code.check((&scene).into()).unwrap().zeta;
+        assert_eq!(check["zeta"], again);
     }
 }
 
@@ -287,13 +285,35 @@ fn the_check_has_the_numbers_of_the_code() {
 fn a_thicker_wall_passes_the_check() {
     let check = |thickness: &str| checked(&json!({ "thickness": thickness }), &json!({}))["check"].clone();
     let [thin, thick] = ["0.4", "0.6"].map(check);
-    assert_eq!(thin["headline"], "Circolare 7/2019: not passed, ζ_E = 0.856 (SLV)");
-    assert_eq!(thin["detail"], "It holds up to a_g = 0.128 g; the site has 0.15 g.");
-    assert!(thick["headline"].as_str().unwrap().contains(": passed, ζ_E = 1.28"), "{thick}");
+    assert_eq!(
+        thin["headline"],
+        "Circolare 7/2019: NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)"
+    );
+    assert_eq!(thin["notes"][0], "It holds up to a_g = 0.128 g; the site has 0.15 g.");
+    assert!(
+        thick["headline"].as_str().unwrap().contains(": PASSED: SLV governs with zeta_E = 1.28"),
+        "{thick}"
+    );
     assert_ne!(thin["svg"], thick["svg"]);
     let (tie, roof) = tied_on_the_roof();
-    let detail = checked(&tie, &roof)["check"]["detail"].clone();
-    assert!(detail.as_str().unwrap().ends_with("The tie breaks at d_SLV."), "{detail}");
+    let notes = checked(&tie, &roof)["check"]["notes"].clone();
+    assert!(notes.as_array().unwrap().contains(&"u > 0: the tie breaks at d_SLV.".into()), "{notes}");
+}
+
+/// The page offers every code, and each gives a verdict with rows and a picture.
+#[test]
+fn the_page_offers_every_code() {
+    let fields = include_str!("page/fields.js");
+    for code in check::CODES {
+        assert!(fields.contains(&format!("\"{}\": \"{}\"", code.name, code.title)), "{}", code.name);
+    }
+    let given = json!({
+        "code": "fractions", "before_activation": null, "soil": null, "confidence_factor": null, "SLV.ag": null,
+        "SLV.F0": null, "SLV.TC": null, "spectrum": "[[0, 2], [0.5, 5], [4, 0.6]]", "check.unit": "m/s2",
+    });
+    let check = checked(&json!({}), &given)["check"].clone();
+    assert!(check["svg"].as_str().unwrap().starts_with("<svg"), "{check}");
+    assert!(check["rows"].as_str().unwrap().contains("displacement"));
 }
 
 /// What is wrong with a check stands beside its field, and the wall runs all the same.

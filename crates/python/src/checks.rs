@@ -1,106 +1,70 @@
-//! Capacity against demand.
+//! Checks of walls by building codes.
 
-use check::circolare::figure::governing_over_demand;
-use check::circolare::{self, CheckError, Records, demands, in_table, read_table};
-use check::points::over_demand;
-use check::points::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
+use check::{CheckError, CheckFile, Subject, read};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
-use rocking_wall::scene::{Place, SceneError};
+use pyo3::types::PyDict;
+use report::table::{Cell, Table};
 use run::records::NamedRecord;
 
-use crate::arrays::{Given, motion, samples};
-use crate::errors::{failed, of_scene, refused};
+use crate::arrays::{Given, motion};
+use crate::errors::{of_scene, refused};
+use crate::tables::{Column, table};
 use crate::walls::Wall;
 
-/// Checks a wall against the median spectrum of records, or against a spectrum given by its periods and Sa;
-/// returns the sides and the picture.
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns the fields of a verdict.
 #[pyfunction]
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
-    records: Vec<Given<'py>>,
-    spectrum: Option<[Bound<'py, PyAny>; 2]>,
-    damping: f64,
-    fractions: [f64; 2],
-) -> PyResult<(Vec<Bound<'py, PyDict>>, String)> {
-    let demand = if let Some([periods, accelerations]) = spectrum {
-        let (periods, accelerations) = (samples(&periods)?, samples(&accelerations)?);
-        if periods.len() != accelerations.len() {
-            let found = format!("{} periods and {} values of Sa", periods.len(), accelerations.len());
-            return Err(refused(format!("the spectrum has {found}; give one Sa for each period")));
-        }
-        Demand::of_points(periods.into_iter().zip(accelerations).collect())
-    } else {
-        let motions = records.iter().map(motion).collect::<PyResult<_>>()?;
-        py.detach(|| Demand::of_records(motions, wall.scene.floors.as_ref(), &wall.equation, damping))
-    };
-    let demand = demand.map_err(refused)?;
-    let [displacement, secant] = fractions;
-    let (sides, drawn) = py
-        .detach(|| {
-            let sides =
-                check(&wall.equation, Fractions { displacement, secant }, |period| demand.at(period))?;
-            let drawn = CapacityOverDemand::new(&wall.equation, &demand, &sides)?;
-            Ok((sides, drawn))
-        })
-        .map_err(|error: check::points::CheckError| refused(error))?;
-    let values = sides.iter().map(|side| values(py, side)).collect::<PyResult<_>>()?;
-    Ok((values, over_demand(&drawn).picture().svg()))
-}
-
-/// Checks a wall by the table `[check]` in a text, with records by their names; returns what
-/// `wall check --json` prints, and the picture.
-#[pyfunction]
-pub(crate) fn check_wall_by_code(
-    py: Python<'_>,
-    wall: &Wall,
     text: String,
     records: Vec<(String, Given<'_>)>,
-) -> PyResult<(String, String)> {
+) -> PyResult<Bound<'py, PyDict>> {
     let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
     let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
-    let (parameters, floors) = (&wall.scene.parameters, wall.scene.floors.as_ref());
+    let subject = Subject::from(&wall.scene);
     let checked = py.detach(|| {
-        let place = Place::new("check", &text);
-        let Some(table) = read_table(&place)? else { unreachable!("the text has a table [check]") };
-        let verdict = || -> Result<_, CheckError> {
-            let (statement, records) = (table.statement()?, Records::new(records)?);
-            let verdict = circolare::check(parameters, floors, &statement, &records)?;
-            let plot = governing_over_demand(
-                &statement,
-                &demands(&wall.equation, floors, &statement, &records)?,
-                &verdict,
-            )?;
-            Ok((verdict, plot))
-        };
-        verdict().map_err(|error| in_table(error, &place))
+        let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
+        let verdict = code.check(subject)?;
+        let picture = verdict.details.figure()?.plot.picture().svg();
+        let texts = [verdict.code.name.to_owned(), verdict.headline(), verdict.json().to_string(), picture];
+        let side = verdict.at("both sides");
+        let table = verdict.table();
+        Ok((
+            texts,
+            (verdict.passed, verdict.governs, side, verdict.zeta),
+            table,
+            verdict.notes,
+            verdict.warnings,
+        ))
     });
-    let (verdict, plot) = checked.map_err(|error| match error {
-        // the user has not written this text, so its line numbers say nothing
-        SceneError::Line { message, .. } | SceneError::File { reason: message, .. } => refused(message),
-        other => of_scene(other),
-    })?;
-    let text = serde_json::to_string(&verdict).map_err(failed)?;
-    Ok((text, plot.picture().svg()))
+    let (texts, (passed, governs, side, zeta), rows, notes, warnings) =
+        checked.map_err(|error: CheckError| match error {
+            CheckError::Scene(error) => of_scene(error),
+            other => refused(other),
+        })?;
+    let [code, headline, numbers, picture] = texts;
+    let fields = PyDict::new(py);
+    for (name, text) in [("code", code), ("headline", headline), ("numbers", numbers), ("_picture", picture)]
+    {
+        fields.set_item(name, text)?;
+    }
+    fields.set_item("passed", passed)?;
+    fields.set_item("governs", governs)?;
+    fields.set_item("side", side)?;
+    fields.set_item("zeta", zeta)?;
+    fields.set_item("table", of_rows(py, &rows)?)?;
+    fields.set_item("notes", notes)?;
+    fields.set_item("warnings", warnings)?;
+    Ok(fields)
 }
 
-/// Returns the numbers of a side by their names in `wall check --json`.
-fn values<'py>(py: Python<'py>, side: &SideCheck) -> PyResult<Bound<'py, PyDict>> {
-    let values = [
-        ("sign", side.sign),
-        ("onset_acceleration", side.onset_acceleration),
-        ("zero_displacement", side.zero_displacement),
-        ("displacement_capacity", side.displacement_capacity),
-        ("secant_displacement", side.secant[0]),
-        ("secant_acceleration", side.secant[1]),
-        ("secant_period", side.secant_period),
-        ("peak_acceleration", side.peak_acceleration),
-        ("displacement_demand", side.displacement_demand),
-        ("acceleration_ratio", side.acceleration_ratio),
-        ("displacement_ratio", side.displacement_ratio),
-    ]
-    .into_py_dict(py)?;
-    values.set_item("limited_by_tie", side.limited_by_tie)?;
-    Ok(values)
+/// Makes the columns of a table that has rows.
+fn of_rows<'py>(py: Python<'py>, rows: &Table) -> PyResult<Bound<'py, PyDict>> {
+    let columns = rows.columns.iter().enumerate().filter(|(_, column)| !column.name.is_empty());
+    let columns = columns.map(|(place, column)| {
+        let mut values = Column::of(rows.rows.first().map_or(&Cell::Empty, |row| &row[place]));
+        rows.rows.iter().for_each(|row| values.push(&row[place]));
+        (column.name.clone(), values)
+    });
+    table(py, columns)
 }

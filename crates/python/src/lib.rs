@@ -15,7 +15,7 @@
 //! | `variables` | the parameters of the model description |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
-//! | `checks`, `spectra` | checks by a code and against a demand, rocking spectra |
+//! | `checks`, `spectra` | checks by codes, rocking spectra |
 //! | `calibrations`, `ties` | damping that matches restitution, ties of any stiffness |
 //! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
@@ -53,7 +53,7 @@ mod _native {
     #[pymodule_export]
     use crate::calibrations::calibrate_wall;
     #[pymodule_export]
-    use crate::checks::{check_wall, check_wall_by_code};
+    use crate::checks::check_wall;
     #[pymodule_export]
     use crate::folders::Folder;
     #[pymodule_export]

@@ -62,7 +62,8 @@ pub(crate) fn table<'py, 'a>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let table = PyDict::new(py);
     for (name, column) in columns {
-        let name = name.as_ref();
+        let name: &str = name.as_ref();
+        let name: &str = name.as_ref();
         match column {
             Column::Names(names) => table.set_item(name, names)?,
             Column::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,

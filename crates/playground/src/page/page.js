@@ -237,11 +237,13 @@ function showCheck(check) {
     return;
   }
   at("check_headline").textContent = check.headline;
-  at("check_detail").textContent = check.detail;
-  at("check_side").textContent = check.side;
-  at("check_facts").replaceChildren(...check.facts.map(pair =>
-    make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
-  at("check_warnings").replaceChildren(...check.warnings.map(textContent => make("li", { textContent })));
+  const [detail, ...notes] = check.notes, listed = textContent => make("li", { textContent });
+  at("check_detail").textContent = detail;
+  at("check_rows").innerHTML = check.rows;
+  at("check_numbers").innerHTML = check.numbers;
+  at("check_caption").innerHTML = check.caption;
+  at("check_notes").replaceChildren(...notes.map(listed));
+  at("check_warnings").replaceChildren(...check.warnings.map(listed));
   at("plane").innerHTML = check.svg;
 }
 
