@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Kinematics, Parameters, Tie, Wall};
 
-use super::error::CheckError;
+use crate::error::CheckError;
 use super::statement::Statement;
 use super::table::Activation;
 use super::verdict::TieBreak;

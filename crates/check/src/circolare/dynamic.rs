@@ -11,7 +11,7 @@ use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Tie, Wall};
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::error::CheckError;
+use crate::error::CheckError;
 use super::records::Records;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
