@@ -197,7 +197,8 @@ pub fn in_table(error: CheckError, place: &Place<'_>) -> SceneError {
         (_, CheckError::Scene(error)) => error,
         (Some(keys), _) => match line_of(place.text(), &keys) {
             Some(span) => place.error(span, format!("[check] {message}")),
-            None => SceneError::File { file: place.name().to_owned(), reason: format!("[check] {message}") },
+            // the statements are not those of a file
+            None => SceneError::Value { message },
         },
         (None, _) => SceneError::File { file: place.name().to_owned(), reason: message },
     }

@@ -5,15 +5,15 @@ use rocking_wall::wall::{Parameters, Wall, Warning};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
-use crate::error::CheckError;
 use super::floor::Mode;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, UseClass};
 use super::verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Side, SideVerdict, SideVerdicts,
-    TieBreak, Outcome,
+    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Outcome, Side, SideVerdict,
+    SideVerdicts, TieBreak,
 };
 use super::{CODE, LimitState, Records};
+use crate::error::CheckError;
 
 /// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
 fn period_factor(state: LimitState) -> f64 {

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use ground_motion::{GroundMotion, Maxima, Spectrum};
 
 use super::LimitState;
-use crate::error::CheckError;
 use super::floor::FloorSpectrum;
 use super::ground::GroundSpectrum;
+use crate::error::CheckError;
 use crate::site::interpolated;
 
 /// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.

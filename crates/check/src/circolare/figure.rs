@@ -11,10 +11,10 @@
 //! # Ok::<(), check::CheckError>(())
 //! ```
 
-use crate::error::CheckError;
-use crate::circolare::{Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, StateStatement, Statement,
-    Outcome,
+use crate::circolare::{
+    Demand, DisplacementCheck, LimitState, Outcome, SideVerdict, StateStatement, Statement,
 };
+use crate::error::CheckError;
 
 use report::palette::{BLACK, BLUE, GREEN, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};

@@ -6,8 +6,8 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::{Floors, Place, SceneError};
 use rocking_wall::wall::Wall;
 
-use crate::error::CheckError;
 use super::table::CheckTable;
+use crate::error::CheckError;
 use crate::site::felt;
 use run::records::NamedRecord;
 use run::records::records;

@@ -127,7 +127,8 @@ const STATES: [State; 2] = [("SLV", |side| side.slv), ("SLC", |side| side.slc)];
 
 fn numbers(outcome: &Outcome) -> Table {
     let sides = outcome.shown().map(|(name, _)| Column::number(name, name, Digits::Significant(6)));
-    let mut table = Table::new([Column::text("quantity", ""), Column::text("unit", "")].into_iter().chain(sides));
+    let mut table =
+        Table::new([Column::text("quantity", ""), Column::text("unit", "")].into_iter().chain(sides));
     for column in &mut table.columns[..2] {
         // no heading, and yet shown
         column.heading = " ".into();

@@ -1,13 +1,13 @@
 //! What the engineer states, checked.
 
-use crate::error::CheckError;
+use super::LimitState;
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};
 use super::table::{
     Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
     UseClass,
 };
-use super::LimitState;
+use crate::error::CheckError;
 
 /// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
 pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;

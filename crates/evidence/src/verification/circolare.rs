@@ -7,8 +7,9 @@ use rocking_wall::scene::{Place, Scene, SceneError};
 use super::error::VerificationError;
 use super::formula::{Check, Formula};
 use check::circolare::{
-    GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
+    GroundSpectrum, Hazard, Outcome, Records, SideVerdict, Soil, check, damping_factor, read_table,
 };
+use check::code::in_table;
 
 /// The site of the examples, and walls: a parapet, the same with a tie, a strip wall under the roof.
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
@@ -22,7 +23,7 @@ const STRIP: &str = "geometry.mechanism = \"vertical_spanning\"\ngeometry.height
 const SIX_DIGITS: f64 = 5e-6;
 
 /// Checks a wall on the ground, or at z/H of a building of three storeys.
-fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, VerificationError> {
+fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Outcome, VerificationError> {
     let (mut building, mut damping) = (String::new(), [""; 2]);
     if let Some(ratio) = height_ratio {
         building = format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio:?} }}\n");

@@ -4,7 +4,7 @@ use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::ParameterError;
 
-use check::points::CheckError;
+use check::CheckError;
 use study::fragility::FitError;
 use study::spectrum::SpectrumError;
 

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
-use crate::error::CheckError;
 use crate::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::error::CheckError;
 use ::report::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 

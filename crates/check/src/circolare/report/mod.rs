@@ -10,8 +10,8 @@ mod runs;
 mod site;
 mod verdict;
 
+use crate::circolare::{Demand, Outcome, Records, Side, SideVerdict, Statement, demands};
 use crate::error::CheckError;
-use crate::circolare::{Demand, Records, Side, SideVerdict, Statement, Outcome, demands};
 use ::report::{escaped, template};
 use rocking_wall::scene::{SceneError, fingerprint};
 
@@ -116,8 +116,11 @@ fn document(report: &Report<'_>) -> Result<String, CheckError> {
         files.push((path.display().to_string(), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
-    let inputs: Vec<&str> =
-        files.iter().map(|(_, hash)| hash.as_str()).chain(report.document.set.iter().map(String::as_str)).collect();
+    let inputs: Vec<&str> = files
+        .iter()
+        .map(|(_, hash)| hash.as_str())
+        .chain(report.document.set.iter().map(String::as_str))
+        .collect();
     let mut rows = vec![
         ["program".to_owned(), format!("wall (rocking-wall) {}", env!("CARGO_PKG_VERSION"))],
         ["date".to_owned(), report.document.date.map_or_else(|| "not given".to_owned(), escaped)],

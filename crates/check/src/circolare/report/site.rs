@@ -1,10 +1,10 @@
 //! The site, the building and their spectra.
 
 use crate::circolare::figure::{DEMAND, Drawn, color, spectra};
-use crate::error::CheckError;
-use crate::circolare::{Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source,
-    StateStatement,
+use crate::circolare::{
+    Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source, StateStatement,
 };
+use crate::error::CheckError;
 use ::report::palette::sign;
 use ::report::plot::Plot;
 
