@@ -60,7 +60,7 @@ pub trait Code: Debug + Send + Sync {
     fn report(&self, subject: &Subject<'_>, document: &Document<'_>) -> Result<String, CheckError> {
         let verdict = self.check(subject)?;
         let list = |items: &[String]| {
-            items.iter().map(|item| format!("<p>{}</p>\n", escaped(item))).collect::<String>()
+            items.iter().fold(String::new(), |list, item| list + "<p>" + &escaped(item) + "</p>\n")
         };
         let date = document.date.map_or_else(String::new, |date| format!("<p>{}</p>", escaped(date)));
         let page = Page::new(subject.title)

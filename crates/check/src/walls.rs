@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use report::escaped;
 use report::page::Page;
 use report::table::{Cell, Column, Digits, Table};
 use rocking_wall::scene::{Place, SceneError};
@@ -150,12 +149,8 @@ impl WallVerdicts {
         let rows = self.table().html_with(|index| if self.0[index].passed() { "holds" } else { "fails" });
         Page::new(&format!("{file}: {passed} of {} walls pass", self.0.len()))
             .styled("tr.fails td:nth-child(2), tr.fails td:nth-child(3) { font-weight: 700; }")
-            .text(&format!("<p>{}</p>", escaped(self.first_words())))
+            .text("<p>The wall with the smallest zeta_E of the limit states that decide comes first.</p>")
             .text(&rows)
             .html()
-    }
-
-    fn first_words(&self) -> &'static str {
-        "The wall with the smallest zeta_E of the limit states that decide comes first."
     }
 }
