@@ -15,7 +15,7 @@ use run::parallel;
 use run::records::NamedRecord;
 use serde::Serialize;
 
-use crate::args::{SceneArguments, read_records, refuse};
+use crate::args::{SceneArguments, read_records, record_files, refuse};
 use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
@@ -139,7 +139,8 @@ impl Arguments {
             None => self.fractions.code(console).with_context(|| name.to_owned())?,
         };
         code.warnings().iter().for_each(|warning| console.warn(warning));
-        let inputs = self.scene.inputs(&scene).chain(code.files()).chain(&self.fractions.records);
+        let records = record_files(&self.fractions.records)?;
+        let inputs = self.scene.inputs(&scene).chain(code.files()).chain(&records);
         console.check_distinct(inputs, self.plot.iter().chain(&self.report))?;
         let located = |error: CheckError| in_table(error, place);
         let subject = Subject::from(&scene);
