@@ -162,7 +162,7 @@ impl Default for Given<'_> {
 }
 
 /// Reads the statements of a code from a table `[check]`.
-type Read = fn(&Place<'_>, Given<'_>) -> Result<Box<dyn Code>, SceneError>;
+type Read = fn(&Place<'_>, Given<'_>) -> Result<Box<dyn Code>, CheckError>;
 
 /// The codes by their names, as `code` in `[check]` gives them. A new code is a line here.
 pub const CODES: [(&str, Read); 2] = [(circolare::CODE, circolare::read), (fractions::CODE, fractions::read)];
@@ -170,8 +170,8 @@ pub const CODES: [(&str, Read); 2] = [(circolare::CODE, circolare::read), (fract
 /// Reads the table `[check]` of a scene's or a study's text; `None` without one.
 ///
 /// # Errors
-/// [`SceneError::Line`] with the line, the value, the limit and the remedy.
-pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Option<Box<dyn Code>>, SceneError> {
+/// [`CheckError`]; [`in_table`] adds the line.
+pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Option<Box<dyn Code>>, CheckError> {
     #[derive(Deserialize)]
     struct Named {
         code: Spanned<String>,
@@ -185,7 +185,7 @@ pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Option<Box<dyn Code>>
     let Some((_, read)) = CODES.iter().find(|(name, _)| name == code.get_ref()) else {
         let known = CODES.map(|(name, _)| format!("{name:?}")).join(" or ");
         let message = format!("[check] code = {:?} is unknown; write {known}", code.get_ref());
-        return Err(place.error(code.span(), message));
+        return Err(place.error(code.span(), message).into());
     };
     read(place, given).map(Some)
 }

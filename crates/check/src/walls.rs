@@ -9,7 +9,7 @@ use run::parallel;
 use run::walls::{NamedWall, read_walls};
 use serde_json::{Value, json};
 
-use crate::code::{Code, Given, Subject, Verdict, read};
+use crate::code::{Code, Given, Subject, Verdict, in_table, read};
 use crate::error::CheckError;
 
 /// Walls of a file, and what the engineer states of all of them.
@@ -59,8 +59,8 @@ impl Walls {
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
         let walls = read_walls(text, path, &mut inputs, &mut warnings)?;
-        let given = Given { folder, records: Vec::new() };
-        let Some(code) = read(&Place::new(&name, text), given)? else {
+        let (place, given) = (Place::new(&name, text), Given { folder, records: Vec::new() });
+        let Some(code) = read(&place, given).map_err(|error| in_table(error, &place))? else {
             let reason = "there is no table [check]; add one with code = \"circolare-2019\"".into();
             return Err(SceneError::File { file: name, reason });
         };

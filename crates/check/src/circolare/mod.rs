@@ -39,7 +39,7 @@ use ::report::plot::Plot;
 use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::wall::Wall;
 
-use crate::code::{Code, Document, Given, Subject, Verdict, in_table};
+use crate::code::{Code, Document, Given, Subject, Verdict};
 use crate::error::CheckError;
 
 pub use checks::{LARGEST_LOSS, check, demands};
@@ -67,15 +67,15 @@ struct Circolare {
 /// Reads the table `[check]` of this code.
 ///
 /// # Errors
-/// [`SceneError`] with the line, the value, the limit and the remedy.
-pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, SceneError> {
+/// [`CheckError`] of a value, with its keys, or of a record.
+pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, CheckError> {
     let missing = || SceneError::Value { message: "there is no table [check]".into() };
     let table = read_table(place)?.ok_or_else(missing)?;
-    let statement = table.statement().map_err(|error| in_table(error, place))?;
+    let statement = table.statement()?;
     let records = if given.records.is_empty() {
         Records::read(&table, place, given.folder)?
     } else {
-        Records::new(given.records).map_err(|error| in_table(error, place))?
+        Records::new(given.records)?
     };
     Ok(Box::new(Circolare { statement, records }))
 }

@@ -138,7 +138,7 @@ impl Statement {
         if slv || (slc && self.method != Method::Linear) {
             return Ok(());
         }
-        Err(CheckError::value(&["SLV"], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
+        Err(CheckError::value(&["SLV", "ag"], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
     }
 }
 

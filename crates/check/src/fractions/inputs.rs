@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{GroundMotion, SpectrumFile, Unit};
 use report::plot::Plot;
-use rocking_wall::scene::{Place, SceneError, parse_toml};
+use rocking_wall::scene::{Place, parse_toml};
 use rocking_wall::wall::Wall;
 use run::records::{RecordsTable, all_records, record_files, records};
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::{CapacityOverDemand, Demand, Fractions, SideCheck, check, over_demand, rows};
-use crate::code::{Code, Given, Subject, Verdict, in_table};
+use crate::code::{Code, Given, Subject, Verdict};
 use crate::error::CheckError;
 
 /// What is stated, as it is written.
@@ -68,8 +68,8 @@ enum Source {
 /// Reads the table `[check]` of this code.
 ///
 /// # Errors
-/// [`SceneError`] with the line, the value, the limit and the remedy.
-pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, SceneError> {
+/// [`CheckError`] of a value, with its keys, or of a file.
+pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, CheckError> {
     #[derive(Deserialize)]
     struct WithCheck {
         check: Option<FractionsTable>,
@@ -82,8 +82,8 @@ impl FractionsTable {
     /// Reads the spectrum or the records, and makes the code.
     ///
     /// # Errors
-    /// [`SceneError`] of a file, or of a value with its line.
-    pub fn code(&self, place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, SceneError> {
+    /// [`CheckError`] of a value, with its keys, or of a file.
+    pub fn code(&self, place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, CheckError> {
         let Fractions { displacement, secant } = Fractions::default();
         let mut code = ByFractions {
             fractions: Fractions {
@@ -97,13 +97,13 @@ impl FractionsTable {
             warnings: Vec::new(),
         };
         match &self.spectrum {
-            Some(spectrum) if self.records.is_none() && given.records.is_empty() => self
-                .take_spectrum(&mut code, spectrum, given.folder)
-                .map_err(|error| in_table(error, place))?,
+            Some(spectrum) if self.records.is_none() && given.records.is_empty() => {
+                self.take_spectrum(&mut code, spectrum, given.folder)?;
+            }
             None => self.take_records(&mut code, place, given)?,
             Some(_) => {
                 let message = "a spectrum and records state the same; leave one out";
-                return Err(in_table(CheckError::value(&["spectrum"], message), place));
+                return Err(CheckError::value(&["spectrum"], message));
             }
         }
         Ok(Box::new(code))
@@ -156,7 +156,7 @@ impl FractionsTable {
         code: &mut ByFractions,
         place: &Place<'_>,
         given: Given<'_>,
-    ) -> Result<(), SceneError> {
+    ) -> Result<(), CheckError> {
         let mut named = given.records;
         if let Some(table) = &self.records {
             let entry = records(table, place)?;
@@ -166,7 +166,7 @@ impl FractionsTable {
         }
         if named.is_empty() {
             let message = "there is no demand; give a spectrum, or records";
-            return Err(in_table(CheckError::value(&["spectrum"], message), place));
+            return Err(CheckError::value(&["spectrum"], message));
         }
         code.name = format!("median of {}", report::counted(named.len(), "record"));
         code.demand = Source::Records(named.into_iter().map(|record| record.motion).collect());

@@ -1,6 +1,6 @@
 //! Tests what every code has. A new code has a table here.
 
-use check::code::{CODES, Code, Document, Given, Subject, read};
+use check::code::{CODES, Code, Document, Given, Subject, in_table, read};
 use check::find::{Sought, find};
 use rocking_wall::scene::Place;
 use rocking_wall::wall::Parameters;
@@ -52,7 +52,8 @@ fn every_code_gives_a_verdict_with_rows_numbers_picture_and_report() {
 #[test]
 fn an_unknown_code_is_refused_with_those_that_are_known() {
     let text = "title = \"a\"\n[check]\ncode = \"eurocode-8\"\n";
-    let error = read(&Place::new("s.toml", text), Given::default()).unwrap_err().to_string();
+    let place = Place::new("s.toml", text);
+    let error = in_table(read(&place, Given::default()).unwrap_err(), &place).to_string();
     let known = "write \"circolare-2019\" or \"fractions\"";
     assert_eq!(error, format!("s.toml, line 3: [check] code = \"eurocode-8\" is unknown; {known}"));
     assert!(read(&Place::new("s.toml", "title = \"a\"\n"), Given::default()).unwrap().is_none());
@@ -72,7 +73,8 @@ fn statements_of_fractions_are_refused_with_their_key() {
         ("fraction = 3", "line 3: unknown key \"fraction\" in [check]"),
     ] {
         let text = format!("[check]\ncode = \"fractions\"\n{line}\n");
-        let error = read(&Place::new("s.toml", &text), Given::default()).unwrap_err().to_string();
+        let place = Place::new("s.toml", &text);
+        let error = in_table(read(&place, Given::default()).unwrap_err(), &place).to_string();
         assert!(error.contains(words), "{error}\nfor {words}");
     }
     let code = code("code = \"fractions\"\nsecant_fraction = 2\nspectrum = [[0, 2], [4, 1]]\n");

@@ -13,7 +13,7 @@ use ground_motion::RecordOptions;
 use rocking_wall::scene::{Place, Scene, read_text};
 use run::parallel;
 use run::records::NamedRecord;
-use serde::Serialize;
+use serde_json::Value;
 
 use crate::args::{SceneArguments, read_records, record_files, refuse};
 use crate::output::{self, Console};
@@ -131,7 +131,8 @@ impl Arguments {
         let folder = self.scene.scene.as_deref().and_then(Path::parent).unwrap_or(Path::new("."));
         let mut scene = Scene::parse(name, place.text(), folder)?;
         self.scene.apply(&mut scene)?;
-        let code = match read(place, Given { folder, records: Vec::new() })? {
+        let located = |error: CheckError| in_table(error, place);
+        let code = match read(place, Given { folder, records: Vec::new() }).map_err(located)? {
             Some(code) => {
                 self.fractions.refuse(name)?;
                 code
@@ -142,13 +143,13 @@ impl Arguments {
         let records = record_files(&self.fractions.records)?;
         let inputs = self.scene.inputs(&scene).chain(code.files()).chain(&records);
         console.check_distinct(inputs, self.plot.iter().chain(&self.report))?;
-        let located = |error: CheckError| in_table(error, place);
         let subject = Subject::from(&scene);
         if let Some(sought) = self.find {
             let found = find(&*code, &subject, sought).map_err(located)?;
             console.picture(self.plot.as_ref(), || Ok(over_parameter(&found, sought).picture()))?;
-            return self
-                .told(console, &found, || found.text(sought) + &output::written("written  ", &self.plot));
+            let values = serde_json::to_value(&found)?;
+            let text = || found.text(sought) + &output::written("written  ", &self.plot);
+            return self.told(console, &values, text);
         }
         let verdict = code.check(&subject).map_err(located)?;
         if let Some(path) = &self.report {
@@ -165,12 +166,7 @@ impl Arguments {
     }
 
     /// Prints a result as JSON or as text.
-    fn told(
-        &self,
-        console: &Console<'_>,
-        values: &impl Serialize,
-        text: impl FnOnce() -> String,
-    ) -> Result<()> {
+    fn told(&self, console: &Console<'_>, values: &Value, text: impl FnOnce() -> String) -> Result<()> {
         if self.json { console.json(values) } else { console.print(&text()) }
     }
 }

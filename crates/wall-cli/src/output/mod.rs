@@ -31,7 +31,7 @@ impl Console<'_> {
     }
 
     /// Prints a value as JSON.
-    pub(crate) fn json(&self, value: &impl serde::Serialize) -> Result<()> {
+    pub(crate) fn json(&self, value: &serde_json::Value) -> Result<()> {
         self.print(&(serde_json::to_string_pretty(value)? + "\n"))
     }
 
