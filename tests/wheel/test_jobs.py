@@ -135,7 +135,8 @@ def test_a_check_by_the_code(program, tmp_path, wall, checked, zeta):
     wall = {"height": 4.0, "thickness": 0.4, **wall}
     verdict = rw.Wall(**wall).check(**checked)
     # six digits
-    assert verdict.values["sides"]["positive"]["SLV"]["zeta_E"] == pytest.approx(zeta, abs=5e-6 if zeta > 1 else 5e-7)
+    found = verdict.values["sides"]["positive"]["SLV"]["zeta_E"]
+    assert found == pytest.approx(zeta, abs=5e-6 if zeta > 1 else 5e-7)
     assert verdict.passed == (verdict.zeta_E >= 1)
     scene = written(tmp_path, wall, {"code": "circolare-2019", **checked})
     told = program("check", scene, "--json")
@@ -173,7 +174,7 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
         ({"soil": "B"}, ValueError, "SLV needs its site"),
         (SLV, ValueError, "before_activation is missing: state \"rigid\""),
         ({**SLV, "before_activation": "beam"}, ValueError, "beam needs young_modulus"),
-        ({**SLV, "code": "EC8"}, ValueError, 'code = "EC8" is unknown; write "circolare-2019" or "fractions"'),
+        ({**SLV, "code": "EC8"}, ValueError, 'code = "EC8" is unknown; write "circolare-2019" or '),
         ({**SLV, "sol": "B"}, ValueError, 'unknown key "sol" in .check. .did you mean "soil"'),
         ({**SLV, "building": {"storey": 3}}, ValueError, 'key "storey" in .check.building. .*mean "storeys"'),
         ({**SLV, "damping": 0.05}, ValueError, 'unknown key "damping" in .check.'),

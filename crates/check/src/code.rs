@@ -41,9 +41,8 @@ use crate::{circolare, fractions};
 pub trait Code: Debug + Send + Sync {
     /// Checks a wall.
     ///
-    /// # Errors
-    /// [`CheckError`] of a statement that is missing or does not go with the wall, of a wall that the code does
-    /// not cover, or of a run.
+    /// # Errors [`CheckError`] of a statement that is missing or does not go with the wall, of a wall that
+    /// the code does not cover, or of a run.
     fn check(&self, subject: &Subject<'_>) -> Result<Verdict, CheckError>;
 
     /// Draws the capacity of the side that governs over the demand.
@@ -52,8 +51,8 @@ pub trait Code: Debug + Send + Sync {
     /// Those of [`check`](Self::check).
     fn plot(&self, subject: &Subject<'_>) -> Result<Plot, CheckError>;
 
-    /// Makes the page of a wall for a calculation file: verdict, numbers, picture and warnings, or what the code
-    /// asks for.
+    /// Makes the page of a wall for a calculation file: verdict, numbers, picture and warnings, or what the
+    /// code asks for.
     ///
     /// # Errors
     /// Those of [`check`](Self::check), and of a file that cannot be read again.

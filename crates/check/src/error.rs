@@ -66,8 +66,8 @@ impl CheckError {
         Self::Value { keys: keys.to_vec(), message: message.into() }
     }
 
-    /// Returns the keys from the table `[check]` on that the error is about, such as `SLV`, `ag`; `None` for an
-    /// error that is about no key.
+    /// Returns the keys from the table `[check]` on that the error is about, such as `SLV`, `ag`; `None` for
+    /// an error that is about no key.
     pub fn keys(&self) -> Option<Vec<&'static str>> {
         match self {
             Self::Value { keys, .. } => Some(keys.clone()),

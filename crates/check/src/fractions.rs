@@ -1,5 +1,5 @@
-//! The code `fractions`: the capacity curve of a wall read at fractions of the displacement at which its force
-//! vanishes, over a response spectrum.
+//! The code `fractions`: the capacity curve of a wall read at fractions of the displacement at which its
+//! force vanishes, over a response spectrum.
 //!
 //! ```
 //! use check::fractions::{Fractions, check};
@@ -125,7 +125,8 @@ impl Demand {
                 let end = |point: Option<&(f64, f64)>| point.map_or(f64::NAN, |point| point.0);
                 let [from, to] = [points.first(), points.last()].map(end);
                 refused(format!(
-                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period"
+                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that \
+                     period"
                 ))
             }),
             Of::Records(spectrum, motions) => {

@@ -13,8 +13,8 @@ use crate::errors::{of_scene, refused};
 use crate::tables::{columns_of, table};
 use crate::walls::Wall;
 
-/// Checks a wall by the table `[check]` in a text, with records by their names; returns the verdict as JSON, its
-/// rows, and the picture.
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns the verdict as JSON,
+/// its rows, and the picture.
 #[pyfunction]
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,

@@ -130,8 +130,8 @@ impl FractionsTable {
                     // a file may round it: 0.9 % for 0.0087
                     (Some(given), Some(stated)) if (given - stated).abs() > 0.05 * stated => {
                         let message = format!(
-                            "{}: expected the damping ratio that the column of Sa states, {stated}, found {given}; \
-                             leave damping out, or use the spectrum of that damping",
+                            "{}: expected the damping ratio that the column of Sa states, {stated}, found \
+                             {given}; leave damping out, or use the spectrum of that damping",
                             path.display()
                         );
                         return Err(CheckError::value(&["damping"], message));

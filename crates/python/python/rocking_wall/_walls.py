@@ -237,8 +237,8 @@ class Wall(Given, Calculated):
     ) -> Verdict:
         """Checks the wall by a code.
 
-        The arguments are the keys of the table `[check]` of a scene; `wall schema check` lists them. With `site`
-        the code is Circolare 7/2019, "circolare-2019". On storeys the building is theirs.
+        The arguments are the keys of the table `[check]` of a scene; `wall schema check` lists them. With
+        `site` the code is Circolare 7/2019, "circolare-2019". On storeys the building is theirs.
 
         :param code: The code, "circolare-2019" or "fractions".
         :param site: SLD, SLV and SLC: a_g [g], F0 [-], T_C* [s], and what else is known of each.
@@ -252,9 +252,9 @@ class Wall(Given, Calculated):
         Verdict(NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike))
 
         With records or a spectrum alone the code is "fractions": the capacity curve, read at fractions of the
-        displacement at which the force vanishes, over the spectrum. Its statements are `spectrum`, periods [s]
-        from 0 on and Sa [m/s²] of what the wall stands on; `damping` of the spectra of records, by default
-        0.05; `displacement_fraction` and `secant_fraction`, by default 0.4.
+        displacement at which the force vanishes, over the spectrum. Its statements are `spectrum`, periods
+        [s] from 0 on and Sa [m/s²] of what the wall stands on; `damping` of the spectra of records, by
+        default 0.05; `displacement_fraction` and `secant_fraction`, by default 0.4.
 
         >>> verdict = Wall(height=3, thickness=0.25).check(spectrum=([0.0, 4.0], [1.0, 1.0]))
         >>> round(verdict.values["governs"]["onset"]["ratio"], 9)
