@@ -14,7 +14,8 @@
 //! "#;
 //! let code = read(&Place::new("scene.toml", text), Given::default())?.expect("there is a table [check]");
 //! let parameters = Parameters::default();
-//! let verdict = code.check(&Subject { title: "a wall", parameters: &parameters, floors: None })?;
+//! let subject = Subject { title: "a wall", parameters: &parameters, floors: None, is_tried: false };
+//! let verdict = code.check(&subject)?;
 //! assert!(!verdict.passed && (verdict.zeta - 0.855812).abs() < 5e-7);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -95,11 +96,14 @@ pub struct Subject<'a> {
     pub parameters: &'a Parameters,
     /// The storeys between ground and wall.
     pub floors: Option<&'a Floors>,
+    /// Whether only what decides counts: a search leaves out runs that only inform.
+    pub is_tried: bool,
 }
 
 impl<'a> From<&'a Scene> for Subject<'a> {
     fn from(scene: &'a Scene) -> Self {
-        Self { title: &scene.title, parameters: &scene.parameters, floors: scene.floors.as_ref() }
+        let (title, parameters, floors) = (&scene.title, &scene.parameters, scene.floors.as_ref());
+        Self { title, parameters, floors, is_tried: false }
     }
 }
 

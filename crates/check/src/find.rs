@@ -104,7 +104,7 @@ pub struct Found {
 /// "#;
 /// let code = read(&Place::new("scene.toml", text), Given::default())?.expect("there is a table [check]");
 /// let parameters = Parameters::default();
-/// let subject = Subject { title: "", parameters: &parameters, floors: None };
+/// let subject = Subject { title: "", parameters: &parameters, floors: None, is_tried: true };
 /// let found = find(&*code, &subject, Sought::Thickness)?;
 /// assert!((0.4..0.6).contains(&found.value.unwrap()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -127,7 +127,7 @@ pub fn find(code: &dyn Code, subject: &Subject<'_>, sought: Sought) -> Result<Fo
     let tried = if code.takes_runs() { TRIED_DYNAMIC } else { TRIED };
     let zeta = |value: f64| {
         let parameters = sought.applied(parameters, value);
-        let verdict = code.check(&Subject { parameters: &parameters, ..*subject });
+        let verdict = code.check(&Subject { parameters: &parameters, is_tried: true, ..*subject });
         verdict.map_or((f64::NAN, false), |verdict| (verdict.zeta, verdict.passed))
     };
     let range = sought.range(parameters);

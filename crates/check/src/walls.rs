@@ -74,7 +74,12 @@ impl Walls {
     pub fn check(&self, threads: usize) -> WallVerdicts {
         let one = |index: usize| {
             let NamedWall { name, parameters, floors } = &self.walls[index];
-            let verdict = self.code.check(&Subject { title: name, parameters, floors: floors.as_ref() });
+            let verdict = self.code.check(&Subject {
+                title: name,
+                parameters,
+                floors: floors.as_ref(),
+                is_tried: false,
+            });
             Ok::<_, std::convert::Infallible>(WallVerdict { name: name.clone(), verdict })
         };
         let Ok(mut verdicts) = parallel::map(self.walls.len(), threads, one);

@@ -49,7 +49,7 @@ pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> V
         let Some(code) = read(&Place::new(NO_FIELD, &text), Given::default())? else {
             return Ok(Value::Null);
         };
-        let subject = Subject { title: "", parameters, floors: None };
+        let subject = Subject { title: "", parameters, floors: None, is_tried: false };
         Ok(outcome(&code.check(&subject)?, code.plot(&subject)?, width))
     };
     checked().unwrap_or_else(|error| {

@@ -26,7 +26,7 @@ fn every_code_gives_a_verdict_with_rows_numbers_picture_and_report() {
         let of_code = |(table, _): &&(&str, &str)| table.contains(&format!("{name:?}"));
         let (table, governs) = TABLES.iter().find(of_code).unwrap_or_else(|| panic!("no table of {name}"));
         let (code, parameters) = (code(table), Parameters::default());
-        let subject = Subject { title: "a <wall>", parameters: &parameters, floors: None };
+        let subject = Subject { title: "a <wall>", parameters: &parameters, floors: None, is_tried: false };
         let verdict = code.check(&subject).unwrap();
         assert_eq!((verdict.code, verdict.governs, verdict.side), (name, *governs, "both sides"));
         assert_eq!(verdict.passed, verdict.zeta >= 1.0);
@@ -79,6 +79,8 @@ fn statements_of_fractions_are_refused_with_their_key() {
     }
     let code = code("code = \"fractions\"\nsecant_fraction = 2\nspectrum = [[0, 2], [4, 1]]\n");
     let parameters = Parameters::default();
-    let error = code.check(&Subject { title: "", parameters: &parameters, floors: None }).unwrap_err();
+    let error = code
+        .check(&Subject { title: "", parameters: &parameters, floors: None, is_tried: false })
+        .unwrap_err();
     assert_eq!(error.keys(), Some(vec!["secant_fraction"]));
 }
