@@ -9,7 +9,7 @@ use pyo3::types::{IntoPyDict, PyDict};
 use rocking_wall::scene::{Place, SceneError};
 use run::records::NamedRecord;
 
-use crate::arrays::{Given, motion, samples};
+use crate::arrays::{MotionValues, motion, samples};
 use crate::errors::{failed, of_scene, refused};
 use crate::walls::Wall;
 
@@ -19,7 +19,7 @@ use crate::walls::Wall;
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
-    records: Vec<Given<'py>>,
+    records: Vec<MotionValues<'py>>,
     spectrum: Option<[Bound<'py, PyAny>; 2]>,
     damping: f64,
     fractions: [f64; 2],
@@ -56,9 +56,10 @@ pub(crate) fn check_wall_by_code(
     py: Python<'_>,
     wall: &Wall,
     text: String,
-    records: Vec<(String, Given<'_>)>,
+    records: Vec<(String, MotionValues<'_>)>,
 ) -> PyResult<(String, String)> {
-    let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+    let record =
+        |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
     let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
     let (parameters, floors) = (&wall.scene.parameters, wall.scene.floors.as_ref());
     let checked = py.detach(|| {

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use run::records_figure;
 
-use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
+use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
 use crate::errors::{of_motion, refused};
 
 /// Reads the channels of a record file.
@@ -94,7 +94,11 @@ pub(crate) fn synthetic(
 
 /// Copies a motion and converts it to m/s².
 #[pyfunction]
-pub(crate) fn in_si<'py>(py: Python<'py>, given: Given<'py>, unit: &str) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn in_si<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    unit: &str,
+) -> PyResult<(f64, Numbers<'py>)> {
     let unit: Unit = unit.parse().map_err(of_motion)?;
     let (step, given) = given;
     let samples = samples(&given)?.into_iter().map(|sample| unit.to_si(sample)).collect();
@@ -103,13 +107,21 @@ pub(crate) fn in_si<'py>(py: Python<'py>, given: Given<'py>, unit: &str) -> PyRe
 
 /// Multiplies a motion by a factor.
 #[pyfunction]
-pub(crate) fn scaled<'py>(py: Python<'py>, given: Given<'py>, factor: f64) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn scaled<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    factor: f64,
+) -> PyResult<(f64, Numbers<'py>)> {
     made(py, motion(&given)?.checked_scaled(factor))
 }
 
 /// Scales a motion to a peak acceleration.
 #[pyfunction]
-pub(crate) fn scaled_to<'py>(py: Python<'py>, given: Given<'py>, pga: f64) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn scaled_to<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    pga: f64,
+) -> PyResult<(f64, Numbers<'py>)> {
     made(py, motion(&given)?.scaled_to_peak(pga))
 }
 
@@ -117,7 +129,7 @@ pub(crate) fn scaled_to<'py>(py: Python<'py>, given: Given<'py>, pga: f64) -> Py
 #[pyfunction]
 pub(crate) fn trimmed<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     start: f64,
     end: f64,
 ) -> PyResult<(f64, Numbers<'py>)> {
@@ -132,7 +144,7 @@ fn made(py: Python<'_>, motion: Result<GroundMotion, GroundMotionError>) -> PyRe
 #[pyfunction]
 pub(crate) fn spectrum<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     periods: &Bound<'py, PyAny>,
     damping: f64,
     at_samples: bool,
@@ -147,7 +159,7 @@ pub(crate) fn spectrum<'py>(
 #[pyfunction]
 pub(crate) fn average_sa<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     periods: &Bound<'py, PyAny>,
     damping: f64,
     at_samples: bool,
@@ -166,7 +178,7 @@ fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
 #[pyfunction]
 pub(crate) fn picture<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     periods: &Bound<'py, PyAny>,
     name: String,
 ) -> PyResult<String> {

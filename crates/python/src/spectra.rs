@@ -11,7 +11,7 @@ use study::spectrum::{
     over_pulses, over_walls,
 };
 
-use crate::arrays::{Given, Numbers, grid, motion, samples};
+use crate::arrays::{MotionValues, Numbers, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::threads::{self, Threads};
 use crate::walls::Wall;
@@ -30,7 +30,7 @@ type Values<'py> = (
 pub(crate) fn spectrum_over_walls<'py>(
     py: Python<'py>,
     wall: &Wall,
-    record: Option<Given<'py>>,
+    record: Option<MotionValues<'py>>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
     threads: Option<Threads>,

@@ -18,7 +18,7 @@ use study::loaded::{LoadedStudy, Sent};
 use study::results::{Fitting, WallResults};
 use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names, Table};
 
-use crate::arrays::{Given, motion};
+use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 use crate::tables::{Column, table};
@@ -57,11 +57,12 @@ impl Study {
         py: Python<'_>,
         text: String,
         walls: Vec<(String, Bound<'_, PyAny>)>,
-        records: Vec<(String, Given<'_>)>,
+        records: Vec<(String, MotionValues<'_>)>,
     ) -> PyResult<Self> {
         let mut warnings = Vec::new();
         let walls = named_walls(&walls, &mut warnings)?;
-        let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+        let record =
+            |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
         let made = py.detach(|| LoadedStudy::of_parts(text.clone(), walls, records));
         let mut loaded = made.map_err(|error| match error {

@@ -8,7 +8,7 @@ use run::polarity::Polarities;
 use study::tie::figure::picture;
 use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
 
-use crate::arrays::{Given, grid, motion, samples};
+use crate::arrays::{MotionValues, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables::Column::{Counts, Numbers};
 use crate::tables::table;
@@ -24,7 +24,7 @@ const RUNS_AT_ONCE: usize = 4;
 pub(crate) fn tie_of_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
-    records: Vec<Given<'py>>,
+    records: Vec<MotionValues<'py>>,
     stiffness: Option<Bound<'py, PyAny>>,
     both_polarities: bool,
     threads: Option<Threads>,

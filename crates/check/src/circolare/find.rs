@@ -5,7 +5,7 @@ use rocking_wall::wall::Parameters;
 
 use super::error::CheckError;
 use super::{Method, Records, Source, Statement, check};
-use run::bisection::begins_at;
+use run::bisection::first_true;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 121;
@@ -152,6 +152,6 @@ pub fn find(
         return Ok(Found { value, range, everywhere: !fails_beyond, fails_beyond, curve });
     };
     let bracket = [tries[before].0, tries[first].0];
-    let value = begins_at(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
+    let value = first_true(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
     Ok(Found { value: Some(value), range, everywhere: false, fails_beyond, curve })
 }

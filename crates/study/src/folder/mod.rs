@@ -13,7 +13,7 @@
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `folder` | the folder |
-//! | `work` | computes the parts that are not on disk yet |
+//! | `compute` | computes the parts that are not on disk yet |
 //! | `tables` | the tables |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
@@ -25,6 +25,7 @@
 //! | `report` | all results of a complete folder |
 
 mod comparison;
+mod compute;
 mod contents;
 mod error;
 pub mod file;
@@ -38,11 +39,10 @@ mod population;
 mod report;
 mod risk;
 mod tables;
-mod work;
 
+pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use error::FolderError;
 pub use folder::Folder;
 pub use part::{decode, encode};
 pub use report::{Report, finish};
-pub use work::{WorkError, work};

@@ -97,10 +97,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         console.report(&format!("{found} of {} combinations are done already", cases(&mine)));
     }
     tell_of_resuming()?;
-    let words = work(&loaded.study, &folder, &missing, cases(&missing), threads)?;
+    let told_of_runs = compute(&loaded.study, &folder, &missing, cases(&missing), threads)?;
     drop(loaded);
     // a summary that cannot be printed must not prevent the results from being written
-    let told = console.print(&words);
+    let told = console.print(&told_of_runs);
     if shards > 1 {
         let name = path.display();
         return console
@@ -177,14 +177,20 @@ struct Share {
 }
 
 /// Runs the missing parts, which hold `cases` combinations; returns the throughput of each model.
-fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads: usize) -> Result<String> {
+fn compute(
+    study: &Study,
+    folder: &Folder,
+    missing: &[usize],
+    cases: usize,
+    threads: usize,
+) -> Result<String> {
     if missing.is_empty() {
         return Ok(String::new());
     }
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
     progress::shown(|progress| {
-        study::folder::work(study, folder, missing, threads, |case, curve, time| {
+        study::folder::compute(study, folder, missing, threads, |case, curve, time| {
             let runs = curve.runs().len();
             if let Ok(mut shares) = shares.lock() {
                 let share = &mut shares[case.model];

@@ -1,4 +1,4 @@
-//! Inputs and outputs that are different files.
+//! Refuses an output that would overwrite an input or another output.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
