@@ -73,7 +73,8 @@ fn of_calibration(error: CalibrationError) -> PyErr {
     }
 }
 
-/// The fits, as `wall calibrate --csv` writes them; x of each a₁ and u₀ with what the paper prints; the laws.
+/// The fits, as `wall study calibrate --csv` writes them; x of each a₁ and u₀ with what the paper prints; the
+/// laws.
 fn tables<'py>(py: Python<'py>, found: &[Calibration]) -> PyResult<[Bound<'py, PyDict>; 3]> {
     let fits: Vec<(&str, &Fit)> =
         found.iter().flat_map(|one| one.fits.iter().map(|fit| (one.model.name(), fit))).collect();

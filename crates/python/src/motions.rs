@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use ground_motion::{
-    GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
-    SyntheticMotion, Unit, Warning,
+    GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, Shape, Spectrum, SyntheticMotion,
+    Unit, Warning,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use run::records_figure;
+use run::record_facts::figure::{self, Drawn};
 
 use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
 use crate::errors::{of_motion, refused};
@@ -174,21 +174,10 @@ fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
     Spectrum::new(damping, maxima).map_err(of_motion)
 }
 
-/// Draws a record above its response spectrum at some periods, as SVG.
+/// Draws a record above its response spectrum, as SVG.
 #[pyfunction]
-pub(crate) fn picture<'py>(
-    py: Python<'py>,
-    given: MotionValues<'py>,
-    periods: &Bound<'py, PyAny>,
-    name: String,
-) -> PyResult<String> {
-    let (motion, periods) = (motion(&given)?, samples(periods)?);
-    let in_g = |a: f64| a / STANDARD_GRAVITY;
-    let of = Spectrum::default();
-    let accelerations = py.detach(|| of.accelerations(&motion, &periods)).map_err(of_motion)?;
-    let times = (0..motion.samples().len()).map(|index| index as f64 * motion.step());
-    let history = times.zip(motion.samples().iter().map(|a| in_g(*a))).collect();
-    let spectrum = periods.into_iter().zip(accelerations.into_iter().map(in_g)).collect();
-    let record = records_figure::Record { name, history, spectrum, is_vertical: false };
-    Ok(records_figure::picture(&[record], ground_motion::spectrum::DAMPING).svg())
+pub(crate) fn picture(py: Python<'_>, given: MotionValues<'_>, name: String) -> PyResult<String> {
+    let motion = motion(&given)?;
+    let drawn = py.detach(|| Drawn::new(name, &motion, &Spectrum::default())).map_err(of_motion)?;
+    Ok(figure::picture(&[drawn], ground_motion::spectrum::DAMPING).svg())
 }

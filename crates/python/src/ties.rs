@@ -65,7 +65,7 @@ fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> 
     Ok(values)
 }
 
-/// The table of `wall tie --csv`.
+/// The table of `wall study tie --csv`.
 fn medians<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
     let values: Vec<_> = rows.iter().map(Row::values).collect();
     let mut columns = vec![Numbers(rows.iter().map(|row| row.stiffness).collect())];

@@ -20,7 +20,7 @@
 //! | [`rotations`] | free rocking of a rigid wall in small and in full rotations |
 //! | [`counterpart`] | a run beside the same run in small or in full rotations |
 //! | [`mod@figure`] | histories, the force path on its backbone |
-//! | [`records_figure`] | accelerograms above their response spectra |
+//! | [`record_facts`] | what record files hold, as tables, JSON and a picture with response spectra |
 //! | [`page`] | the page of a run |
 
 pub mod bisection;
@@ -34,8 +34,8 @@ pub mod page;
 pub mod parallel;
 pub mod polarity;
 pub mod random;
+pub mod record_facts;
 pub mod records;
-pub mod records_figure;
 pub mod rotations;
 pub mod sample;
 pub mod shaking;

@@ -61,7 +61,7 @@ class RockingSpectrum:
 
     @property
     def table(self) -> Table:
-        """A row for each point, as `wall spectrum --csv` writes them."""
+        """A row for each point, as `wall study spectrum --csv` writes them."""
         rows, columns = self.u_ratio_max.shape
         return Table(
             {

@@ -10,7 +10,7 @@ pub enum FolderError {
     #[error("{}: cannot be {what}: {source}", path.display())]
     File { path: PathBuf, what: &'static str, source: std::io::Error },
     /// There is no study.
-    #[error("{}: cannot be read; expected a folder that `wall ida` has made: {source}", path.display())]
+    #[error("{}: cannot be read; expected a folder that `wall study ida` has made: {source}", path.display())]
     NoStudy { path: PathBuf, source: std::io::Error },
     /// The description of a study is not one.
     #[error(
@@ -19,7 +19,10 @@ pub enum FolderError {
     )]
     Description { path: PathBuf, line: usize },
     /// The description of a study is damaged.
-    #[error("{}: is damaged; remove it, and `wall ida` writes it again and keeps the runs", path.display())]
+    #[error(
+        "{}: is damaged; remove it, and `wall study ida` writes it again and keeps the runs",
+        path.display()
+    )]
     Damaged { path: PathBuf },
     /// The folder holds results of another study.
     #[error(

@@ -2,19 +2,15 @@
 
 mod accuracy;
 mod building;
-mod calibrate;
 mod check;
 mod describe;
-mod ida;
-mod motion;
 mod package;
 mod record;
 mod reproduce;
 mod schema;
 mod simulate;
-mod spectrum;
 mod stability;
-mod tie;
+mod study;
 mod validate;
 mod verify;
 
@@ -36,43 +32,33 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a scene, or the default wall, and write its history and its page
+    /// Run a scene, or the default wall, under a motion
     #[command(allow_negative_numbers = true)]
     Simulate(simulate::Arguments),
-    /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
+    /// Make an FMU of a scene
     Package(package::Arguments),
-    /// Run storeys and walls as one system under a record, or make it an SSP of connected FMUs
+    /// Run a building of storeys and walls, or make it an SSP
     Building(building::Arguments),
-    /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
+    /// Print what follows from a wall's parameters
     Describe(describe::Arguments),
-    /// Check a wall by Circolare 7/2019, or its capacity curve over a spectrum
+    /// Check a wall by Circolare 7/2019, or over a spectrum
     Check(check::Arguments),
-    /// Compute the force of a parapet's tie and the displacement of the wall over the tie's stiffness
-    Tie(tie::Arguments),
-    /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    /// Print what record files hold, or write a motion as CSV
     #[command(allow_negative_numbers = true)]
-    Motion(motion::Arguments),
+    Record(record::Arguments),
+    /// Run a study: ida, merge, spectrum, tie or calibrate
+    #[command(subcommand)]
+    Study(study::Command),
     /// Measure the error of each solver against its run time
     #[command(allow_negative_numbers = true)]
     Accuracy(accuracy::Arguments),
     /// Map the stability of each solver, and run the extremes
     Stability(stability::Arguments),
-    /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
-    Record(record::Arguments),
-    /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
-    Ida(ida::Arguments),
-    /// Merge the shards of an incremental dynamic analysis and write its results
-    Merge(ida::MergeArguments),
-    /// Compute rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
-    #[command(allow_negative_numbers = true)]
-    Spectrum(spectrum::Arguments),
-    /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
-    Calibrate(calibrate::Arguments),
-    /// Compute every table and figure of the paper and compare it with print, on one page
+    /// Compute the paper's tables and figures, compared with print
     Reproduce(reproduce::Arguments),
-    /// Compare the model with a published test: a slow push or a free decay
+    /// Compare the model with a published test
     Validate(validate::Arguments),
-    /// Check every formula against a reference of its own, in this program or in an FMU
+    /// Check every formula against a reference of its own
     Verify(verify::Arguments),
     /// Print the JSON schema of scenes, studies or buildings
     Schema(schema::Arguments),
@@ -92,15 +78,10 @@ impl Arguments {
             Command::Building(arguments) => building::run(console, arguments),
             Command::Describe(arguments) => describe::run(console, arguments),
             Command::Check(arguments) => check::run(console, arguments),
-            Command::Tie(arguments) => tie::run(console, arguments),
-            Command::Motion(arguments) => motion::run(console, arguments),
+            Command::Study(command) => study::run(console, command),
             Command::Accuracy(arguments) => accuracy::run(console, arguments),
             Command::Stability(arguments) => stability::run(console, arguments),
             Command::Record(arguments) => record::run(console, arguments),
-            Command::Ida(arguments) => ida::run(console, arguments),
-            Command::Merge(arguments) => ida::merge(console, arguments),
-            Command::Spectrum(arguments) => spectrum::run(console, arguments),
-            Command::Calibrate(arguments) => calibrate::run(console, arguments),
             Command::Reproduce(arguments) => reproduce::run(console, arguments),
             Command::Validate(arguments) => validate::run(console, arguments),
             Command::Verify(arguments) => return verify::run(console, arguments),

@@ -85,7 +85,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
 fn motions(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
         let (motion, note) = arguments.record.read(console, path)?;
-        let motion = arguments.record.scaled(console, motion)?;
+        let motion = arguments.record.motion.scaled(console, motion)?;
         let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };

@@ -1,4 +1,4 @@
-//! `wall tie`: force of a parapet's tie and displacement of the wall against the stiffness of the tie.
+//! `wall study tie`: force of a parapet's tie and displacement of the wall against the stiffness of the tie.
 
 use std::fmt::Write;
 use std::num::NonZeroUsize;

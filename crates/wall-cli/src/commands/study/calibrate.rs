@@ -1,4 +1,4 @@
-//! `wall calibrate`: the damping that matches restitution, section 5 of the paper for any wall.
+//! `wall study calibrate`: the damping that matches restitution, section 5 of the paper for any wall.
 
 use std::fmt::Write;
 use std::num::NonZeroUsize;
@@ -121,7 +121,7 @@ fn page(title: &str, found: &[Calibration]) -> String {
     let figures: String = charts(found).iter().map(chart::figure).collect();
     let text: String = found.iter().map(table).collect();
     template::page(
-        include_str!("../../../study/src/calibration/page.html"),
+        include_str!("../../../../study/src/calibration/page.html"),
         &[
             ("title", &format!("Calibration: {}", escaped(title))),
             ("table", &escaped(&text)),

@@ -1,4 +1,4 @@
-//! `wall spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
+//! `wall study spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
 
 use std::fmt::Write;
 use std::path::PathBuf;

@@ -1,50 +1,75 @@
 //! Accelerograms above their response spectra, as a picture.
 //!
 //! ```
-//! use run::records_figure::{Record, picture};
+//! use ground_motion::{GroundMotion, Spectrum};
+//! use run::record_facts::figure::{Drawn, picture};
 //!
-//! let history = vec![(0.0, 0.0), (0.01, 0.2), (0.02, -0.1)];
-//! let spectrum = vec![(0.0, 0.2), (1.0, 0.5), (4.0, 0.1)];
-//! let record = Record { name: "a.AT2".into(), history, spectrum, is_vertical: false };
-//! assert!(picture(&[record], 0.05).svg().contains("Sa (g) at 5 % damping"));
+//! let motion = GroundMotion::new(0.01, vec![0.0, 0.2, -0.1])?;
+//! let drawn = Drawn::new("a.AT2".into(), &motion, &Spectrum::default())?;
+//! assert!(picture(&[drawn], 0.05).svg().contains("Sa (g) at 5 % damping"));
+//! # Ok::<(), ground_motion::GroundMotionError>(())
 //! ```
 
-use report::counted;
-
-use report::number;
+use ground_motion::{GroundMotion, GroundMotionError, Spectrum};
 use report::palette::{BLACK, PALE, SERIES};
 use report::plot::{Axis, Picture, Plot, Series};
 use report::points::decimated;
+use report::{counted, number};
+
+use super::in_g;
 
 /// Size \[px\].
 const WIDTH: f64 = 820.0;
 const HISTORY: f64 = 180.0;
 const SPECTRA: f64 = 420.0;
 
+/// Periods of the spectra: up to 4 s, denser where they are short.
+const PERIODS: u32 = 200;
+const SHORTEST: f64 = 0.01;
+const LONGEST: f64 = 4.0;
+
 /// The most records that have a history and a colour each; more are drawn as pale spectra with their median.
-pub const MOST: usize = SERIES.len();
+const MOST: usize = SERIES.len();
 
 /// A record to draw.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub struct Drawn {
     /// Its name.
     pub name: String,
     /// Acceleration (g) over time (s).
-    pub history: Vec<(f64, f64)>,
-    /// Sa (g) over the period (s), at the same periods for all records.
-    pub spectrum: Vec<(f64, f64)>,
+    history: Vec<(f64, f64)>,
+    /// Sa (g) over the period (s), from the peak acceleration at 0 on.
+    spectrum: Vec<(f64, f64)>,
     /// Whether the record is vertical: the median is that of the others.
     pub is_vertical: bool,
 }
 
-/// Draws the histories of up to [`MOST`] records, and the spectra of all below them.
-pub fn picture(records: &[Record], damping: f64) -> Picture {
+impl Drawn {
+    /// Computes the history and the spectrum of a horizontal motion.
+    ///
+    /// # Errors
+    /// [`GroundMotionError`] for a step that is too long for the spectrum.
+    pub fn new(name: String, motion: &GroundMotion, of: &Spectrum) -> Result<Self, GroundMotionError> {
+        let samples = motion.samples().iter().enumerate();
+        let history = samples.map(|(index, a)| (index as f64 * motion.step(), in_g(*a))).collect();
+        let mut spectrum = vec![(0.0, in_g(motion.peak()))];
+        for index in 0..=PERIODS {
+            let part = f64::from(index) / f64::from(PERIODS);
+            let period = SHORTEST + (LONGEST - SHORTEST) * part * part;
+            spectrum.push((period, in_g(of.acceleration(motion, period)?)));
+        }
+        Ok(Self { name, history, spectrum, is_vertical: false })
+    }
+}
+
+/// Draws the histories of up to some records, and the spectra of all below them.
+pub fn picture(records: &[Drawn], damping: f64) -> Picture {
     let end = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
     let longest = records.iter().map(|record| end(&record.history)).fold(0.0, f64::max);
     let mut panels = Vec::new();
     let mut spectra = Vec::new();
     if records.len() <= MOST {
-        for (Record { name, history, spectrum, .. }, (color, _)) in records.iter().zip(SERIES) {
+        for (Drawn { name, history, spectrum, .. }, (color, _)) in records.iter().zip(SERIES) {
             let line = Series::line(color, 0.9, decimated(history, end(history)));
             let axes = [Axis::over("time (s)", [0.0, longest]), Axis::new("a (g)")];
             panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });
@@ -52,7 +77,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
         }
     } else {
         spectra.extend(records.iter().map(|record| Series::line(PALE, 0.8, record.spectrum.clone())));
-        let mut level: Vec<&Record> = records.iter().filter(|record| !record.is_vertical).collect();
+        let mut level: Vec<&Drawn> = records.iter().filter(|record| !record.is_vertical).collect();
         let which = if level.is_empty() || level.len() == records.len() { "" } else { "horizontal " };
         if level.is_empty() {
             level.extend(records);
@@ -68,7 +93,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
 }
 
 /// The median of the spectra.
-fn median(records: &[&Record]) -> Vec<(f64, f64)> {
+fn median(records: &[&Drawn]) -> Vec<(f64, f64)> {
     let Some(first) = records.first() else { return Vec::new() };
     let at = |index: usize| {
         let mut values: Vec<f64> = records.iter().map(|record| record.spectrum[index].1).collect();

@@ -1,4 +1,4 @@
-//! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+//! `wall study ida` and `merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
 
 use std::fmt::Write;
 use std::num::NonZeroUsize;
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Number of threads [default: one for each core]
     #[arg(long, value_name = "COUNT")]
     threads: Option<NonZeroUsize>,
-    /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall merge` merges them
+    /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall study merge` merges them
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
 }
@@ -103,8 +103,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let told = console.print(&told_of_runs);
     if shards > 1 {
         let name = path.display();
-        return console
-            .print(&format!("shard {} of {shards} is done; when all are: wall merge {name}\n", shard + 1));
+        return console.print(&format!(
+            "shard {} of {shards} is done; when all are: wall study merge {name}\n",
+            shard + 1
+        ));
     }
     finish(console, &folder, threads).and(told)
 }
