@@ -8,7 +8,7 @@ use crate::ida::{Case, Curve, IdaError, Study};
 use run::parallel;
 
 use super::error::FolderError;
-use super::folder::Folder;
+use super::store::Folder;
 
 /// Why a part could not be computed or written.
 #[derive(Debug, thiserror::Error)]

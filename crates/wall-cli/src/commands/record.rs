@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Maxima, Spectrum, is_listed};
+use ground_motion::{Maxima, Spectrum};
 use report::plot::Picture;
 use run::record_facts::figure::{self, Drawn};
 use run::record_facts::{Facts, Intensities, listing, samples, table};
 use serde_json::json;
 
-use crate::args::{MotionArguments, STDIN, SYNTHETIC};
+use crate::args::{MotionArguments, STDIN, SYNTHETIC, record_files};
 use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
@@ -63,29 +63,35 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         periods: arguments.periods.clone(),
     };
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
-    let mut files = Vec::new();
-    for path in &arguments.files {
-        if path.is_dir() { files.extend(files_of(path)?) } else { files.push(path.clone()) }
-    }
+    let files = record_files(&arguments.files)?;
     console.check_distinct(&files, arguments.outputs())?;
     let sources: Vec<_> = match arguments.motion.synthetic {
         true => vec![None],
-        false => files.iter().map(|path| Some(path.as_path())).collect(),
+        false => files.iter().map(|path| Some(path)).collect(),
     };
-    let (mut channels, mut failures) = (Vec::new(), Vec::new());
-    for source in &sources {
-        match read(console, *source, arguments, &of) {
+    let mut channels = Vec::new();
+    let (mut failures, mut missing) = (Vec::new(), 0);
+    for source in sources {
+        match read(console, source.map(PathBuf::as_path), arguments, &of) {
             Ok(found) => channels.extend(found),
-            Err(error) => failures.push(output::message(&error)),
+            Err(error) => {
+                failures.push(output::message(&error));
+                missing += usize::from(source.is_some_and(|path| arguments.files.contains(path)));
+            }
         }
     }
     if let ([failure], true) = (&failures[..], channels.is_empty()) {
         bail!("{failure}");
     }
     if is_listing && !channels.is_empty() {
-        return show(console, &channels, &failures, arguments, &of);
+        show(console, &channels, &failures, arguments, &of)?;
+        // a folder may have files that are no records
+        if missing > 0 {
+            bail!("{missing} of the files that are named could not be read; they are listed as not read");
+        }
+        return Ok(());
     }
-    if sources.is_empty() {
+    if channels.is_empty() && failures.is_empty() {
         bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());
     }
     let count = failures.len();
@@ -97,17 +103,6 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         bail!("{} of {} files could not be read", count, files.len());
     }
     Ok(())
-}
-
-/// Lists the files of a folder in the order of their names, but for hidden ones and the times beside records.
-fn files_of(folder: &Path) -> Result<Vec<PathBuf>> {
-    let unread = || format!("{}: cannot be read", folder.display());
-    let entries = std::fs::read_dir(folder).with_context(unread)?;
-    let paths: std::io::Result<Vec<_>> = entries.map(|entry| Ok(entry?.path())).collect();
-    let mut paths = paths.with_context(unread)?;
-    paths.retain(|path| is_listed(path));
-    paths.sort();
-    Ok(paths)
 }
 
 /// Reads the channels of a file, or the synthetic motion.
