@@ -90,7 +90,7 @@ fn a_check_refuses_what_it_cannot_use() {
 fn a_check_reads_the_records_of_a_folder() {
     let folder = folder("check_folder");
     std::fs::create_dir(folder.join("records")).unwrap();
-    succeed(&folder, &["motion", "--synthetic", "--csv", "records/a.csv"]);
+    succeed(&folder, &["record", "--synthetic", "--samples", "records/a.csv"]);
     let record = content(&folder, "records/a.csv");
     std::fs::write(folder.join("records/b.csv"), &record).unwrap();
     let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
