@@ -76,7 +76,7 @@ impl Fragility {
         let summaries = compare(std::slice::from_ref(&states), 0, &ObservationKind::Records, &bootstrap);
         let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
         let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
-            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, Some(2));
+            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, 2);
             let dispersion = summary.fitted.map(|curve| number(curve.dispersion, 2));
             json!({
                 "name": name,

@@ -15,13 +15,13 @@ use run::records::NamedRecord;
 use study::folder::{Contents, encode};
 use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
-use study::results::{Fitting, WallResults};
-use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names, Table};
+use study::results::Fitting;
+use study::tables::{COLLAPSES, FRAGILITIES, Kind, LEVELS, Names};
 
 use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::{Column, table};
+use crate::tables::Columns;
 use crate::threads::{self, Threads};
 use crate::watch::watched;
 
@@ -171,7 +171,13 @@ impl Study {
             records: self.records(),
             fractions: &report.fractions,
         };
-        let of = |made: Table| table_of(py, made, &names, &results);
+        let of = |kind: Kind| {
+            let mut columns = Columns::default();
+            for (wall, results) in results.iter().enumerate() {
+                columns.add(kind.of_wall(&names, wall, results));
+            }
+            columns.dict(py)
+        };
         Ok([of(LEVELS)?, of(COLLAPSES)?, of(FRAGILITIES)?])
     }
 }
@@ -212,23 +218,4 @@ impl Study {
 fn of_argument(text: &str, line: usize, message: &str) -> String {
     let argument = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next()).unwrap_or_default();
     if message.starts_with(argument) { message.to_owned() } else { format!("{argument}: {message}") }
-}
-
-/// Makes a table of the results of all walls.
-fn table_of<'py>(
-    py: Python<'py>,
-    made: Table,
-    names: &Names<'_>,
-    results: &[WallResults],
-) -> PyResult<Bound<'py, PyDict>> {
-    let mut columns: Vec<Column<'_>> = Vec::new();
-    for (wall, results) in results.iter().enumerate() {
-        (made.rows)(names, wall, results, &mut |cells| {
-            if columns.is_empty() {
-                columns.extend(cells.iter().map(Column::of));
-            }
-            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
-        });
-    }
-    table(py, made.columns.split(',').zip(columns))
 }

@@ -1,65 +1,85 @@
 //! Tables for Python: columns by their names.
 
-use std::borrow::Cow;
-
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::table::Cell;
+use report::table::{Cell, Column, Table};
 
-/// A column of a table.
-pub(crate) enum Column<'a> {
-    Names(Vec<Cow<'a, str>>),
+/// Columns that grow table by table.
+#[derive(Default)]
+pub(crate) struct Columns(Vec<(Column, Values)>);
+
+enum Values {
+    Names(Vec<String>),
     Numbers(Vec<f64>),
-    Counts(Vec<usize>),
+    Counts(Vec<i64>),
     Flags(Vec<bool>),
 }
 
-impl<'a> Column<'a> {
-    /// Makes a column for cells like this one.
-    pub(crate) fn of(cell: &Cell<'a>) -> Self {
-        match cell {
-            Cell::Text(_) => Self::Names(Vec::new()),
-            Cell::Empty | Cell::Number(_) | Cell::Between(_) => Self::Numbers(Vec::new()),
-            Cell::Count(_) => Self::Counts(Vec::new()),
-            Cell::Flag(_) => Self::Flags(Vec::new()),
+/// Makes a table for Python: names as lists, the others as arrays of their type.
+pub(crate) fn table<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyDict>> {
+    let mut columns = Columns::default();
+    columns.add(table);
+    columns.dict(py)
+}
+
+impl Columns {
+    /// Adds the rows of a table with the same columns.
+    pub(crate) fn add(&mut self, table: Table) {
+        let Table { columns, rows } = table;
+        if self.0.is_empty() {
+            let values = |(place, column): (usize, Column)| {
+                let of = |is: fn(&Cell<'_>) -> bool| rows.iter().any(|row| is(&row[place]));
+                let values = if column.is_text {
+                    Values::Names(Vec::new())
+                } else if of(|cell| matches!(cell, Cell::Count(_))) {
+                    Values::Counts(Vec::new())
+                } else if of(|cell| matches!(cell, Cell::Flag(_))) {
+                    Values::Flags(Vec::new())
+                } else {
+                    Values::Numbers(Vec::new())
+                };
+                (column, values)
+            };
+            self.0 = columns.into_iter().enumerate().map(values).collect();
+        }
+        for row in rows {
+            self.0.iter_mut().zip(row).for_each(|((_, values), cell)| values.push(cell));
         }
     }
 
-    /// Adds a cell: a number that is not known is NaN, and one that is above the levels infinite.
-    pub(crate) fn push(&mut self, cell: &Cell<'a>) {
-        match (self, cell) {
-            (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
-            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(*number),
-            (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
-            (Self::Numbers(numbers), Cell::Between([least, most])) => {
-                let is_known = least == most || *most == f64::INFINITY;
-                numbers.push(if is_known { *most } else { f64::NAN });
+    /// Returns the columns that have a name.
+    pub(crate) fn dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let table = PyDict::new(py);
+        for (Column { name, .. }, values) in self.0.into_iter().filter(|(column, _)| !column.name.is_empty())
+        {
+            match values {
+                Values::Names(names) => table.set_item(name, names)?,
+                Values::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,
+                Values::Counts(counts) => table.set_item(name, PyArray1::from_vec(py, counts))?,
+                Values::Flags(flags) => table.set_item(name, PyArray1::from_vec(py, flags))?,
             }
-            (Self::Counts(counts), Cell::Count(count)) => counts.push(*count),
-            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(*flag),
-            _ => unreachable!("the cells of a column are alike"),
         }
+        Ok(table)
     }
 }
 
-/// Makes a table of its columns: names as lists, the others as arrays of their type.
-pub(crate) fn table<'py, 'a>(
-    py: Python<'py>,
-    columns: impl IntoIterator<Item = (&'static str, Column<'a>)>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let table = PyDict::new(py);
-    for (name, column) in columns {
-        match column {
-            Column::Names(names) => table.set_item(name, names)?,
-            Column::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,
-            Column::Counts(counts) => {
-                #[allow(clippy::cast_possible_wrap, reason = "nothing is counted up to 2⁶³")]
-                let counts = counts.into_iter().map(|count| count as i64);
-                table.set_item(name, PyArray1::from_iter(py, counts))?;
+impl Values {
+    /// Adds a cell: a number that is not known is NaN, and one that is above the levels infinite.
+    fn push(&mut self, cell: Cell<'_>) {
+        match (self, cell) {
+            (Self::Names(names), Cell::Text(name)) => names.push(name.into_owned()),
+            (Self::Names(names), Cell::Empty) => names.push(String::new()),
+            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(number),
+            (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
+            (Self::Numbers(numbers), Cell::Between([least, most])) => {
+                let is_known = least == most || most == f64::INFINITY;
+                numbers.push(if is_known { most } else { f64::NAN });
             }
-            Column::Flags(flags) => table.set_item(name, PyArray1::from_vec(py, flags))?,
+            #[allow(clippy::cast_possible_wrap, reason = "nothing is counted up to 2⁶³")]
+            (Self::Counts(counts), Cell::Count(count)) => counts.push(count as i64),
+            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(flag),
+            _ => unreachable!("the cells of a column are alike"),
         }
     }
-    Ok(table)
 }

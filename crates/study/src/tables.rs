@@ -1,13 +1,15 @@
-//! The tables of a study, row by row, for CSV files and the Python package.
+//! The tables of a study, wall by wall, for CSV files and the Python package.
 //!
 //! ```
-//! use study::tables::{COLLAPSES, FRAGILITIES, LEVELS};
+//! use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names};
 //!
-//! assert_eq!([LEVELS, COLLAPSES, FRAGILITIES].map(|table| table.columns.split(',').count()), [7, 8, 19]);
+//! let none = Names { walls: vec![], models: vec![], records: vec![], fractions: &[] };
+//! let columns = [LEVELS, COLLAPSES, FRAGILITIES].map(|kind| kind.new().columns.len());
+//! assert_eq!(columns, [7, 8, 19]);
 //! ```
 
 use ground_motion::STANDARD_GRAVITY;
-use report::table::Cell;
+use report::table::{Cell, Column, Digits, Table};
 
 use crate::fragility::Interval;
 use crate::ida::Exceedance;
@@ -26,68 +28,138 @@ pub struct Names<'a> {
     pub fractions: &'a [f64],
 }
 
-/// A table.
+/// A kind of table, made wall by wall: thousands of walls need not be in memory at once.
 #[derive(Clone, Copy, Debug)]
-pub struct Table {
+pub struct Kind {
     /// Its name.
     pub name: &'static str,
-    /// Names of its columns, with their units, separated by commas.
-    pub columns: &'static str,
-    /// Makes the rows of a wall, given its number and its results, one after the other.
-    pub rows: for<'a> fn(&Names<'a>, usize, &WallResults, Row<'_, 'a>),
+    columns: &'static [Named],
+    rows: fn(&mut Table, &Names<'_>, usize, &WallResults),
 }
 
-/// Takes a row.
-pub type Row<'r, 'a> = &'r mut dyn FnMut(&[Cell<'a>]);
+/// The name of a column, and whether it holds words.
+type Named = (&'static str, bool);
+
+const WALL: Named = ("wall", true);
+const MODEL: Named = ("model", true);
+const RECORD: Named = ("record", true);
+
+const fn number(name: &'static str) -> Named {
+    (name, false)
+}
+
+impl Kind {
+    /// Returns the table without rows.
+    pub fn new(self) -> Table {
+        let column = |&(name, is_text): &Named| match is_text {
+            true => Column::text(name, ""),
+            false => Column::number(name, "", Digits::AtMost(6)),
+        };
+        Table::new(self.columns.iter().map(column))
+    }
+
+    /// Returns the rows of a wall, given its number and its results.
+    pub fn of_wall(self, names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+        let mut table = self.new();
+        (self.rows)(&mut table, names, wall, results);
+        table
+    }
+}
 
 /// Every run.
-pub const LEVELS: Table = Table {
+pub const LEVELS: Kind = Kind {
     name: "levels",
-    columns: "wall,model,record,intensity_g,u_max_over_u_ins,overturned,overturn_time_s",
-    rows: |names, wall, results, row| {
+    columns: &[
+        WALL,
+        MODEL,
+        RECORD,
+        number("intensity_g"),
+        number("u_max_over_u_ins"),
+        number("overturned"),
+        number("overturn_time_s"),
+    ],
+    rows: |table, names, wall, results| {
         for (index, curve) in results.all_curves().iter().enumerate() {
-            let [wall, model, record] = names.of_curve(wall, index);
             for run in curve.runs() {
-                let (intensity, demand) = (Cell::Number(in_g(run.intensity)), Cell::Number(run.demand));
-                let overturned = Cell::Flag(run.overturning.is_some());
-                let [wall, model, record] = [&wall, &model, &record].map(Clone::clone);
-                row(&[wall, model, record, intensity, demand, overturned, run.overturning.into()]);
+                let [wall, model, record] = names.of_curve(wall, index);
+                table.row([
+                    wall,
+                    model,
+                    record,
+                    in_g(run.intensity).into(),
+                    run.demand.into(),
+                    run.overturning.is_some().into(),
+                    run.overturning.into(),
+                ]);
             }
         }
     },
 };
 
 /// The collapse with every model and record.
-pub const COLLAPSES: Table = Table {
+pub const COLLAPSES: Kind = Kind {
     name: "collapses",
-    columns: "wall,model,record,collapse_g,standing_below_g,highest_level_g,runs,resurrections",
-    rows: |names, wall, results, row| {
+    columns: &[
+        WALL,
+        MODEL,
+        RECORD,
+        number("collapse_g"),
+        number("standing_below_g"),
+        number("highest_level_g"),
+        number("runs"),
+        number("resurrections"),
+    ],
+    rows: |table, names, wall, results| {
         for (index, curve) in results.all_curves().iter().enumerate() {
             let [wall, model, record] = names.of_curve(wall, index);
             let collapse = match curve.collapse() {
                 Exceedance::At(intensity) => Some(in_g(intensity)),
                 Exceedance::Above(_) => None,
             };
-            let [below, top] = [curve.level_below_collapse(), curve.top()].map(|level| Some(in_g(level)));
-            let [collapse, below, top] = [collapse, below, top].map(Cell::from);
-            let [runs, resurrections] = [curve.runs().len(), curve.resurrections()].map(Cell::Count);
-            row(&[wall, model, record, collapse, below, top, runs, resurrections]);
+            table.row([
+                wall,
+                model,
+                record,
+                collapse.into(),
+                in_g(curve.level_below_collapse()).into(),
+                in_g(curve.top()).into(),
+                curve.runs().len().into(),
+                curve.resurrections().into(),
+            ]);
         }
     },
 };
 
 /// The fragility of every model and limit state.
-pub const FRAGILITIES: Table = Table {
+pub const FRAGILITIES: Kind = Kind {
     name: "fragilities",
-    columns: "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,median_high_g,\
-              theta_g,theta_low_g,theta_high_g,beta,beta_alone,median_ratio,median_ratio_low,\
-              median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high",
-    rows: |names, wall, results, row| {
+    columns: &[
+        WALL,
+        MODEL,
+        number("u_max_over_u_ins"),
+        number("records"),
+        number("censored"),
+        number("median_g"),
+        number("median_low_g"),
+        number("median_high_g"),
+        number("theta_g"),
+        number("theta_low_g"),
+        number("theta_high_g"),
+        number("beta"),
+        number("beta_alone"),
+        number("median_ratio"),
+        number("median_ratio_low"),
+        number("median_ratio_high"),
+        number("theta_ratio"),
+        number("theta_ratio_low"),
+        number("theta_ratio_high"),
+    ],
+    rows: |table, names, wall, results| {
         let interval = |interval: &Interval, unit: f64| interval.bounds(unit).map(Cell::Between);
         for (m, model) in names.models.iter().enumerate() {
             for (f, fraction) in names.fractions.iter().enumerate() {
                 let summary = &results.summaries(f)[m];
-                let mut cells = vec![Cell::from(names.walls[wall]), Cell::from(*model)];
+                let mut cells = [names.walls[wall], model].map(|name| Cell::from(name.to_owned())).to_vec();
                 cells.push(Cell::Number(*fraction));
                 cells.extend([summary.records, summary.censored].map(Cell::Count));
                 cells.extend(interval(&summary.median, STANDARD_GRAVITY));
@@ -96,17 +168,17 @@ pub const FRAGILITIES: Table = Table {
                 cells.extend(betas.map(|fit| Cell::from(fit.as_ref().ok().map(|fit| fit.dispersion))));
                 cells.extend(interval(&summary.median_ratio, 1.0));
                 cells.extend(interval(&summary.theta_ratio, 1.0));
-                row(&cells);
+                table.row(cells);
             }
         }
     },
 };
 
-impl<'a> Names<'a> {
+impl Names<'_> {
     /// Returns the first cells of a row: wall, model and record of one of the wall's curves.
-    fn of_curve(&self, wall: usize, curve: usize) -> [Cell<'a>; 3] {
+    fn of_curve(&self, wall: usize, curve: usize) -> [Cell<'static>; 3] {
         let (model, record) = (curve / self.records.len(), curve % self.records.len());
-        [self.walls[wall], self.models[model], self.records[record]].map(Cell::from)
+        [self.walls[wall], self.models[model], self.records[record]].map(|name| name.to_owned().into())
     }
 }
 

@@ -148,7 +148,7 @@ fn table_row(row: &Table5, summaries: &[Summary]) -> Vec<Cell> {
 }
 
 fn interval(value: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = value.texts(unit, Some(3));
+    let [estimate, low, high] = value.texts(unit, 3);
     format!("{estimate} [{low}, {high}]")
 }
 

@@ -14,8 +14,7 @@ _Motions = tuple[_Given, _Given | None]
 _WallValues = tuple[str, list[tuple[str, str]], float | None, _Motions | None, list[str]]
 _Values = tuple[str, list[tuple[str, str]], list[tuple[str, float, _Numbers]]]
 
-_Map = NDArray[np.float64]
-_Spectrum = tuple[_Numbers, _Numbers, _Map, NDArray[np.bool_], _Map]
+_Spectrum = tuple[_Numbers, _Numbers, _Columns]
 
 VERSION: Final[str]
 
@@ -117,11 +116,11 @@ def spectrum_over_pulses(
     wall: Wall, form: str, columns: ArrayLike, rows: ArrayLike, threads: int | None
 ) -> _Spectrum: ...
 def picture_of_spectrum(
+    names: tuple[str, str],
     columns: list[float],
     rows: list[float],
-    points: list[list[tuple[float, bool, float]]],
+    points: list[tuple[float, bool, float]],
     title: str,
-    labels: tuple[str, str],
 ) -> str: ...
 def tie_of_wall(
     wall: Wall,

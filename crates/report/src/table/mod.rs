@@ -111,7 +111,12 @@ impl Table {
     /// Returns the table as CSV: a line of names, then a line for each row.
     pub fn csv(&self) -> String {
         let names: Vec<_> = self.named().map(|(_, column)| quoted(&column.name)).collect();
-        let mut text = names.join(",") + "\n";
+        names.join(",") + "\n" + &self.csv_rows()
+    }
+
+    /// Returns the rows as CSV without the line of names, to add them to a file that has it.
+    pub fn csv_rows(&self) -> String {
+        let mut text = String::new();
         for row in &self.rows {
             let fields: Vec<_> = self.named().map(|(k, _)| row[k].field()).collect();
             text += &fields.join(",");

@@ -25,6 +25,7 @@ mod error;
 pub mod figure;
 mod matching;
 mod minimum;
+pub mod table;
 
 use std::num::NonZeroUsize;
 

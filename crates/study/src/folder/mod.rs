@@ -14,7 +14,6 @@
 //! | `part` | a part as Parquet |
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
-//! | `tables` | the tables |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
@@ -38,7 +37,6 @@ mod population;
 mod report;
 mod risk;
 mod store;
-mod tables;
 
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};

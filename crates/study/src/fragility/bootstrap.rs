@@ -158,11 +158,7 @@ impl Interval {
     }
 
     /// Formats the estimate and the ends of its interval in a unit, see [`between`].
-    pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
-        let number = |value: f64| match decimals {
-            Some(decimals) => format!("{value:.decimals$}"),
-            None => value.to_string(),
-        };
-        self.bounds(unit).map(|bounds| between(bounds, number))
+    pub fn texts(&self, unit: f64, decimals: usize) -> [String; 3] {
+        self.bounds(unit).map(|bounds| between(bounds, |value| format!("{value:.decimals$}")))
     }
 }

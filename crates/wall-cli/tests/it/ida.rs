@@ -358,5 +358,5 @@ fn open_medians_have_their_bound() {
     // stripes are points: of runs, and of the fractions that exceed a limit state
     assert!(page.contains("class=\"runs\"") && page.contains("class=\"mark\""));
     assert!(!page.contains("class=\"record\"") && !page.contains("class=\"steps\""));
-    assert!(page.contains("<td>open &gt;0.200</td>"), "records that never collapsed");
+    assert!(page.contains("<td class=\"number\">open &gt;0.200</td>"), "records that never collapsed");
 }
