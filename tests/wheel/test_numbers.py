@@ -123,6 +123,8 @@ def test_a_study(program, tmp_path):
                     assert not np.isfinite(value)
                 elif text == "":
                     assert np.isnan(value)
+                elif column == "overturned":
+                    assert value == (text == "true")
                 else:
                     assert value == (text if column in ("wall", "model", "record") else float(text)), column
 

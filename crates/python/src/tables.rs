@@ -1,5 +1,7 @@
 //! Tables for Python: columns by their names.
 
+use std::borrow::Cow;
+
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -7,7 +9,10 @@ use report::table::{Cell, Column, Table};
 
 /// Columns that grow table by table.
 #[derive(Default)]
-pub(crate) struct Columns(Vec<(Column, Values)>);
+pub(crate) struct Columns(Vec<Named>);
+
+/// A column with a name: its place in the rows, the name and the values.
+struct Named(usize, Cow<'static, str>, Values);
 
 enum Values {
     Names(Vec<String>),
@@ -28,7 +33,7 @@ impl Columns {
     pub(crate) fn add(&mut self, table: Table) {
         let Table { columns, rows } = table;
         if self.0.is_empty() {
-            let values = |(place, column): (usize, Column)| {
+            let named = |(place, column): (usize, Column)| {
                 let of = |is: fn(&Cell<'_>) -> bool| rows.iter().any(|row| is(&row[place]));
                 let values = if column.is_text {
                     Values::Names(Vec::new())
@@ -39,20 +44,19 @@ impl Columns {
                 } else {
                     Values::Numbers(Vec::new())
                 };
-                (column, values)
+                (!column.name.is_empty()).then_some(Named(place, column.name, values))
             };
-            self.0 = columns.into_iter().enumerate().map(values).collect();
+            self.0 = columns.into_iter().enumerate().filter_map(named).collect();
         }
-        for row in rows {
-            self.0.iter_mut().zip(row).for_each(|((_, values), cell)| values.push(cell));
+        for row in &rows {
+            self.0.iter_mut().for_each(|Named(place, _, values)| values.push(&row[*place]));
         }
     }
 
-    /// Returns the columns that have a name.
+    /// Returns the columns by their names.
     pub(crate) fn dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let table = PyDict::new(py);
-        for (Column { name, .. }, values) in self.0.into_iter().filter(|(column, _)| !column.name.is_empty())
-        {
+        for Named(_, name, values) in self.0 {
             match values {
                 Values::Names(names) => table.set_item(name, names)?,
                 Values::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,
@@ -66,19 +70,19 @@ impl Columns {
 
 impl Values {
     /// Adds a cell: a number that is not known is NaN, and one that is above the levels infinite.
-    fn push(&mut self, cell: Cell<'_>) {
+    fn push(&mut self, cell: &Cell<'_>) {
         match (self, cell) {
-            (Self::Names(names), Cell::Text(name)) => names.push(name.into_owned()),
+            (Self::Names(names), Cell::Text(name)) => names.push(name.clone().into_owned()),
             (Self::Names(names), Cell::Empty) => names.push(String::new()),
-            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(number),
+            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(*number),
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {
-                let is_known = least == most || most == f64::INFINITY;
-                numbers.push(if is_known { most } else { f64::NAN });
+                let is_known = least == most || *most == f64::INFINITY;
+                numbers.push(if is_known { *most } else { f64::NAN });
             }
             #[allow(clippy::cast_possible_wrap, reason = "nothing is counted up to 2⁶³")]
-            (Self::Counts(counts), Cell::Count(count)) => counts.push(count as i64),
-            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(flag),
+            (Self::Counts(counts), Cell::Count(count)) => counts.push(*count as i64),
+            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(*flag),
             _ => unreachable!("the cells of a column are alike"),
         }
     }
