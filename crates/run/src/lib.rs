@@ -21,6 +21,7 @@
 //! | [`counterpart`] | a run beside the same run in small or in full rotations |
 //! | [`mod@figure`] | histories, the force path on its backbone |
 //! | [`record_facts`] | what record files hold, as tables, JSON and a picture with response spectra |
+//! | [`motions`] | one wall under several motions: a row for each |
 //! | [`page`] | the page of a run |
 
 pub mod bisection;
@@ -30,6 +31,7 @@ pub mod demands;
 pub mod figure;
 pub mod free_motion;
 pub mod model;
+pub mod motions;
 pub mod page;
 pub mod parallel;
 pub mod polarity;

@@ -15,13 +15,31 @@ use super::contents::Manifest;
 use super::error::FolderError;
 use super::file::{self, Draft};
 use super::nrml;
-use report::table::{Cell, line};
+use report::table::{Cell, Column, Digits, Table};
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
-/// Columns of the table; β is the square root of the sum of the squares of those after it.
-const COLUMNS: &str = "wall,geometry,model,measure,unit,limit_state,u_max_over_u_ins,theta,theta_low,\
-                       theta_high,beta,beta_records,beta_walls,beta_modelling";
+
+/// Returns the table without rows; β is the square root of the sum of the squares of those after it.
+fn curves() -> Table {
+    let number = |name| Column::number(name, "", Digits::AtMost(6));
+    Table::new([
+        Column::text("wall", ""),
+        Column::text("geometry", ""),
+        Column::text("model", ""),
+        Column::text("measure", ""),
+        Column::text("unit", ""),
+        Column::text("limit_state", ""),
+        number("u_max_over_u_ins"),
+        number("theta"),
+        number("theta_low"),
+        number("theta_high"),
+        number("beta"),
+        number("beta_records"),
+        number("beta_walls"),
+        number("beta_modelling"),
+    ])
+}
 
 /// The files under construction.
 pub(crate) struct Risk<'a> {
@@ -58,7 +76,7 @@ impl<'a> Risk<'a> {
         Ok(Self {
             manifest,
             states: nrml::limit_states(&manifest.report),
-            table: Draft::new(&table, format!("{COLUMNS}\n").as_bytes())?,
+            table: Draft::new(&table, curves().csv().as_bytes())?,
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
@@ -121,16 +139,21 @@ impl<'a> Risk<'a> {
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
         let model = &contents.models[model].name;
-        let first = line(&[name, geometry, model, &contents.measure].map(Cell::from));
-        let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
-        let betas = line(&betas.map_or([const { Cell::Empty }; 4], |betas| betas.map(Cell::from)));
+        let mut table = curves();
         for (k, (place, state)) in self.states.iter().enumerate() {
             let [low, high] = intervals.get(k).copied().unwrap_or([f64::NAN; 2]);
             let theta = [function.map(|function| in_g(function.medians[k])), Some(low), Some(high)];
-            let theta = line(&theta.map(|theta| theta.filter(|theta| theta.is_finite()).into()));
-            let fraction = report.fractions[*place];
-            self.table.write(|file| writeln!(file, "{first},g,{state},{fraction},{theta},{betas}"))?;
+            let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
+            let mut row = [name, geometry, model, &contents.measure, "g", state]
+                .map(str::to_owned)
+                .map(Cell::from)
+                .to_vec();
+            row.push(report.fractions[*place].into());
+            row.extend(theta.map(|theta| theta.filter(|theta| theta.is_finite()).into()));
+            row.extend(betas.map_or([const { Cell::Empty }; 4], |betas| betas.map(Cell::from)));
+            table.row(row);
         }
+        self.table.write(|file| file.write_all(table.csv_rows().as_bytes()))?;
         let Some(function) = function else {
             self.left_out[0] += 1;
             return Ok(());

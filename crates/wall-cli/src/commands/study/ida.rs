@@ -1,6 +1,5 @@
 //! `wall study ida` and `merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
 
-use std::fmt::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -9,6 +8,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use report::counted;
+use report::table::{Column, Digits, Table};
 use run::parallel;
 use study::folder::Folder;
 use study::ida::Study;
@@ -206,14 +206,17 @@ fn compute(
     let shares = shares.into_inner().unwrap_or_default();
     let runs: usize = shares.iter().map(|share| share.runs).sum();
     let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
-    let mut text = format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread"));
-    let _ =
-        writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
+    let mut table = Table::new([
+        Column::text("", "model"),
+        Column::count("", "runs"),
+        Column::number("", "runs/s a core", Digits::Decimals(0)),
+        Column::number("", "ns a sample and run", Digits::Decimals(1)),
+    ]);
     for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
         let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
-        let _ = writeln!(text, "{:<16}{:>10}{rate:>18.0}{each:>22.1}", model.name, share.runs);
+        table.row([model.name.clone().into(), share.runs.into(), rate.into(), each.into()]);
     }
-    Ok(text)
+    Ok(format!("{runs} in {seconds:.1} s on {}\n{}", counted(threads, "thread"), table.text()))
 }
 
 /// Makes the final results of a folder whose parts are complete.
