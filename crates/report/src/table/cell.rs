@@ -32,7 +32,7 @@ pub enum Digits {
     AtMost(usize),
     /// So many decimals.
     Decimals(usize),
-    /// A power of ten with so many decimals.
+    /// A power of ten with so many decimals; `0` for zero.
     Exponent(usize),
 }
 
@@ -43,6 +43,8 @@ pub enum Cell<'a> {
     Empty,
     /// A number, in the unit of the column's name.
     Number(f64),
+    /// A number that people read with so many decimals, whatever its column says.
+    Rounded(f64, usize),
     /// A number of which only bounds are known: the least and the most that it can be.
     Between([f64; 2]),
     /// A count.
@@ -85,6 +87,7 @@ impl Column {
             Cell::Empty if self.is_text => String::new(),
             Cell::Empty => "-".to_owned(),
             Cell::Number(value) => self.digits.of(self.factor * value),
+            Cell::Rounded(value, decimals) => Digits::Decimals(*decimals).of(self.factor * value),
             Cell::Between(bounds) => between(*bounds, |value| self.digits.of(self.factor * value)),
             Cell::Count(count) => count.to_string(),
             Cell::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),
@@ -102,6 +105,7 @@ impl Digits {
         match self {
             Self::AtMost(digits) => number(value, digits),
             Self::Decimals(decimals) => format!("{value:.decimals$}"),
+            Self::Exponent(_) if value == 0.0 => "0".to_owned(),
             Self::Exponent(decimals) => format!("{value:.decimals$e}"),
             Self::Significant(digits) => significant(value, digits),
         }
@@ -152,7 +156,7 @@ impl Cell<'_> {
     pub fn field(&self) -> Cow<'_, str> {
         match self {
             Self::Empty => "".into(),
-            Self::Number(value) => format!("{value:?}").into(),
+            Self::Number(value) | Self::Rounded(value, _) => format!("{value:?}").into(),
             Self::Between(bounds) => between(*bounds, |value| format!("{value:?}")).replace('–', "").into(),
             Self::Count(count) => count.to_string().into(),
             Self::Flag(flag) => flag.to_string().into(),
@@ -164,7 +168,7 @@ impl Cell<'_> {
     pub fn json(&self) -> Value {
         match self {
             Self::Empty => Value::Null,
-            Self::Number(value) => (*value).into(),
+            Self::Number(value) | Self::Rounded(value, _) => (*value).into(),
             Self::Between([least, most]) if least == most => (*most).into(),
             Self::Between(bounds) => bounds.to_vec().into(),
             Self::Count(count) => (*count).into(),

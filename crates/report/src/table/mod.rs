@@ -215,6 +215,18 @@ mod tests {
     }
 
     #[test]
+    fn a_number_can_have_decimals_of_its_own() {
+        let column = Column::number("x", "x", Digits::Exponent(1)).shown(10.0);
+        for (cell, field, words) in [
+            (Cell::Number(0.5), "0.5", "5.0e0"),
+            (Cell::Number(0.0), "0.0", "0"),
+            (Cell::Rounded(0.5, 2), "0.5", "5.00"),
+        ] {
+            assert_eq!((&*cell.field(), &*column.words(&cell)), (field, words));
+        }
+    }
+
+    #[test]
     fn a_number_between_bounds_shows_what_is_known() {
         let column = Column::number("x", "x", Digits::AtMost(3));
         for (bounds, field, words) in [
