@@ -105,13 +105,13 @@ impl Fragility {
             if let Ok(curve) = summary.fitted {
                 let at = |k: u32| 0.005 * f64::from(k) * right;
                 let point = |x: f64| (x, curve.probability(x * STANDARD_GRAVITY));
-                series.push(Series::line(color, 1.8, (1..=200).map(at).map(point).collect()));
+                series.push(Series::stroke(color, 1.8, (1..=200).map(at).map(point).collect()));
             }
-            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 2.5, marks) });
+            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 2.5, marks) });
         }
         if let Some(peak) = self.peak.map(in_g).filter(|peak| *peak <= right) {
             let look = Look::Dashed;
-            series.push(Series { look, ..Series::line(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
+            series.push(Series { look, ..Series::stroke(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
         }
         let size = [self.width.clamp(280.0, 700.0), 280.0];
         let x = Axis::over("peak ground acceleration (g)", [0.0, right]);

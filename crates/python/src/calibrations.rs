@@ -2,7 +2,6 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::chart;
 use rocking_wall::variables::DampingModel;
 use study::calibration::figure::charts;
 use study::calibration::{
@@ -62,7 +61,7 @@ pub(crate) fn calibrate_wall<'py>(
     let [fits, coefficients, laws] = tables;
     Ok((
         [fits?, coefficients?, laws?],
-        charts(&found).iter().map(|drawn| chart::picture(drawn).svg()).collect(),
+        charts(&found).iter().map(|drawn| drawn.figure_file().svg()).collect(),
     ))
 }
 

@@ -74,7 +74,9 @@ impl Values {
         match (self, cell) {
             (Self::Names(names), Cell::Text(name)) => names.push(name.clone().into_owned()),
             (Self::Names(names), Cell::Empty) => names.push(String::new()),
-            (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => numbers.push(*number),
+            (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
+                numbers.push(*number)
+            }
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {
                 let is_known = least == most || *most == f64::INFINITY;

@@ -137,11 +137,11 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
     let low = points().map(|point| point.1).fold(0.0, f64::min);
     let mut series = Vec::new();
     for (curve, color) in curves.iter().zip(CURVES) {
-        let line = Series::line(color, 2.0, curve.points.iter().map(shown).collect());
+        let line = Series::stroke(color, 2.0, curve.points.iter().map(shown).collect());
         series.push(Series { name: format!("capacity curve, {}", curve.name), ..line });
     }
     for ((name, point), color) in secants.into_iter().zip(SECANTS.iter().cycle()) {
-        let line = Series::line(color, 1.3, vec![(0.0, 0.0), shown(&point)]);
+        let line = Series::stroke(color, 1.3, vec![(0.0, 0.0), shown(&point)]);
         series.push(Series { name, look: Look::Dashed, ..line });
     }
     let axes = [

@@ -30,10 +30,10 @@ pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
     let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
     let inside = points.into_iter().filter(|point| point.1 <= top).collect();
     let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
-    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
+    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::stroke(BLUE, 2.0, inside))];
     if let Some(value) = found.value {
         let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
-        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
+        let line = Series::stroke(RED, 1.3, vec![(value, 0.0), (value, top)]);
         series.push(named(name, Look::Dashed, line));
     }
     let axes = [
@@ -93,13 +93,14 @@ pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, Ch
         lines.push((color(*state), points));
         if let Some(period) = period {
             let place = vec![at(*period)?];
-            marks.push(Series { look: Look::Marks(DEMAND), ..Series::line(color(*state), 5.0, place) });
+            marks.push(Series { look: Look::Marks(DEMAND), ..Series::stroke(color(*state), 5.0, place) });
         }
     }
     let axes = [Axis::over("T (s)", [0.0, last]), Axis::over(label, [0.0, 1.08 * top])];
     let [width, height] = SIZE;
     let scale = [width / last, height / top];
-    let lines = lines.into_iter().map(|(color, points)| Series::line(color, 1.8, simplified(&points, scale)));
+    let lines =
+        lines.into_iter().map(|(color, points)| Series::stroke(color, 1.8, simplified(&points, scale)));
     Ok(Plot::new(SIZE, axes, lines.chain(marks).collect()))
 }
 
@@ -140,15 +141,15 @@ pub fn over_demand(
         };
         let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
         for piece in within(&points, [[0.0, right], [0.0, top]]) {
-            series.push(Series::line(color, 1.3, simplified(&piece, scale)));
+            series.push(Series::stroke(color, 1.3, simplified(&piece, scale)));
         }
-        let ray = |look, to| Series { look, ..Series::line(color, 1.2, vec![(0.0, 0.0), to]) };
+        let ray = |look, to| Series { look, ..Series::stroke(color, 1.2, vec![(0.0, 0.0), to]) };
         series.push(ray(Look::Dashed, (check.d, check.a)));
         series.push(ray(Look::Dotted, place(&check)));
-        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::line(color, 5.0, vec![at]) };
+        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::stroke(color, 5.0, vec![at]) };
         marks.extend([mark(CAPACITY, (check.d, check.a)), mark(DEMAND, place(&check))]);
     }
-    series.push(Series::line(BLACK, 2.2, side.corners.clone()));
+    series.push(Series::stroke(BLACK, 2.2, side.corners.clone()));
     series.extend(marks);
     let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
     for line in &mut series {

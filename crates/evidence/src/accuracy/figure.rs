@@ -52,7 +52,7 @@ pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
         tools.iter().filter(|tool| !tool.points.is_empty())
     {
         let line =
-            Series::line(color, 1.2, points.iter().map(|&(time, error)| (time, exponent(error))).collect());
+            Series::stroke(color, 1.2, points.iter().map(|&(time, error)| (time, exponent(error))).collect());
         let look = Look::Marks(*mark);
         let marks = Series { look, width: 4.5, titles: titles.clone(), ..line.clone() };
         let name = (*name).to_owned();

@@ -3,8 +3,8 @@
 use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
-use report::chart::{Axis, Chart, Series};
 use report::counted;
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
@@ -80,7 +80,7 @@ pub fn figure_15(
     Ok(Collapses { figure: figure(count, charts, &walls), table: table(count, rows), walls })
 }
 
-fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
+fn figure(count: usize, charts: Vec<Plot>, walls: &[Vec<Summary>]) -> Figure {
     let ratios = |model: usize| walls.iter().map(move |models| models[model].median_ratio);
     let extremes = |models: std::ops::Range<usize>| {
         let estimates = models.flat_map(ratios).map(|ratio| ratio.estimate);
@@ -113,7 +113,7 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
 }
 
 /// Draws the empirical fragilities of one wall.
-fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart {
+fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot {
     let series = models.iter().zip(collapses).map(|(model, collapses)| {
         let mut points = vec![(0.0, 0.0)];
         let mut below = 0.0;
@@ -133,7 +133,7 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
     let x = Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
-    Chart::new(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
+    Plot::titled(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn table_row(row: &Table5, summaries: &[Summary]) -> Vec<Cell> {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -90,14 +90,14 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
                 .into(),
         ],
         charts: vec![
-            Chart::new("a) damping coefficient", u_axis(), Axis::new("C (kg/s)"), coefficients),
-            Chart::new(
+            Plot::titled("a) damping coefficient", u_axis(), Axis::new("C (kg/s)"), coefficients),
+            Plot::titled(
                 "b) damping ratio",
                 Axis::new("ω (rad/s)"),
                 Axis::over("damping ratio (%)", [0.0, 10.0]),
                 ratios,
             ),
-            Chart::new(
+            Plot::titled(
                 "c) damping force in a free vibration from 0.9 u_ins",
                 u_axis(),
                 Axis::new("C u̇ / F0"),
@@ -141,8 +141,13 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
         title: "Matched free vibrations of CR and CDR",
         notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
         charts: vec![
-            Chart::new("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
-            Chart::new("b) displacement and velocity", u_axis(), Axis::new("velocity / u_ins (1/s)"), phases),
+            Plot::titled("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
+            Plot::titled(
+                "b) displacement and velocity",
+                u_axis(),
+                Axis::new("velocity / u_ins (1/s)"),
+                phases,
+            ),
         ],
     })
 }
@@ -177,7 +182,7 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
             Series::line("rocking body, CR", color("CR"), rocking),
         ];
-        charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
+        charts.push(Plot::titled(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
     }
     Ok(Figure {
         number: 7,

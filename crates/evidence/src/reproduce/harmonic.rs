@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use ground_motion::GroundMotion;
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
@@ -69,7 +69,7 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
         charts.extend(panels.map(|(panel, times)| {
             let title = format!("{}: {panel}", row.specimen);
             let (x, y) = (Axis::over("time (s)", times), Axis::over("u / u_ins", [-0.6, 0.6]));
-            Chart::new(title, x, y, series.clone())
+            Plot::titled(title, x, y, series.clone())
         }));
     }
     Ok(Figure {

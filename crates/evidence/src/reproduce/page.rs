@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use report::{chart, escaped, template};
+use report::plot::Plot;
+use report::{escaped, template};
 
 use super::collapse::Collapses;
 use super::{Cell, Figure, Reproduction, Table, Value};
@@ -88,7 +89,7 @@ fn shown(value: f64, decimals: usize) -> f64 {
 }
 
 fn figure(figure: &Figure) -> String {
-    let charts: String = figure.charts.iter().map(chart::figure).collect();
+    let charts: String = figure.charts.iter().map(Plot::figure).collect();
     format!(
         "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"figures{3}\">\n{charts}</div>\
          </section>\n",

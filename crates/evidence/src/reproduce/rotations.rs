@@ -4,7 +4,7 @@ use crate::accuracy::AccuracyError;
 use run::rotations::{FreeMotion, period};
 
 use crate::accuracy::linearisation::{Comparison, figure_2, figure_2_wall, figure_3};
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
 
@@ -31,7 +31,7 @@ pub(super) fn free_vibrations() -> Result<Figure, AccuracyError> {
             motion.history.iter().enumerate().map(|(index, u)| (index as f64 * comparison.step, *u)).collect()
         };
         let (x, y) = (Axis::over("time (s)", [0.0, DURATION]), Axis::over("u / u_ins", [-1.0, 1.0]));
-        Chart::new(
+        Plot::titled(
             title,
             x,
             y,
@@ -99,13 +99,13 @@ pub(super) fn periods() -> Result<Figure, AccuracyError> {
             format!("The ratio is √cos α whatever p and θ₀: {} at α = 0.1, 0.2, 0.3.", shown.join(", ")),
         ],
         charts: vec![
-            Chart::new(
+            Plot::titled(
                 format!("a) over the initial rotation, α = {SLENDERNESS}"),
                 Axis::over("θ0 / α", [0.0, 1.0]),
                 Axis::over("period (s)", [0.0, 10.0]),
                 series,
             ),
-            Chart::new(
+            Plot::titled(
                 "b) Eq. (1) over Eq. (5)",
                 Axis::over("α (rad)", [0.0, 0.4]),
                 Axis::over("ratio of periods", [0.96, 1.005]),

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 use run::model::{RATIO_MODELS as MODELS, color, label};
@@ -205,7 +205,7 @@ impl Section5 {
                  finds so for 0.82 to 0.88 only."
                     .into(),
             ],
-            charts: vec![Chart::new(
+            charts: vec![Plot::titled(
                 format!("a₁ = {REFERENCE_A1}, u₀ = {START} u_ins"),
                 Axis::over("e", [0.78, 1.0]),
                 Axis::new("√Err"),
@@ -232,7 +232,7 @@ impl Section5 {
             number: 12,
             title: "Coefficient x of Eq. (19) over the initial stiffness",
             notes: vec!["Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into()],
-            charts: vec![Chart::new(
+            charts: vec![Plot::titled(
                 "ξ = −x ln e",
                 Axis::over("a₁", [0.0, 0.1]),
                 Axis::over("x", [0.0, 0.8]),
@@ -261,6 +261,6 @@ fn marks_and_fit<'a>(name: &str, color: usize, fits: impl Iterator<Item = &'a Fi
     [Series::line("", color, over_e(|e| -x * e.ln())), Series::marks(name, color, percent(fits))]
 }
 
-fn over_restitution(title: &str, top: f64, series: Vec<Series>) -> Chart {
-    Chart::new(title, Axis::over("e", [0.78, 1.0]), Axis::over("damping ratio (%)", [0.0, top]), series)
+fn over_restitution(title: &str, top: f64, series: Vec<Series>) -> Plot {
+    Plot::titled(title, Axis::over("e", [0.78, 1.0]), Axis::over("damping ratio (%)", [0.0, top]), series)
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use evidence::reproduce::tables::{table_3, table_4, table_5};
 use evidence::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
-use report::chart::Chart;
+use report::plot::Plot;
 
 const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 /// The whole reproduction, computed once: it takes seconds.
@@ -103,7 +103,7 @@ fn figure(number: u8) -> &'static Figure {
     ALL.figures.iter().find(|figure| figure.number == number).unwrap()
 }
 
-fn series<'a>(chart: &'a Chart, name: &str) -> &'a [(f64, f64)] {
+fn series<'a>(chart: &'a Plot, name: &str) -> &'a [(f64, f64)] {
     &chart.series.iter().find(|series| series.name.starts_with(name)).unwrap().points
 }
 

@@ -36,15 +36,6 @@ pub struct Table {
     pub rows: Vec<Vec<Cell<'static>>>,
 }
 
-/// Returns the line of a CSV file, without its end.
-///
-/// ```
-/// assert_eq!(report::table::line(&["a, b".into(), 0.5.into(), None::<f64>.into()]), "\"a, b\",0.5,");
-/// ```
-pub fn line(cells: &[Cell<'_>]) -> String {
-    cells.iter().map(Cell::field).collect::<Vec<_>>().join(",")
-}
-
 impl Table {
     /// Creates a table without rows.
     pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {

@@ -70,20 +70,20 @@ pub fn picture(records: &[Drawn], damping: f64) -> Picture {
     let mut spectra = Vec::new();
     if records.len() <= MOST {
         for (Drawn { name, history, spectrum, .. }, (color, _)) in records.iter().zip(SERIES) {
-            let line = Series::line(color, 0.9, decimated(history, end(history)));
+            let line = Series::stroke(color, 0.9, decimated(history, end(history)));
             let axes = [Axis::over("time (s)", [0.0, longest]), Axis::new("a (g)")];
             panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });
-            spectra.push(Series { name: name.clone(), ..Series::line(color, 1.6, spectrum.clone()) });
+            spectra.push(Series { name: name.clone(), ..Series::stroke(color, 1.6, spectrum.clone()) });
         }
     } else {
-        spectra.extend(records.iter().map(|record| Series::line(PALE, 0.8, record.spectrum.clone())));
+        spectra.extend(records.iter().map(|record| Series::stroke(PALE, 0.8, record.spectrum.clone())));
         let mut level: Vec<&Drawn> = records.iter().filter(|record| !record.is_vertical).collect();
         let which = if level.is_empty() || level.len() == records.len() { "" } else { "horizontal " };
         if level.is_empty() {
             level.extend(records);
         }
         let name = format!("median of {}", counted(level.len(), &format!("{which}record")));
-        spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(&level)) });
+        spectra.push(Series { name, ..Series::stroke(BLACK, 2.2, median(&level)) });
     }
     let longest = records.iter().map(|record| end(&record.spectrum)).fold(0.0, f64::max);
     let label = format!("Sa (g) at {} % damping", number(100.0 * damping, 6));

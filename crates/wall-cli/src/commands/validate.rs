@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use evidence::validation::{Case, DecayComparison, Push, PushComparison, Test};
-use report::chart::picture;
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use run::model::color;
 
 use crate::output::Console;
@@ -41,7 +40,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         }
     };
     console.print(&text)?;
-    console.picture(arguments.plot.as_ref(), || Ok(picture(&chart)))
+    console.picture(arguments.plot.as_ref(), || Ok(chart.figure_file()))
 }
 
 fn about_push(text: &mut String, push: &Push, comparison: &PushComparison) {
@@ -79,7 +78,7 @@ fn columns(texts: impl Iterator<Item = String>) -> String {
     texts.fold(String::new(), |row, text| format!("{row}{text:>10}"))
 }
 
-fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Chart {
+fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Plot {
     let line = |(k, law): (usize, &evidence::validation::PushedLaw)| {
         let name = if k == 0 { law.name.to_owned() } else { format!("{}, a3 = {:.3}", law.name, law.a3) };
         let series = if k == 0 { Series::dashed } else { Series::line };
@@ -90,7 +89,7 @@ fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Chart {
     series.push(Series::marks("measured", MEASURED, points));
     let top = push.points.iter().map(|[_, force]| *force).fold(comparison.strength, f64::max);
     let (x, y) = (Axis::over("displacement d/t", [-0.02, 1.02]), Axis::over("force P/W", [0.0, 1.1 * top]));
-    Chart::new(title, x, y, series)
+    Plot::titled(title, x, y, series)
 }
 
 fn about_decay(text: &mut String, comparison: &DecayComparison) {
@@ -132,7 +131,7 @@ fn some_row(name: &str, values: impl Iterator<Item = Option<f64>>) -> String {
     row.trim_end().to_owned()
 }
 
-fn decay_chart(title: &str, comparison: &DecayComparison) -> Chart {
+fn decay_chart(title: &str, comparison: &DecayComparison) -> Plot {
     let numbered = |peaks: &[f64]| peaks.iter().enumerate().map(|(k, peak)| (k as f64, *peak)).collect();
     let mut series = Vec::new();
     for (k, model) in comparison.models.iter().enumerate() {
@@ -155,5 +154,5 @@ fn decay_chart(title: &str, comparison: &DecayComparison) -> Chart {
     let first = comparison.peaks.first().copied().unwrap_or_default();
     let (x, y) =
         (Axis::over("peak after the start", [-0.2, last + 0.2]), Axis::over("|d|/t", [0.0, 1.35 * first]));
-    Chart::new(title, x, y, series)
+    Plot::titled(title, x, y, series)
 }

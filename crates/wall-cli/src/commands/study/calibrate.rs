@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use report::{chart, escaped};
+use report::escaped;
+use report::plot::Plot;
 use run::model::damping_models;
 use run::parallel::threads;
 use study::calibration::figure::charts;
@@ -77,7 +78,7 @@ fn help_of_models() -> String {
 }
 
 fn page(title: &str, found: &[Calibration]) -> String {
-    let figures: String = charts(found).iter().map(chart::figure).collect();
+    let figures: String = charts(found).iter().map(Plot::figure).collect();
     let text: String = found.iter().map(table::text).collect();
     template::page(
         include_str!("../../../../study/src/calibration/page.html"),
