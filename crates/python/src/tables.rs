@@ -22,7 +22,7 @@ enum Values {
 }
 
 /// Makes a table for Python: names as lists, the others as arrays of their type.
-pub(crate) fn table<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn table(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
     let mut columns = Columns::default();
     columns.add(table);
     columns.dict(py)
@@ -75,7 +75,7 @@ impl Values {
             (Self::Names(names), Cell::Text(name)) => names.push(name.clone().into_owned()),
             (Self::Names(names), Cell::Empty) => names.push(String::new()),
             (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
-                numbers.push(*number)
+                numbers.push(*number);
             }
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {

@@ -4,7 +4,7 @@
 //! use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names};
 //!
 //! let none = Names { walls: vec![], models: vec![], records: vec![], fractions: &[] };
-//! let columns = [LEVELS, COLLAPSES, FRAGILITIES].map(|kind| kind.new().columns.len());
+//! let columns = [LEVELS, COLLAPSES, FRAGILITIES].map(|kind| kind.empty().columns.len());
 //! assert_eq!(columns, [7, 8, 19]);
 //! ```
 
@@ -33,34 +33,26 @@ pub struct Names<'a> {
 pub struct Kind {
     /// Its name.
     pub name: &'static str,
-    columns: &'static [Named],
+    /// Names of its columns, with their units, separated by commas.
+    columns: &'static str,
     rows: fn(&mut Table, &Names<'_>, usize, &WallResults),
 }
 
-/// The name of a column, and whether it holds words.
-type Named = (&'static str, bool);
-
-const WALL: Named = ("wall", true);
-const MODEL: Named = ("model", true);
-const RECORD: Named = ("record", true);
-
-const fn number(name: &'static str) -> Named {
-    (name, false)
-}
+/// Columns that hold words.
+const WORDS: [&str; 3] = ["wall", "model", "record"];
 
 impl Kind {
     /// Returns the table without rows.
-    pub fn new(self) -> Table {
-        let column = |&(name, is_text): &Named| match is_text {
-            true => Column::text(name, ""),
-            false => Column::number(name, "", Digits::AtMost(6)),
-        };
-        Table::new(self.columns.iter().map(column))
+    pub fn empty(self) -> Table {
+        Table::new(self.columns.split(',').map(|name| Column {
+            is_text: WORDS.contains(&name),
+            ..Column::number(name, "", Digits::AtMost(6))
+        }))
     }
 
     /// Returns the rows of a wall, given its number and its results.
     pub fn of_wall(self, names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
-        let mut table = self.new();
+        let mut table = self.empty();
         (self.rows)(&mut table, names, wall, results);
         table
     }
@@ -69,15 +61,7 @@ impl Kind {
 /// Every run.
 pub const LEVELS: Kind = Kind {
     name: "levels",
-    columns: &[
-        WALL,
-        MODEL,
-        RECORD,
-        number("intensity_g"),
-        number("u_max_over_u_ins"),
-        number("overturned"),
-        number("overturn_time_s"),
-    ],
+    columns: "wall,model,record,intensity_g,u_max_over_u_ins,overturned,overturn_time_s",
     rows: |table, names, wall, results| {
         for (index, curve) in results.all_curves().iter().enumerate() {
             for run in curve.runs() {
@@ -99,16 +83,7 @@ pub const LEVELS: Kind = Kind {
 /// The collapse with every model and record.
 pub const COLLAPSES: Kind = Kind {
     name: "collapses",
-    columns: &[
-        WALL,
-        MODEL,
-        RECORD,
-        number("collapse_g"),
-        number("standing_below_g"),
-        number("highest_level_g"),
-        number("runs"),
-        number("resurrections"),
-    ],
+    columns: "wall,model,record,collapse_g,standing_below_g,highest_level_g,runs,resurrections",
     rows: |table, names, wall, results| {
         for (index, curve) in results.all_curves().iter().enumerate() {
             let [wall, model, record] = names.of_curve(wall, index);
@@ -133,27 +108,9 @@ pub const COLLAPSES: Kind = Kind {
 /// The fragility of every model and limit state.
 pub const FRAGILITIES: Kind = Kind {
     name: "fragilities",
-    columns: &[
-        WALL,
-        MODEL,
-        number("u_max_over_u_ins"),
-        number("records"),
-        number("censored"),
-        number("median_g"),
-        number("median_low_g"),
-        number("median_high_g"),
-        number("theta_g"),
-        number("theta_low_g"),
-        number("theta_high_g"),
-        number("beta"),
-        number("beta_alone"),
-        number("median_ratio"),
-        number("median_ratio_low"),
-        number("median_ratio_high"),
-        number("theta_ratio"),
-        number("theta_ratio_low"),
-        number("theta_ratio_high"),
-    ],
+    columns: "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,median_high_g\
+              ,theta_g,theta_low_g,theta_high_g,beta,beta_alone,median_ratio,median_ratio_low\
+              ,median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high",
     rows: |table, names, wall, results| {
         let interval = |interval: &Interval, unit: f64| interval.bounds(unit).map(Cell::Between);
         for (m, model) in names.models.iter().enumerate() {

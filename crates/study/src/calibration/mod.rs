@@ -12,7 +12,8 @@
 //!
 //! ```
 //! use rocking_wall::{variables::DampingModel, wall::Parameters};
-//! use study::{calibration::{Grid, calibrate}, parallel::threads};
+//! use run::parallel::threads;
+//! use study::calibration::{Grid, calibrate};
 //!
 //! let grid = Grid { restitution: vec![0.85], a1: vec![0.03], ..Grid::default() };
 //! let found = calibrate(&Parameters::default(), DampingModel::ConstantRatio, &grid, threads(None))?;

@@ -1,5 +1,7 @@
 //! Calibrations as tables: the fits, their coefficients, and the laws of these.
 
+use std::fmt::Write;
+
 use report::table::{Column, Digits, Table};
 use run::model::{Label, label};
 
@@ -86,9 +88,9 @@ pub fn text(found: &Calibration) -> String {
     let table = coefficients(std::slice::from_ref(found)).text();
     let mut text = format!("{} ({name}): {symbol} = -x ln e\n{table}", found.model.name());
     for (start, law) in &found.laws {
-        text += &format!("u0 = {start} u_ins: x = {:.4} a1^{:.4}", law.q, law.r);
+        let _ = write!(text, "u0 = {start} u_ins: x = {:.4} a1^{:.4}", law.q, law.r);
         if let Some((.., [q, r])) = REGRESSIONS.iter().find(|(of, ..)| *of == found.model) {
-            text += &format!("   (paper: {q} a1^{r})");
+            let _ = write!(text, "   (paper: {q} a1^{r})");
         }
         text.push('\n');
     }

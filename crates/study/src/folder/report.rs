@@ -133,7 +133,7 @@ impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
         let draft = |kind: Kind| {
             let path = folder.path().join(format!("{}.csv", kind.name));
-            Ok::<_, FolderError>((kind, Draft::new(&path, kind.new().csv().as_bytes())?))
+            Ok::<_, FolderError>((kind, Draft::new(&path, kind.empty().csv().as_bytes())?))
         };
         let Contents { walls, models, records, .. } = folder.contents();
         let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &[FRAGILITIES] };

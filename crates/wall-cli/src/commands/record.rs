@@ -65,10 +65,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
     let files = record_files(&arguments.files)?;
     console.check_distinct(&files, arguments.outputs())?;
-    let sources: Vec<_> = match arguments.motion.synthetic {
-        true => vec![None],
-        false => files.iter().map(|path| Some(path)).collect(),
-    };
+    let sources: Vec<_> =
+        if arguments.motion.synthetic { vec![None] } else { files.iter().map(Some).collect() };
     let mut channels = Vec::new();
     let (mut failures, mut missing) = (Vec::new(), 0);
     for source in sources {
@@ -154,7 +152,10 @@ fn show(
     let mut text = String::new();
     if arguments.files.iter().any(|path| path.is_dir()) {
         text += &listing(channels).text();
-        unread.iter().for_each(|reason| text += &format!("not read  {reason}\n"));
+        for reason in unread {
+            // writing to a String cannot fail
+            let _ = writeln!(text, "not read  {reason}");
+        }
     } else {
         let periods = of.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         let percent = report::number(100.0 * arguments.damping, 6);

@@ -18,7 +18,7 @@ pub(crate) enum Command {
     Merge(ida::MergeArguments),
     /// Rocking spectra: `u_max/u_ins` over walls, or over pulses
     #[command(allow_negative_numbers = true)]
-    Spectrum(spectrum::Arguments),
+    Spectrum(Box<spectrum::Arguments>),
     /// Force of a parapet's tie over the tie's stiffness
     Tie(tie::Arguments),
     /// Match viscous damping to restitution, as section 5 of the paper

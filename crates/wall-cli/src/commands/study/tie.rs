@@ -65,7 +65,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let table = table(&rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     let text = if arguments.json {
-        serde_json::to_string_pretty(&value(&study, table.json()))? + "\n"
+        serde_json::to_string_pretty(&value(&study, &table.json()))? + "\n"
     } else {
         let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
         title(&study) + &table.text() + study.polarities().note() + &written
@@ -101,7 +101,7 @@ fn title(study: &TieStudy) -> String {
     format!("{}, tie at {tie_height} m against {side}, {motions}\n\n", study.scene().title)
 }
 
-fn value(study: &TieStudy, rows: Value) -> Value {
+fn value(study: &TieStudy, rows: &Value) -> Value {
     let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
     json!({
         "title": study.scene().title,
