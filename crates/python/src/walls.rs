@@ -296,8 +296,7 @@ impl Wall {
         py.detach(|| {
             let unit = General::open(&base).and_then(|general| scene_fmu::of_scene(&self.scene, general));
             let unit = unit.map_err(|error| of_file(error, &base))?;
-            study::folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
-                .map_err(refused)?;
+            run::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?).map_err(refused)?;
             Ok(unit.variables)
         })
     }

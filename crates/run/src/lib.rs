@@ -1,11 +1,12 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`walls`] and [`records`] open files.
+//! Nothing here prints. Only [`mod@file`], [`walls`] and [`records`] open files.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`parallel`] | work shared by threads |
+//! | [`mod@file`] | files, written completely or not at all |
 //! | [`random`] | random numbers that are the same on every machine |
 //! | [`bisection`] | the first value at which a condition holds |
 //! | [`sample`] | medians and fractiles |
@@ -29,6 +30,7 @@ pub mod capacity;
 pub mod counterpart;
 pub mod demands;
 pub mod figure;
+pub mod file;
 pub mod free_motion;
 pub mod model;
 pub mod motions;

@@ -9,7 +9,6 @@
 //! | module | holds |
 //! |---|---|
 //! | `error` | errors |
-//! | [`mod@file`] | files, written completely or not at all |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `store` | the folder on disk |
@@ -27,7 +26,6 @@ mod comparison;
 mod compute;
 mod contents;
 mod error;
-pub mod file;
 mod legend;
 mod nrml;
 mod page;

@@ -13,12 +13,12 @@ use crate::tables::{COLLAPSES, FRAGILITIES, Kind, LEVELS, Names};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Column, Digits, Table};
+use run::file::{self, Draft};
 use run::parallel;
 
 use super::comparison::Comparison;
 use super::contents::{Contents, Manifest};
 use super::error::FolderError;
-use super::file::{self, Draft};
 use super::legend;
 use super::page;
 use super::plots::{SIZE, panel};

@@ -11,9 +11,10 @@ use crate::results::WallResults;
 use crate::tables::in_g;
 use ground_motion::STANDARD_GRAVITY;
 
+use run::file::{self, Draft};
+
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::file::{self, Draft};
 use super::nrml;
 use report::table::{Cell, Column, Digits, Table};
 

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use study::folder::file::{behind_links, folder};
+use run::file::{behind_links, folder};
 
 use super::Console;
 

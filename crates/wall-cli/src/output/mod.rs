@@ -22,12 +22,12 @@ pub(crate) fn optional(number: Option<f64>) -> String {
 }
 
 impl Console<'_> {
-    /// Writes a file completely or not at all, see [`study::folder::file::to_file`]; `-` is standard output.
+    /// Writes a file completely or not at all, see [`run::file::to_file`]; `-` is standard output.
     pub(crate) fn write(&self, path: &Path, content: &[u8]) -> Result<()> {
         if path.as_os_str() == distinct::STDOUT {
             return self.bytes(content);
         }
-        Ok(study::folder::file::to_file(path, content)?)
+        Ok(run::file::to_file(path, content)?)
     }
 
     /// Writes a text to the file that an option names, if it is given.

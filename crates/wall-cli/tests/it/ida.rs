@@ -287,11 +287,7 @@ fn other_studies_and_bad_ones_are_refused() {
     fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
     refused(&folder, &["study", "ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
     for command in [&["study", "ida", "study.toml"][..], &["study", "merge", "out"]] {
-        refused(
-            &folder,
-            &[&command[..], &["-o", "-"]].concat(),
-            &["-o -", "a folder of files", "give a folder"],
-        );
+        refused(&folder, &[command, &["-o", "-"]].concat(), &["-o -", "a folder of files", "give a folder"]);
     }
     refused(&folder, &["study", "merge", "records"], &["study.json", "`wall study ida`"]);
     refused(&folder, &["study", "ida", "none.toml"], &["none.toml"]);
