@@ -1,6 +1,6 @@
 //! The run of a building as tables: the peaks of its floors and walls, and all histories.
 
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Growing, Table};
 use run::demands;
 use serde_json::{Value, json};
 
@@ -15,42 +15,28 @@ fn at(Peak { value, time }: Peak, scale: f64, digits: usize) -> String {
 /// Returns the peaks of each floor.
 pub fn floors(building: &Building, run: &Coupled) -> Table {
     let any = Digits::AtMost(6);
-    let mut table = Table::new([
-        Column::text("", "floor"),
-        Column::number("", "acceleration [m/s²]", any),
-        Column::number("", "drift [mm]", any),
-    ]);
-    for (floor, history) in building.floors.iter().zip(&run.floors) {
-        let [a, d] = [at(history.acceleration.peak, 1.0, 3), at(history.drift.peak, 1000.0, 2)];
-        table.row([floor.name.clone().into(), a.into(), d.into()]);
-    }
-    table
+    Table::over(building.floors.iter().zip(&run.floors))
+        .text("", "floor", |(floor, _)| floor.name.clone())
+        .number("", "acceleration [m/s²]", any, |(_, history)| at(history.acceleration.peak, 1.0, 3))
+        .number("", "drift [mm]", any, |(_, history)| at(history.drift.peak, 1000.0, 2))
+        .done()
 }
 
 /// Returns the peaks of each wall, and whether it overturned.
 pub fn walls(building: &Building, parts: &Parts, run: &Coupled) -> Table {
-    let any = Digits::AtMost(6);
-    let mut table = Table::new([
-        Column::text("", "wall"),
-        Column::number("", "u [mm]", any),
-        Column::number("", "u/u_ins", Digits::Decimals(3)),
-        Column::number("", "bottom force [kN]", any),
-        Column::number("", "top force [kN]", any),
-        Column::text("", "overturned"),
-    ]);
-    for ((wall, history), own) in building.walls.iter().zip(&run.walls).zip(&parts.walls) {
-        let (peak, [_, ratio]) = history.reported(own, &run.times);
-        let top = wall.top.map(|_| at(history.reaction_top.peak, 1e-3, 2));
-        table.row([
-            wall.name.clone().into(),
-            at(peak, 1000.0, 1).into(),
-            ratio.into(),
-            at(history.reaction_bottom.peak, 1e-3, 2).into(),
-            top.into(),
-            demands::overturned(history.fate(&run.times), 3).into(),
-        ]);
-    }
-    table
+    let (any, three) = (Digits::AtMost(6), Digits::Decimals(3));
+    let rows = building.walls.iter().zip(&run.walls).zip(&parts.walls);
+    let rows = rows.map(|((wall, history), own)| (wall, history, history.reported(own, &run.times)));
+    Table::over(rows)
+        .text("", "wall", |(wall, ..)| wall.name.clone())
+        .number("", "u [mm]", any, |(.., (peak, _))| at(*peak, 1000.0, 1))
+        .number("", "u/u_ins", three, |(.., (_, [_, ratio]))| *ratio)
+        .number("", "bottom force [kN]", any, |(_, history, _)| at(history.reaction_bottom.peak, 1e-3, 2))
+        .number("", "top force [kN]", any, |(wall, history, _)| {
+            wall.top.map(|_| at(history.reaction_top.peak, 1e-3, 2))
+        })
+        .text("", "overturned", |(_, history, _)| demands::overturned(history.fate(&run.times), 3))
+        .done()
 }
 
 /// Returns all histories: a row for each sample of the record, and on at its step.
@@ -69,16 +55,13 @@ pub fn histories(building: &Building, run: &Coupled) -> Table {
             shown.push((format!("{name}.reaction_top_n"), &history.reaction_top));
         }
     }
-    let (names, shown): (Vec<_>, Vec<_>) = shown.into_iter().unzip();
-    let names = ["time_s".to_owned()].into_iter().chain(names);
-    let mut table = Table::new(names.map(|name| Column::number(name, "", Digits::AtMost(6))));
-    for (row, time) in run.times.iter().enumerate() {
-        // a time is a multiple of the step, but for its rounding
-        let time = (1e9 * time).round() / 1e9;
-        let values = shown.iter().map(|history| history.values[row]);
-        table.row([time].into_iter().chain(values).map(Into::into));
-    }
-    table
+    // a time is a multiple of the step, but for its rounding
+    let time = |row: &usize| (1e9 * run.times[*row]).round() / 1e9;
+    let table = Table::over(0..run.times.len()).value("time_s", time);
+    let add = |table: Growing<usize>, (name, history): (String, &History)| {
+        table.value(name, |row| history.values[*row])
+    };
+    shown.into_iter().fold(table, add).done()
 }
 
 /// Returns the peaks of floors and walls in SI units.

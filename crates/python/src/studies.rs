@@ -16,7 +16,7 @@ use study::folder::{Contents, encode};
 use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
 use study::results::Fitting;
-use study::tables::{COLLAPSES, FRAGILITIES, Kind, LEVELS, Names};
+use study::tables::{KINDS, Kind, Names};
 
 use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
@@ -171,14 +171,15 @@ impl Study {
             records: self.records(),
             fractions: &report.fractions,
         };
-        let of = |kind: Kind| {
+        let of = |(_, of_wall): Kind| {
             let mut columns = Columns::default();
             for (wall, results) in results.iter().enumerate() {
-                columns.add(kind.of_wall(&names, wall, results));
+                columns.add(of_wall(&names, wall, results));
             }
             columns.dict(py)
         };
-        Ok([of(LEVELS)?, of(COLLAPSES)?, of(FRAGILITIES)?])
+        let [levels, collapses, fragilities] = KINDS.map(of);
+        Ok([levels?, collapses?, fragilities?])
     }
 }
 

@@ -23,34 +23,20 @@ pub struct Row {
 /// Returns a row for each motion.
 pub fn table(rows: &[Row]) -> Table {
     let four = Digits::Decimals(4);
-    let mut table = Table::new([
-        Column::text("record", "record"),
-        Column::number("", "sign", four),
-        Column::number("sign", "", four),
-        Column::number("pga_m_s2", "PGA [m/s²]", four),
-        Column::number("u_max_m", "|u| [mm]", Digits::Decimals(2)).shown(1000.0),
-        Column::number("u_ratio_max", "|u|/u_ins", four),
-        Column::number("overturned", "", four),
-        Column::number("overturn_time_s", "", four),
-        Column::number("falls", "", four),
-        Column::text("", "overturned"),
-    ]);
-    for Row { name, sign, peak_acceleration, summary } in rows {
-        table.row([
-            name.clone().into(),
-            (*sign).into(),
-            // one run stands for both signs
-            (if *sign == "-" { "-1" } else { "+1" }).into(),
-            (*peak_acceleration).into(),
-            summary.u_max.into(),
-            summary.u_ratio_max.into(),
-            summary.overturned.into(),
-            summary.overturn_time.into(),
-            summary.fate.falls().into(),
-            demands::overturned(summary.fate, 3).into(),
-        ]);
-    }
-    table
+    let millimetres = Column::number("u_max_m", "|u| [mm]", Digits::Decimals(2)).shown(1000.0);
+    Table::over(rows)
+        .text("record", "record", |row| row.name.clone())
+        .number("", "sign", four, |row| row.sign)
+        // one run stands for both signs
+        .value("sign", |row| if row.sign == "-" { "-1" } else { "+1" })
+        .number("pga_m_s2", "PGA [m/s²]", four, |row| row.peak_acceleration)
+        .column(millimetres, |row| row.summary.u_max)
+        .number("u_ratio_max", "|u|/u_ins", four, |row| row.summary.u_ratio_max)
+        .value("overturned", |row| row.summary.overturned)
+        .value("overturn_time_s", |row| row.summary.overturn_time)
+        .value("falls", |row| row.summary.fate.falls())
+        .text("", "overturned", |row| demands::overturned(row.summary.fate, 3))
+        .done()
 }
 
 /// Returns the rows in SI units, with the names of a summary.

@@ -18,7 +18,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use ground_motion::{CSV_HEADER, Check, GroundMotion, GroundMotionError, Record, STANDARD_GRAVITY, Spectrum};
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Table};
 use serde_json::{Value, json};
 
 /// What is computed of each record.
@@ -122,67 +122,41 @@ pub fn samples(motion: &GroundMotion) -> String {
 /// Returns a row for each channel; `periods` are those of the listed Sa \[s\].
 pub fn table(channels: &[Facts], periods: &[f64]) -> Table {
     let five = Digits::Decimals(5);
-    let mut columns = vec![
-        Column::text("", "file"),
-        Column::text("file", ""),
-        Column::text("channel", ""),
-        Column::text("", "format"),
-        Column::text("format", ""),
-        Column::count("points", "points"),
-        Column::number("step_s", "step [s]", Digits::AtMost(6)),
-        Column::number("duration_s", "length [s]", Digits::Decimals(3)),
-        Column::number("pga_g", "PGA [g]", five),
-        Column::number("average_sa_g", "AvgSA[g]", five),
-    ];
-    let acceleration = |period| Column::number(format!("sa_{period}s_g"), format!("Sa({period} s)"), five);
-    columns.extend(periods.iter().map(acceleration));
-    columns.push(Column::text("findings", ""));
-    let mut table = Table::new(columns);
-    for facts in channels {
-        let Record { motion, format, channel, .. } = &facts.record;
-        let mut row = vec![
-            facts.name().into(),
-            facts.file().into(),
-            channel.clone().into(),
-            format.description().into(),
-            format.name().into(),
-            motion.samples().len().into(),
-            motion.step().into(),
-            motion.duration().into(),
-            facts.peak().into(),
-            facts.average.into(),
-        ];
-        row.extend(facts.accelerations.iter().map(|&acceleration| acceleration.into()));
-        row.push(facts.findings().join(" | ").into());
-        table.row(row);
+    let mut table = Table::over(channels)
+        .text("", "file", |facts| facts.name())
+        .text("file", "", |facts| facts.file())
+        .text("channel", "", |facts| facts.record.channel.clone())
+        .text("", "format", |facts| facts.record.format.description())
+        .text("format", "", |facts| facts.record.format.name())
+        .number("points", "points", five, |facts| facts.record.motion.samples().len())
+        .number("step_s", "step [s]", Digits::AtMost(6), |facts| facts.record.motion.step())
+        .number("duration_s", "length [s]", Digits::Decimals(3), |facts| facts.record.motion.duration())
+        .number("pga_g", "PGA [g]", five, |facts| facts.peak())
+        .number("average_sa_g", "AvgSA[g]", five, |facts| facts.average);
+    for (k, period) in periods.iter().enumerate() {
+        let (name, heading) = (format!("sa_{period}s_g"), format!("Sa({period} s)"));
+        table = table.number(name, heading, five, |facts| facts.accelerations[k]);
     }
-    table
+    table.text("findings", "", |facts| facts.findings().join(" | ")).done()
 }
 
 /// Returns a row for each file: the longest, coarsest and strongest of its channels.
 pub fn listing(channels: &[Facts]) -> Table {
-    let mut table = Table::new([
-        Column::text("", "file"),
-        Column::text("", "format"),
-        Column::count("", "channels"),
-        Column::count("", "points"),
-        Column::number("", "step [s]", Digits::AtMost(6)),
-        Column::number("", "PGA [g]", Digits::Decimals(5)),
-        Column::text("", "findings"),
-    ]);
-    for channels in channels.chunk_by(|a, b| a.path == b.path) {
-        let motions = || channels.iter().map(|facts| &facts.record.motion);
-        table.row([
-            channels[0].file().into(),
-            channels[0].record.format.description().into(),
-            channels.len().into(),
-            motions().map(|motion| motion.samples().len()).max().into(),
-            motions().map(GroundMotion::step).fold(0.0, f64::max).into(),
-            channels.iter().map(Facts::peak).fold(0.0, f64::max).into(),
-            subjects(channels).into(),
-        ]);
-    }
-    table
+    Table::over(channels.chunk_by(|a, b| a.path == b.path))
+        .text("", "file", |channels| channels[0].file())
+        .text("", "format", |channels| channels[0].record.format.description())
+        .number("", "channels", Digits::AtMost(6), |channels| channels.len())
+        .number("", "points", Digits::AtMost(6), |channels| {
+            channels.iter().map(|facts| facts.record.motion.samples().len()).max()
+        })
+        .number("", "step [s]", Digits::AtMost(6), |channels| {
+            channels.iter().map(|facts| facts.record.motion.step()).fold(0.0, f64::max)
+        })
+        .number("", "PGA [g]", Digits::Decimals(5), |channels| {
+            channels.iter().map(Facts::peak).fold(0.0, f64::max)
+        })
+        .text("", "findings", |channels| subjects(channels))
+        .done()
 }
 
 /// The subjects of the findings, each once, with the number of channels where these are several.

@@ -2,84 +2,51 @@
 
 use std::fmt::Write;
 
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Table};
 use run::model::{Label, label};
 
 use super::figure::printed;
-use super::{Calibration, REGRESSIONS};
-
-/// A number as it was given.
-const AS_GIVEN: Digits = Digits::AtMost(15);
+use super::{Calibration, Coefficient, DampingModel, REGRESSIONS};
 
 /// Returns every fit.
 pub fn fits(found: &[Calibration]) -> Table {
-    let mut table = Table::new([
-        Column::text("damping_model", ""),
-        Column::number("a1", "", AS_GIVEN),
-        Column::number("u0_over_u_ins", "", AS_GIVEN),
-        Column::number("restitution", "", AS_GIVEN),
-        Column::number("damping", "", AS_GIVEN),
-        Column::number("error", "", AS_GIVEN),
-        Column::count("samples", ""),
-    ]);
-    for Calibration { model, fits, .. } in found {
-        for fit in fits {
-            table.row([
-                model.name().into(),
-                fit.a1.into(),
-                fit.start.into(),
-                fit.restitution.into(),
-                fit.damping.into(),
-                fit.error.into(),
-                fit.samples.into(),
-            ]);
-        }
-    }
-    table
+    Table::over(found.iter().flat_map(|one| one.fits.iter().map(|fit| (one.model, fit))))
+        .text("damping_model", "", |(model, _)| model.name())
+        .value("a1", |(_, fit)| fit.a1)
+        .value("u0_over_u_ins", |(_, fit)| fit.start)
+        .value("restitution", |(_, fit)| fit.restitution)
+        .value("damping", |(_, fit)| fit.damping)
+        .value("error", |(_, fit)| fit.error)
+        .value("samples", |(_, fit)| fit.samples)
+        .done()
 }
 
 /// Returns x of ξ = −x ln e, Eq. (19), beside what the paper prints.
 pub fn coefficients(found: &[Calibration]) -> Table {
-    let four = Digits::Decimals(4);
-    let mut table = Table::new([
-        Column::text("damping_model", ""),
-        Column::number("a1", "a1", AS_GIVEN),
-        Column::number("u0_over_u_ins", "u0/u_ins", AS_GIVEN),
-        Column::number("x", "x", four),
-        Column::number("x_paper", "paper", four),
-        Column::number("", "deviation", AS_GIVEN),
-    ]);
-    for Calibration { model, coefficients, .. } in found {
-        for coefficient in coefficients {
-            let paper = printed(*model, coefficient.a1);
-            let deviation = paper.map(|paper| format!("{:.1}%", 100.0 * (coefficient.x / paper - 1.0)));
-            table.row([
-                model.name().into(),
-                coefficient.a1.into(),
-                coefficient.start.into(),
-                coefficient.x.into(),
-                paper.into(),
-                deviation.into(),
-            ]);
-        }
-    }
-    table
+    let (given, four) = (Digits::AtMost(15), Digits::Decimals(4));
+    let rows = found.iter().flat_map(|one| one.coefficients.iter().map(|row| (one.model, row)));
+    let paper = |(model, row): &(DampingModel, &Coefficient)| printed(*model, row.a1);
+    let deviation = |row: &(DampingModel, &Coefficient)| {
+        paper(row).map(|paper| format!("{:.1}%", 100.0 * (row.1.x / paper - 1.0)))
+    };
+    Table::over(rows)
+        .text("damping_model", "", |(model, _)| model.name())
+        .number("a1", "a1", given, |(_, row)| row.a1)
+        .number("u0_over_u_ins", "u0/u_ins", given, |(_, row)| row.start)
+        .number("x", "x", four, |(_, row)| row.x)
+        .number("x_paper", "paper", four, paper)
+        .number("", "deviation", given, deviation)
+        .done()
 }
 
 /// Returns q and r of x = q a₁^r, Eqs. (20) to (22).
 pub fn laws(found: &[Calibration]) -> Table {
-    let mut table = Table::new([
-        Column::text("damping_model", ""),
-        Column::number("u0_over_u_ins", "", AS_GIVEN),
-        Column::number("q", "", AS_GIVEN),
-        Column::number("r", "", AS_GIVEN),
-    ]);
-    for Calibration { model, laws, .. } in found {
-        for (start, law) in laws {
-            table.row([model.name().into(), (*start).into(), law.q.into(), law.r.into()]);
-        }
-    }
-    table
+    Table::over(found.iter().flat_map(|one| one.laws.iter().map(|(start, law)| (one.model, start, law))))
+        .text("damping_model", "", |(model, ..)| model.name())
+        .value("u0_over_u_ins", |(_, start, _)| **start)
+        .value("q", |(.., law)| law.q)
+        .value("r", |(.., law)| law.r)
+        .done()
 }
 
 /// Describes a calibration for a terminal: its coefficients and its laws, beside those of the paper.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::fragility::Interval;
 use crate::ida::{Curve, Exceedance};
 use crate::results::{Fitting, WallResults};
-use crate::tables::{COLLAPSES, FRAGILITIES, Kind, LEVELS, Names};
+use crate::tables::{KINDS, Kind, Names};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Column, Digits, Table};
@@ -31,7 +31,6 @@ const MOST_WALLS: usize = 40;
 /// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
 /// in the parts only.
 const MOST_CASES: usize = 10_000;
-const KINDS: [Kind; 3] = [LEVELS, COLLAPSES, FRAGILITIES];
 /// Walls that each thread fits before their rows are written.
 const WALLS_AT_ONCE: usize = 4;
 /// Most fits that a warning names.
@@ -132,11 +131,11 @@ struct Output<'a> {
 impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
         let draft = |kind: Kind| {
-            let path = folder.path().join(format!("{}.csv", kind.name));
-            Ok::<_, FolderError>((kind, Draft::new(&path, kind.empty().csv().as_bytes())?))
+            let path = folder.path().join(format!("{}.csv", kind.0));
+            Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
         let Contents { walls, models, records, .. } = folder.contents();
-        let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &[FRAGILITIES] };
+        let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
@@ -163,8 +162,9 @@ impl<'a> Output<'a> {
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
         for (kind, draft) in &mut self.tables {
-            let rows = kind.of_wall(&self.names, wall, results).csv_rows();
-            draft.write(|file| file.write_all(rows.as_bytes()))?;
+            let table = (kind.1)(&self.names, wall, results);
+            let text = if wall == 0 { table.csv() } else { table.csv_rows() };
+            draft.write(|file| file.write_all(text.as_bytes()))?;
         }
         self.risk.add(wall, results)?;
         if manifest.contents.walls.len() <= MOST_WALLS {

@@ -33,7 +33,7 @@ use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
-use report::table::{Column, Digits, Table};
+use report::table::Table;
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
@@ -78,16 +78,18 @@ impl RockingSpectrum {
     /// Returns a row for each point, row by row.
     pub fn table(&self) -> Table {
         let [column, row] = self.quantities.map(|quantity| quantity.name);
-        let names = [column, row, "u_ratio_max", "rocked", "overturned", "overturn_time_s"];
-        let mut table = Table::new(names.map(|name| Column::number(name, "", Digits::AtMost(6))));
-        for (y, points) in self.rows.iter().zip(&self.points) {
-            for (x, Point { ratio, rocked, overturning }) in self.columns.iter().zip(points) {
-                let overturned = overturning.is_some().into();
-                let [x, y, ratio] = [*x, *y, *ratio].map(Into::into);
-                table.row([x, y, ratio, (*rocked).into(), overturned, (*overturning).into()]);
-            }
-        }
-        table
+        let points =
+            self.rows.iter().zip(&self.points).flat_map(|(y, points)| {
+                self.columns.iter().zip(points).map(move |(x, point)| (*x, *y, *point))
+            });
+        Table::over(points)
+            .value(column, |(x, ..)| *x)
+            .value(row, |(_, y, _)| *y)
+            .value("u_ratio_max", |(.., point)| point.ratio)
+            .value("rocked", |(.., point)| point.rocked)
+            .value("overturned", |(.., point)| point.overturning.is_some())
+            .value("overturn_time_s", |(.., point)| point.overturning)
+            .done()
     }
 }
 

@@ -9,31 +9,22 @@ use super::{Outcome, Row};
 /// them make the wall fall, fall away from the tie, come back from beyond `u_ins`, and reach the strength.
 pub fn table(rows: &[Row]) -> Table {
     let six = Digits::Significant(6);
-    let mut table = Table::new([
-        Column::number("stiffness_n_m", "K [N/m]", six),
-        Column::number("force_median_n", "N median\n[kN]", six).shown(1e-3),
-        Column::number("force_max_n", "N max\n[kN]", six).shown(1e-3),
-        Column::number("u_ratio_median", "u/u_ins\nmedian", six),
-        Column::number("u_ratio_max", "u/u_ins\nmax", six),
-        Column::count("falls", "falls"),
-        Column::count("falls_away_from_tie", "away\nfrom tie"),
-        Column::count("beyond_u_ins_and_back", "beyond u_ins\nand back"),
-        Column::count("strength_reached", "strength\nreached"),
-    ]);
-    for row in rows {
-        let ([force, most], [ratio, largest]) = (row.of(|o| o.force), row.of(|o| o.u_ratio));
-        let count = |is: fn(&Outcome) -> bool| row.outcomes.iter().filter(|outcome| is(outcome)).count();
-        table.row([
-            row.stiffness.into(),
-            force.into(),
-            most.into(),
-            ratio.into(),
-            largest.into(),
-            count(|outcome| outcome.fate.falls()).into(),
-            count(|outcome| outcome.away).into(),
-            count(|outcome| matches!(outcome.fate, Fate::ComesBack { .. })).into(),
-            count(|outcome| outcome.reached).into(),
-        ]);
-    }
-    table
+    let kilonewtons = |name, heading| Column::number(name, heading, six).shown(1e-3);
+    let force = |part| move |row: &&Row| row.of(|outcome| outcome.force)[part];
+    let ratio = |part| move |row: &&Row| row.of(|outcome| outcome.u_ratio)[part];
+    let count = |is: fn(&Outcome) -> bool| {
+        move |row: &&Row| row.outcomes.iter().filter(|outcome| is(outcome)).count()
+    };
+    let comes_back = |outcome: &Outcome| matches!(outcome.fate, Fate::ComesBack { .. });
+    Table::over(rows)
+        .number("stiffness_n_m", "K [N/m]", six, |row| row.stiffness)
+        .column(kilonewtons("force_median_n", "N median\n[kN]"), force(0))
+        .column(kilonewtons("force_max_n", "N max\n[kN]"), force(1))
+        .number("u_ratio_median", "u/u_ins\nmedian", six, ratio(0))
+        .number("u_ratio_max", "u/u_ins\nmax", six, ratio(1))
+        .number("falls", "falls", six, count(|outcome| outcome.fate.falls()))
+        .number("falls_away_from_tie", "away\nfrom tie", six, count(|outcome| outcome.away))
+        .number("beyond_u_ins_and_back", "beyond u_ins\nand back", six, count(comes_back))
+        .number("strength_reached", "strength\nreached", six, count(|outcome| outcome.reached))
+        .done()
 }
