@@ -26,6 +26,7 @@ mod error;
 pub mod figure;
 mod matching;
 mod minimum;
+pub mod page;
 pub mod table;
 
 use std::num::NonZeroUsize;

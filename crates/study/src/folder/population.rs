@@ -6,7 +6,7 @@ use crate::results::WallResults;
 use crate::tables::in_g;
 use report::escaped;
 use report::many_lines::ManyLines;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Cell, Digits, Table};
 use run::sample::fractile;
 
 use super::contents::Manifest;
@@ -89,12 +89,10 @@ impl Population {
         };
         let mut order: Vec<usize> = (0..medians.len()).collect();
         order.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
-        let median = Column::number("", "median (g)", Digits::Decimals(3));
-        let mut weakest = Table::new([Column::text("", "wall"), median]);
-        for &wall in order.iter().take(WEAKEST) {
-            let name = manifest.contents.walls[wall].name.clone();
-            weakest.row([name.into(), known(Some(in_g(medians[wall])))]);
-        }
+        let weakest = Table::over(order.into_iter().take(WEAKEST))
+            .text("", "wall", |wall| manifest.contents.walls[*wall].name.clone())
+            .number("", "median (g)", Digits::Decimals(3), |wall| known(Some(in_g(medians[*wall]))))
+            .done();
         let _ = writeln!(
             html,
             "<section><h2>Walls with the lowest medians of u<sub>max</sub>/u<sub>ins</sub> = {}, {}</h2>\
@@ -109,22 +107,22 @@ impl Population {
     /// Returns the fractiles of the medians over the walls \[g\], by limit states, given by their places, and
     /// models.
     pub(crate) fn fractiles(&self, manifest: &Manifest, places: &[usize]) -> Table {
-        let mut columns =
-            vec![Column::number("", "u_max/u_ins", Digits::AtMost(6)), Column::text("", "model")];
-        let fractile_of = |part| Column::number("", format!("{:.0} %", 100.0 * part), Digits::Decimals(3));
-        columns.extend(FRACTILES.map(fractile_of));
-        columns.push(Column::count("", "above the levels"));
-        let mut table = Table::new(columns);
-        for &place in places {
-            for (model, medians) in manifest.contents.models.iter().zip(&self.medians[place]) {
-                let all = sorted(medians, in_g);
-                let mut row = vec![manifest.report.fractions[place].into(), model.name.clone().into()];
-                row.extend(FRACTILES.map(|part| known(fractile(&all, part))));
-                row.push(all.iter().filter(|median| median.is_infinite()).count().into());
-                table.row(row);
-            }
+        let rows = places.iter().flat_map(|&place| {
+            let models = manifest.contents.models.iter().zip(&self.medians[place]);
+            models.map(move |(model, medians)| (place, model, sorted(medians, in_g)))
+        });
+        let mut table = Table::over(rows)
+            .number("", "u_max/u_ins", Digits::AtMost(6), |(place, ..)| manifest.report.fractions[*place])
+            .text("", "model", |(_, model, _)| model.name.clone());
+        for part in FRACTILES {
+            let heading = format!("{:.0} %", 100.0 * part);
+            table = table.number("", heading, Digits::Decimals(3), |(.., all)| known(fractile(all, part)));
         }
         table
+            .number("", "above the levels", Digits::AtMost(6), |(.., all)| {
+                all.iter().filter(|median| median.is_infinite()).count()
+            })
+            .done()
     }
 }
 

@@ -12,7 +12,7 @@ use crate::results::{Fitting, WallResults};
 use crate::tables::{KINDS, Kind, Names};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Cell, Digits, Table};
 use run::file::{self, Draft};
 use run::parallel;
 
@@ -122,7 +122,7 @@ struct Output<'a> {
     comparison: Comparison,
     panels: Vec<(String, String)>,
     population: Population,
-    summary: Table,
+    summary: Option<Table>,
     contradictions: Vec<String>,
     contradicted: usize,
     resurrected: usize,
@@ -151,7 +151,7 @@ impl<'a> Output<'a> {
             comparison: Comparison::default(),
             panels: Vec::new(),
             population: Population::new(folder.manifest()),
-            summary: summary_table(&folder.manifest().report.reference),
+            summary: None,
             contradictions: Vec::new(),
             contradicted: 0,
             resurrected: 0,
@@ -231,7 +231,7 @@ impl<'a> Output<'a> {
             text.push_str("fractiles: so many of the walls have a lower median\n");
             text.push_str(&self.population.fractiles(manifest, &[collapse]).text());
         } else {
-            text.push_str(&self.summary.text());
+            text.extend(self.summary.as_ref().map(Table::text));
         }
         if self.resurrected > 0 {
             let _ = writeln!(
@@ -249,20 +249,28 @@ impl<'a> Output<'a> {
         let Some(collapse) = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0) else {
             return;
         };
-        for (model, summary) in manifest.contents.models.iter().zip(results.summaries(collapse)) {
-            let [_, low, high] = summary.median.texts(STANDARD_GRAVITY, 3);
-            let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
-            let [ratio, ratio_low, ratio_high] = summary.median_ratio.texts(1.0, 3);
-            self.summary.row([
-                manifest.contents.walls[wall].name.clone().into(),
-                model.name.clone().into(),
-                estimate(&summary.median),
-                format!("{low} … {high}").into(),
-                estimate(&summary.theta),
-                summary.fitted.ok().map(|fit| fit.dispersion).into(),
-                summary.censored.into(),
-                format!("{ratio} ({ratio_low} … {ratio_high})").into(),
-            ]);
+        let three = Digits::Decimals(3);
+        let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
+        let ends = |of: &Interval, unit| {
+            let [_, low, high] = of.texts(unit, 3);
+            format!("{low} … {high}")
+        };
+        let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, 3)[0], ends(of, 1.0));
+        let table = Table::over(manifest.contents.models.iter().zip(results.summaries(collapse)))
+            .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
+            .text("", "model", |(model, _)| model.name.clone())
+            .number("", "median", three, |(_, one)| estimate(&one.median))
+            .number("", "interval", three, |(_, one)| ends(&one.median, STANDARD_GRAVITY))
+            .number("", "theta", three, |(_, one)| estimate(&one.theta))
+            .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
+            .number("", "censored", three, |(_, one)| one.censored)
+            .number("", format!("median/{}", manifest.report.reference), three, |(_, one)| {
+                ratio(&one.median_ratio)
+            })
+            .done();
+        match &mut self.summary {
+            Some(summary) => summary.rows.extend(table.rows),
+            None => self.summary = Some(table),
         }
     }
 
@@ -279,21 +287,6 @@ impl<'a> Output<'a> {
             )
         })
     }
-}
-
-/// The table of the summary, without rows.
-fn summary_table(reference: &str) -> Table {
-    let three = Digits::Decimals(3);
-    Table::new([
-        Column::text("", "wall"),
-        Column::text("", "model"),
-        Column::number("", "median", three),
-        Column::number("", "interval", three),
-        Column::number("", "theta", three),
-        Column::number("", "beta", three),
-        Column::count("", "censored"),
-        Column::number("", format!("median/{reference}"), three),
-    ])
 }
 
 /// Names a wall and model whose limit states contradict a common β, with the β of each.

@@ -16,37 +16,18 @@ use run::file::{self, Draft};
 use super::contents::Manifest;
 use super::error::FolderError;
 use super::nrml;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::Table;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
-
-/// Returns the table without rows; β is the square root of the sum of the squares of those after it.
-fn curves() -> Table {
-    let number = |name| Column::number(name, "", Digits::AtMost(6));
-    Table::new([
-        Column::text("wall", ""),
-        Column::text("geometry", ""),
-        Column::text("model", ""),
-        Column::text("measure", ""),
-        Column::text("unit", ""),
-        Column::text("limit_state", ""),
-        number("u_max_over_u_ins"),
-        number("theta"),
-        number("theta_low"),
-        number("theta_high"),
-        number("beta"),
-        number("beta_records"),
-        number("beta_walls"),
-        number("beta_modelling"),
-    ])
-}
 
 /// The files under construction.
 pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
     states: Vec<(usize, String)>,
     table: Draft,
+    /// Whether the table has its line of names.
+    is_begun: bool,
     xml: Option<(Draft, nrml::Writer)>,
     /// Numbers of the walls of each class.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
@@ -77,7 +58,8 @@ impl<'a> Risk<'a> {
         Ok(Self {
             manifest,
             states: nrml::limit_states(&manifest.report),
-            table: Draft::new(&table, curves().csv().as_bytes())?,
+            table: Draft::new(&table, b"")?,
+            is_begun: false,
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
@@ -140,21 +122,29 @@ impl<'a> Risk<'a> {
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
         let model = &contents.models[model].name;
-        let mut table = curves();
-        for (k, (place, state)) in self.states.iter().enumerate() {
-            let [low, high] = intervals.get(k).copied().unwrap_or([f64::NAN; 2]);
-            let theta = [function.map(|function| in_g(function.medians[k])), Some(low), Some(high)];
-            let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
-            let mut row = [name, geometry, model, &contents.measure, "g", state]
-                .map(str::to_owned)
-                .map(Cell::from)
-                .to_vec();
-            row.push(report.fractions[*place].into());
-            row.extend(theta.map(|theta| theta.filter(|theta| theta.is_finite()).into()));
-            row.extend(betas.map_or([const { Cell::Empty }; 4], |betas| betas.map(Cell::from)));
-            table.row(row);
-        }
-        self.table.write(|file| file.write_all(table.csv_rows().as_bytes()))?;
+        let known = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let end = |k: usize, end: usize| known(intervals.get(k).map(|ends| ends[end]));
+        let theta = |k: usize| known(function.map(|function| in_g(function.medians[k])));
+        let table = Table::over(self.states.iter().enumerate())
+            .text("wall", "", |_| name.to_owned())
+            .text("geometry", "", |_| geometry.to_owned())
+            .text("model", "", |_| model.clone())
+            .text("measure", "", |_| contents.measure.clone())
+            .text("unit", "", |_| "g")
+            .text("limit_state", "", |(_, (_, state))| state.clone())
+            .value("u_max_over_u_ins", |(_, (place, _))| report.fractions[*place])
+            .value("theta", |(k, _)| theta(*k))
+            .value("theta_low", |(k, _)| end(*k, 0))
+            .value("theta_high", |(k, _)| end(*k, 1))
+            // the square root of the sum of the squares of those after it
+            .value("beta", |_| function.map(FragilityFunction::dispersion))
+            .value("beta_records", |_| function.map(|function| function.beta_records))
+            .value("beta_walls", |_| function.map(|function| function.beta_walls))
+            .value("beta_modelling", |_| function.map(|function| function.beta_modelling))
+            .done();
+        let text = if self.is_begun { table.csv_rows() } else { table.csv() };
+        self.is_begun = true;
+        self.table.write(|file| file.write_all(text.as_bytes()))?;
         let Some(function) = function else {
             self.left_out[0] += 1;
             return Ok(());

@@ -1,11 +1,10 @@
 //! Uncertainty of medians and their ratios due to the choice of records.
 
 use super::fit::{FitError, Lognormal, fit_from, open_bounds};
-use super::observation::{Observation, ObservationKind};
+use super::observation::{Observation, ObservationKind, median};
 use report::table::between;
 use run::sample::{fractile, sample_median};
 
-use super::sample::median;
 use crate::ida::Exceedance;
 use run::random::Pcg;
 

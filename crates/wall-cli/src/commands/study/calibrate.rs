@@ -5,16 +5,13 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use report::escaped;
-use report::plot::Plot;
 use run::model::damping_models;
 use run::parallel::threads;
-use study::calibration::figure::charts;
-use study::calibration::{Calibration, Grid, STEP, calibrate, calibrated_models, model_named, table};
+use study::calibration::page::page;
+use study::calibration::{Grid, STEP, calibrate, calibrated_models, model_named, table};
 
 use crate::args::SceneArguments;
 use crate::output::Console;
-use report::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -75,17 +72,4 @@ fn help_of_models() -> String {
     let names: Vec<_> = damping_models().map(|model| format!("`{}`", model.name())).collect();
     let names = names.join(", ");
     format!("Damping models, separated by commas: {names} [default: all that the force law allows]")
-}
-
-fn page(title: &str, found: &[Calibration]) -> String {
-    let figures: String = charts(found).iter().map(Plot::figure).collect();
-    let text: String = found.iter().map(table::text).collect();
-    template::page(
-        include_str!("../../../../study/src/calibration/page.html"),
-        &[
-            ("title", &format!("Calibration: {}", escaped(title))),
-            ("table", &escaped(&text)),
-            ("figures", &figures),
-        ],
-    )
 }
