@@ -14,7 +14,7 @@ use crate::output::{self, Console};
 pub(crate) use arguments::Arguments;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
-    if !arguments.table().is_empty() {
+    if !arguments.listed().is_empty() {
         return records::run(console, arguments);
     }
     let scene = arguments.scene(console)?;

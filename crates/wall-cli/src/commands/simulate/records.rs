@@ -28,7 +28,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         bail!("--html shows one run; give its record with --record, without --both-polarities");
     }
     let scene = arguments.scene.load(console)?;
-    let inputs = arguments.scene.inputs(&scene).chain(arguments.table());
+    let inputs = arguments.scene.inputs(&scene).chain(arguments.listed());
     console.check_distinct(inputs, &arguments.csv)?;
     let motions = read(console, arguments)?;
     let first = motions.first().map(|first| (first.motion.clone(), first.note.clone()));
@@ -78,5 +78,5 @@ fn read(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
         let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };
-    arguments.table().iter().map(shaking).collect()
+    arguments.listed().iter().map(shaking).collect()
 }
