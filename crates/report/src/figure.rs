@@ -13,17 +13,23 @@ const SIZES: [[f64; 2]; 2] = [[460.0, 300.0], [460.0, 400.0]];
 const MARKS: usize = 4;
 
 impl Plot {
-    /// A plot for a [figure](Self::figure), with a title and series that have names.
+    /// A plot for a [figure](Self::figure), with a title and series that have names; an axis is also its label, or its
+    /// label with its range.
     ///
     /// ```
-    /// use report::plot::{Axis, Plot, Series};
+    /// use report::plot::{Plot, Series};
     ///
     /// let series = vec![Series::line("free rocking", 0, vec![(0.0, 1.0), (1.0, 0.5)])];
-    /// let plot = Plot::titled("Decay", Axis::new("t (s)"), Axis::over("u / u_ins", [0.0, 1.0]), series);
+    /// let plot = Plot::titled("Decay", "t (s)", ("u / u_ins", [0.0, 1.0]), series);
     /// assert!(plot.figure().contains("<figcaption>Decay</figcaption><svg"));
     /// ```
-    pub fn titled(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
-        Self { title: title.into(), ..Self::new(SIZES[0], [x, y], series) }
+    pub fn titled(
+        title: impl Into<String>,
+        x: impl Into<Axis>,
+        y: impl Into<Axis>,
+        series: Vec<Series>,
+    ) -> Self {
+        Self { title: title.into(), ..Self::new(SIZES[0], [x.into(), y.into()], series) }
     }
 
     /// Draws a figure element: title, plot, and the legend as text below.

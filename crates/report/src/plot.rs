@@ -50,6 +50,18 @@ impl Axis {
     }
 }
 
+impl From<&str> for Axis {
+    fn from(label: &str) -> Self {
+        Self::new(label)
+    }
+}
+
+impl From<(&str, [f64; 2])> for Axis {
+    fn from((label, range): (&str, [f64; 2])) -> Self {
+        Self::over(label, range)
+    }
+}
+
 /// Points that belong together, and how they look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {

@@ -1,17 +1,13 @@
 //! The commands of `wall`: each reads its arguments, calls the library and reports.
 
-mod accuracy;
 mod building;
 mod check;
 mod describe;
 mod package;
 mod record;
-mod reproduce;
 mod schema;
 mod simulate;
-mod stability;
 mod study;
-mod validate;
 mod verify;
 
 use anyhow::Result;
@@ -49,17 +45,9 @@ enum Command {
     /// Run a study: ida, merge, spectrum, tie or calibrate
     #[command(subcommand)]
     Study(study::Command),
-    /// Measure the error of each solver against its run time
-    #[command(allow_negative_numbers = true)]
-    Accuracy(accuracy::Arguments),
-    /// Map the stability of each solver, and run the extremes
-    Stability(stability::Arguments),
-    /// Compute the paper's tables and figures, compared with print
-    Reproduce(reproduce::Arguments),
-    /// Compare the model with a published test
-    Validate(validate::Arguments),
-    /// Check every formula against a reference of its own
-    Verify(verify::Arguments),
+    /// Is the program right? formulas, tests, paper, accuracy, stability
+    #[command(subcommand)]
+    Verify(verify::Subject),
     /// Print the JSON schema of scenes, studies or buildings
     Schema(schema::Arguments),
     /// Print a completion script for a shell
@@ -78,13 +66,9 @@ impl Arguments {
             Command::Building(arguments) => building::run(console, arguments),
             Command::Describe(arguments) => describe::run(console, arguments),
             Command::Check(arguments) => check::run(console, arguments),
-            Command::Study(command) => study::run(console, command),
-            Command::Accuracy(arguments) => accuracy::run(console, arguments),
-            Command::Stability(arguments) => stability::run(console, arguments),
             Command::Record(arguments) => record::run(console, arguments),
-            Command::Reproduce(arguments) => reproduce::run(console, arguments),
-            Command::Validate(arguments) => validate::run(console, arguments),
-            Command::Verify(arguments) => return verify::run(console, arguments),
+            Command::Study(command) => study::run(console, command),
+            Command::Verify(subject) => return verify::run(console, subject),
             Command::Schema(arguments) => schema::run(console, arguments),
             Command::Completions { shell } => {
                 let mut script = Vec::new();

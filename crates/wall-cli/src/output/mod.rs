@@ -16,11 +16,6 @@ pub(crate) fn significant(value: f64) -> String {
     format!("{:>13}", report::table::significant(value, 6))
 }
 
-/// Writes a number with all its digits, or nothing.
-pub(crate) fn optional(number: Option<f64>) -> String {
-    number.map_or_else(String::new, |number| format!("{number:?}"))
-}
-
 impl Console<'_> {
     /// Writes a file completely or not at all, see [`run::file::to_file`]; `-` is standard output.
     pub(crate) fn write(&self, path: &Path, content: &[u8]) -> Result<()> {
@@ -65,20 +60,6 @@ impl Console<'_> {
 pub(crate) fn written<'a>(label: &str, paths: impl IntoIterator<Item = &'a PathBuf>) -> String {
     let files = paths.into_iter().filter(|path| path.as_os_str() != distinct::STDOUT);
     files.map(|path| [label, &path.display().to_string(), "\n"].concat()).collect()
-}
-
-/// Breaks a text into lines of at most `width` characters, if its words are not longer.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                *line = format!("{line} {word}");
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }
 
 /// Refuses any ending but .svg for a picture that is written as SVG only. Names without an ending, such as
