@@ -13,8 +13,8 @@ const SIZES: [[f64; 2]; 2] = [[460.0, 300.0], [460.0, 400.0]];
 const MARKS: usize = 4;
 
 impl Plot {
-    /// A plot for a [figure](Self::figure), with a title and series that have names; an axis is also its label, or its
-    /// label with its range.
+    /// A plot for a [figure](Self::figure), with a title and series that have names. An axis is also its
+    /// label, or its label with its range.
     ///
     /// ```
     /// use report::plot::{Plot, Series};

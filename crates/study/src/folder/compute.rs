@@ -21,8 +21,8 @@ pub enum ComputeError {
     Folder(#[from] FolderError),
 }
 
-/// Computes some parts of a study, in rising order, and writes each once it is complete. Threads share the combinations of a part.
-/// `done` is called with each combination, its curve and the time that it took.
+/// Computes some parts of a study, in rising order, and writes each once it is complete. Threads share the
+/// combinations of a part. `done` is called with each combination, its curve and the time that it took.
 ///
 /// # Errors
 /// [`ComputeError`] of the first combination that fails.

@@ -198,13 +198,6 @@ const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
     ("step", "stop_time = 1e6\noutput_step = 1e-6\n", &["stop_time", "output_step"]),
 ];
 
-/// A terminal has 24 lines of 80 characters; a line stays for the prompt.
-#[test]
-fn the_first_screen_of_help_fits_a_terminal() {
-    let help = printed(&folder("help"), &["--help"]);
-    assert!(help.lines().count() < 24 && help.lines().all(|line| line.chars().count() <= 80), "{help}");
-}
-
 #[test]
 fn wrong_types_are_told_in_the_words_of_toml() {
     let folder = folder("toml_words");

@@ -158,3 +158,10 @@ fn an_interrupted_study_says_that_it_resumes() {
     assert_eq!(page.matches("CDR: constant damping ratio").count(), 1);
     assert_eq!(page.matches("CR: coefficient of restitution").count(), 1);
 }
+
+/// A terminal has 24 lines of 80 characters.
+#[test]
+fn the_first_screen_of_help_fits_a_terminal() {
+    let help = printed(&folder("help"), &["--help"]);
+    assert!(help.lines().count() < 24 && help.lines().all(|line| line.chars().count() <= 80), "{help}");
+}

@@ -56,7 +56,8 @@ pub(super) fn run(
         return Ok(serde_json::to_string_pretty(&table::json(building, parts, &run))? + "\n");
     }
     let mut text = format!(
-        "{}\n{note}, peak acceleration {:.4} m/s²; step {} ms, at which halving changed peaks by {:.2} %\n\n{}",
+        "{}\n{note}, peak acceleration {:.4} m/s²; step {} ms, at which halving changed peaks by \
+         {:.2} %\n\n{}",
         building.title,
         run.ground.peak.value.abs(),
         report::number(1000.0 * run.step, 4),
