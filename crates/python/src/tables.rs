@@ -34,12 +34,12 @@ impl Columns {
         let Table { columns, rows } = table;
         if self.0.is_empty() {
             let named = |(place, column): (usize, Column)| {
-                let of = |is: fn(&Cell<'_>) -> bool| rows.iter().any(|row| is(&row[place]));
-                let values = if column.is_text {
+                let is = |of: fn(&Cell<'_>) -> bool| rows.iter().map(|row| &row[place]).all(of);
+                let values = if column.is_text || !is(|cell| !matches!(cell, Cell::Text(_))) {
                     Values::Names(Vec::new())
-                } else if of(|cell| matches!(cell, Cell::Count(_))) {
+                } else if !rows.is_empty() && is(|cell| matches!(cell, Cell::Count(_))) {
                     Values::Counts(Vec::new())
-                } else if of(|cell| matches!(cell, Cell::Flag(_))) {
+                } else if !rows.is_empty() && is(|cell| matches!(cell, Cell::Flag(_))) {
                     Values::Flags(Vec::new())
                 } else {
                     Values::Numbers(Vec::new())
