@@ -3,7 +3,7 @@
 use report::palette::{BLUE, DARK_GREY, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::wall::Parameters;
-use run::bisection::begins_at;
+use run::bisection::first_true;
 use serde::Serialize;
 
 use crate::code::{Code, Subject};
@@ -90,7 +90,7 @@ pub struct Found {
 /// Finds the smallest value, or the largest height, with which a wall passes its check.
 ///
 /// ```
-/// use check::code::{Given, Subject, read};
+/// use check::code::{MotionValues, Subject, read};
 /// use check::find::{Sought, find};
 /// use rocking_wall::scene::Place;
 /// use rocking_wall::wall::Parameters;
@@ -102,7 +102,7 @@ pub struct Found {
 /// soil = "B"
 /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
 /// "#;
-/// let code = read(&Place::new("scene.toml", text), Given::default())?.expect("there is a table [check]");
+/// let code = read(&Place::new("scene.toml", text), MotionValues::default())?.expect("there is a table [check]");
 /// let parameters = Parameters::default();
 /// let subject = Subject { title: "", parameters: &parameters, floors: None, is_tried: true };
 /// let found = find(&*code, &subject, Sought::Thickness)?;
@@ -154,7 +154,7 @@ pub fn find(code: &dyn Code, subject: &Subject<'_>, sought: Sought) -> Result<Fo
         return Ok(Found { parameter, value, range, everywhere: !fails_beyond, fails_beyond, curve });
     };
     let bracket = [tries[before].0, tries[first].0];
-    let value = begins_at(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
+    let value = first_true(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
     Ok(Found { parameter, value: Some(value), range, everywhere: false, fails_beyond, curve })
 }
 
@@ -188,10 +188,10 @@ pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
     let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
     let inside = points.into_iter().filter(|point| point.1 <= top).collect();
     let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
-    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
+    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::stroke(BLUE, 2.0, inside))];
     if let Some(value) = found.value {
         let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
-        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
+        let line = Series::stroke(RED, 1.3, vec![(value, 0.0), (value, top)]);
         series.push(named(name, Look::Dashed, line));
     }
     let axes = [

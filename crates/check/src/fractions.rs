@@ -312,11 +312,11 @@ pub fn over_demand(demand: &CapacityOverDemand) -> Plot {
     let ray = |factor: f64| (1000.0 * factor * d_s, factor * a_s);
     let longest = (right / d_s).min(top / a_s);
     let capacity = 1000.0 * demand.capacity_displacement;
-    let dashed = |points| Series { look: Look::Dashed, ..Series::line(DARK_GREY, 1.3, points) };
+    let dashed = |points| Series { look: Look::Dashed, ..Series::stroke(DARK_GREY, 1.3, points) };
     let secant = format!("secant, T = {:.3} s", demand.period);
     let series = vec![
-        named("demand", Series::line(RED, 1.6, within(&demand.spectrum))),
-        named("capacity curve", Series::line(BLUE, 2.0, within(&demand.capacity))),
+        named("demand", Series::stroke(RED, 1.6, within(&demand.spectrum))),
+        named("capacity curve", Series::stroke(BLUE, 2.0, within(&demand.capacity))),
         named(&secant, dashed(vec![(0.0, 0.0), ray(longest)])),
         named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
     ];

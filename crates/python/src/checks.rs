@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::arrays::{self, motion};
 use crate::errors::{of_scene, refused};
-use crate::tables::{columns_of, table};
+use crate::tables;
 use crate::walls::Wall;
 
 /// Checks a wall by the table `[check]` in a text, with records by their names; returns the verdict as JSON,
@@ -20,10 +20,10 @@ pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
     text: String,
-    records: Vec<(String, arrays::Given<'py>)>,
+    records: Vec<(String, arrays::MotionValues<'py>)>,
 ) -> PyResult<(String, Bound<'py, PyDict>, String)> {
     let record =
-        |(name, given): (String, arrays::Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+        |(name, given): (String, arrays::MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
     let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
     let checked = py.detach(|| {
         let place = Place::new("check", &text);
@@ -51,5 +51,5 @@ pub(crate) fn check_wall<'py>(
         "values": verdict.values,
         "warnings": verdict.warnings,
     });
-    Ok((values.to_string(), table(py, columns_of(&verdict.rows))?, plot.picture().svg()))
+    Ok((values.to_string(), tables::table(py, verdict.rows)?, plot.picture().svg()))
 }
