@@ -132,6 +132,9 @@ impl Arguments {
         let mut scene = Scene::parse(name, place.text(), folder)?;
         self.scene.apply(&mut scene)?;
         let located = |error: CheckError| in_table(error, place);
+        let outputs = || self.plot.iter().chain(&self.report);
+        let inputs = record_files(&self.fractions.records)?;
+        console.check_distinct(self.scene.inputs(&scene).chain(&inputs), outputs())?;
         let code = match read(place, Given { folder, records: Vec::new() }).map_err(located)? {
             Some(code) => {
                 self.fractions.refuse(name)?;
@@ -140,9 +143,7 @@ impl Arguments {
             None => self.fractions.code(console).with_context(|| name.to_owned())?,
         };
         code.warnings().iter().for_each(|warning| console.warn(warning));
-        let records = record_files(&self.fractions.records)?;
-        let inputs = self.scene.inputs(&scene).chain(code.files()).chain(&records);
-        console.check_distinct(inputs, self.plot.iter().chain(&self.report))?;
+        console.check_distinct(code.files(), outputs())?;
         let subject = Subject::from(&scene);
         if let Some(sought) = self.find {
             let found = find(&*code, &subject, sought).map_err(located)?;
