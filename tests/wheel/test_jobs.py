@@ -196,7 +196,7 @@ def test_a_spectrum_over_walls(program, tmp_path, axes):
     rows = "ratios" if axes == "heights" else "angles"
     given = {"heights": "1:4:4", "radii": "1:4:4", "ratios": "5:15:3", "angles": "0.05:0.15:3"}
     options = [word for name in (axes, rows) for word in (f"--{name}", given[name])]
-    program("spectrum", *ARGUMENTS, "--record", path, "--unit", "m/s2", "--csv", out, *options)
+    program("study", "spectrum", *ARGUMENTS, "--record", path, "--unit", "m/s2", "--csv", out, *options)
     sizes = [1.0, 2.0, 3.0, 4.0]
     values = {"heights": sizes, "radii": sizes, "ratios": [5.0, 10.0, 15.0], "angles": [0.05, 0.1, 0.15]}
     record = rw.read_record(path, unit="m/s2")
@@ -211,7 +211,7 @@ def test_a_spectrum_over_walls(program, tmp_path, axes):
 def test_a_spectrum_over_pulses(program, tmp_path):
     out = tmp_path / "spectrum.csv"
     options = ["--frequency-ratios", "1:9:9", "--amplitude-ratios", "1:6:6"]
-    program("spectrum", *ARGUMENTS, "--pulse", "sine_cycle", "--csv", out, *options)
+    program("study", "spectrum", *ARGUMENTS, "--pulse", "sine_cycle", "--csv", out, *options)
     found = rw.Wall(**SET).pulse_spectrum(
         "sine_cycle", frequency_ratios=range(1, 10), amplitude_ratios=range(1, 7)
     )
@@ -236,7 +236,7 @@ def test_a_spectrum_of_a_scene_and_its_refusals(record):
 def test_a_calibration(program, tmp_path):
     out = tmp_path / "fits.csv"
     grid = ["--restitution", "0.85,0.9", "--a1", "0.02,0.04", "--start", "0.8,0.9"]
-    program("calibrate", *ARGUMENTS, *grid, "--csv", out)
+    program("study", "calibrate", *ARGUMENTS, *grid, "--csv", out)
     found = rw.Wall(**SET).calibrate(restitution=[0.85, 0.9], a1=[0.02, 0.04], start=[0.8, 0.9])
     assert_table(found.fits, out)
     assert found.fits["samples"].dtype.kind == "i" and len(found.coefficients["x"]) == 3 * 2 * 2
@@ -274,7 +274,7 @@ def test_a_tie(program, tmp_path, both):
     paths, out = records(program, tmp_path, 3), tmp_path / "tie.csv"
     arguments = [word for name, value in TIED.items() for word in ("--set", f"{name}={value}")]
     arguments += ["--unit", "m/s2", "--scale", "1.5", "--stiffness", "0,1e4,1e6"]
-    program("tie", *arguments, "--records", *paths, "--csv", out, *["--both-polarities"] * both)
+    program("study", "tie", *arguments, "--records", *paths, "--csv", out, *["--both-polarities"] * both)
     motions = [rw.read_record(path, unit="m/s2") for path in paths]
     wall = rw.Wall(**TIED)
     found = wall.tie(motions, stiffness=[1e6, 0, 1e4], scale=1.5, both_polarities=both)
@@ -455,7 +455,7 @@ def test_a_study_without_a_file_is_sent(program, tmp_path, record):
     assert study.walls == ["1"] and study.records == ["one"]
     assert pickle.loads(pickle.dumps(study))._native.part(0) == study._native.part(0)
     path = tmp_path / "motion.csv"
-    program("motion", "--synthetic", "--csv", path)
+    program("record", "--synthetic", "--samples", path)
     read = rw.Study(walls=wall, records=path, **options)
     assert read.records == ["motion.csv"] and read._native.sent()[2][0][1] == record.dt
 

@@ -12,7 +12,8 @@
 //! SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
 //! "#;
 //! let code = read(&CheckFile::parse("scene.toml", text)?)?;
-//! let verdict = code.check(Subject { parameters: &Parameters::default(), floors: None })?;
+//! let parameters = Parameters::default();
+//! let verdict = code.check(Subject { parameters: &parameters, floors: None })?;
 //! assert!(!verdict.passed && (verdict.zeta - 0.855812).abs() < 5e-7);
 //! assert_eq!(verdict.headline(), "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -3,7 +3,7 @@
 use report::palette::{BLUE, DARK_GREY, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::wall::Parameters;
-use run::bisection::begins_at;
+use run::bisection::first_true;
 use serde_json::{Value, json};
 
 use crate::code::{Code, Subject};
@@ -137,9 +137,9 @@ impl Found {
         // far beyond the demand nothing is to be seen
         let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
         let inside = points.into_iter().filter(|point| point.1 <= top).collect();
-        let mut series = vec![Series { name: symbol.clone(), ..Series::line(BLUE, 2.0, inside) }];
+        let mut series = vec![Series { name: symbol.clone(), ..Series::stroke(BLUE, 2.0, inside) }];
         if let Some(value) = self.value {
-            let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
+            let line = Series::stroke(RED, 1.3, vec![(value, 0.0), (value, top)]);
             let name = format!("{name} = {value:.4} {unit}");
             series.push(Series { look: Look::Dashed, name, ..line });
         }
@@ -219,6 +219,6 @@ pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Fou
         return Ok(Found { value, everywhere: !fails_beyond, fails_beyond, ..none });
     };
     let bracket = [tries[before].0, tries[first].0];
-    let value = begins_at(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
+    let value = first_true(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
     Ok(Found { value: Some(value), fails_beyond, ..none })
 }

@@ -3,12 +3,11 @@
 use check::{CheckError, CheckFile, Subject, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::table::{Cell, Table};
 use run::records::NamedRecord;
 
-use crate::arrays::{Given, motion};
+use crate::arrays::{MotionValues, motion};
 use crate::errors::{of_scene, refused};
-use crate::tables::{Column, table};
+use crate::tables::table;
 use crate::walls::Wall;
 
 /// Checks a wall by the table `[check]` in a text, with records by their names; returns the fields of a verdict.
@@ -17,9 +16,10 @@ pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
     text: String,
-    records: Vec<(String, Given<'_>)>,
+    records: Vec<(String, MotionValues<'_>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+    let record =
+        |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
     let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
     let subject = Subject::from(&wall.scene);
     let checked = py.detach(|| {
@@ -52,19 +52,8 @@ pub(crate) fn check_wall<'py>(
     fields.set_item("governs", governs)?;
     fields.set_item("side", side)?;
     fields.set_item("zeta", zeta)?;
-    fields.set_item("table", of_rows(py, &rows)?)?;
+    fields.set_item("table", table(py, rows)?)?;
     fields.set_item("notes", notes)?;
     fields.set_item("warnings", warnings)?;
     Ok(fields)
-}
-
-/// Makes the columns of a table that has rows.
-fn of_rows<'py>(py: Python<'py>, rows: &Table) -> PyResult<Bound<'py, PyDict>> {
-    let columns = rows.columns.iter().enumerate().filter(|(_, column)| !column.name.is_empty());
-    let columns = columns.map(|(place, column)| {
-        let mut values = Column::of(rows.rows.first().map_or(&Cell::Empty, |row| &row[place]));
-        rows.rows.iter().for_each(|row| values.push(&row[place]));
-        (column.name.clone(), values)
-    });
-    table(py, columns)
 }

@@ -41,7 +41,8 @@ impl Statement {
     /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
     /// "#;
     /// let statement = Statement::read(&CheckFile::parse("scene.toml", text)?)?;
-    /// let checked = statement.checked(Subject { parameters: &Parameters::default(), floors: None })?;
+    /// let parameters = Parameters::default();
+    /// let checked = statement.checked(Subject { parameters: &parameters, floors: None })?;
     /// assert!(!checked.outcome.passed && (checked.outcome.governs.zeta - 0.855812).abs() < 5e-7);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

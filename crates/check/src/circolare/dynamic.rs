@@ -17,7 +17,7 @@ use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, 
 use super::{G, LimitState};
 use crate::error::CheckError;
 use crate::records::Records;
-use run::bisection::begins_at;
+use run::bisection::first_true;
 use run::shaking::Shaking;
 
 /// Ratio of factors that follow each other. A failure between two factors at which the wall passes is not
@@ -222,7 +222,7 @@ impl Runs<'_> {
             let levels: Vec<f64> = powers.iter().map(|power| RATIO.powi(*power)).collect();
             for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
                 if !thresholds.judge(&maxima).passed() {
-                    return begins_at([below, *level], HALVINGS, fails);
+                    return first_true([below, *level], HALVINGS, fails);
                 }
                 below = *level;
             }

@@ -60,13 +60,14 @@ pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<P
         lines.push((color(*state), points));
         if let Some(period) = period {
             let place = vec![at(*period)?];
-            marks.push(Series { look: Look::Marks(DEMAND), ..Series::line(color(*state), 5.0, place) });
+            marks.push(Series { look: Look::Marks(DEMAND), ..Series::stroke(color(*state), 5.0, place) });
         }
     }
     let axes = [Axis::over("T (s)", [0.0, last]), Axis::over(label, [0.0, 1.08 * top])];
     let [width, height] = SIZE;
     let scale = [width / last, height / top];
-    let lines = lines.into_iter().map(|(color, points)| Series::line(color, 1.8, simplified(&points, scale)));
+    let lines =
+        lines.into_iter().map(|(color, points)| Series::stroke(color, 1.8, simplified(&points, scale)));
     Ok(Plot::new(SIZE, axes, lines.chain(marks).collect()))
 }
 
@@ -107,15 +108,15 @@ pub(super) fn over_demand(
         };
         let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
         for piece in within(&points, [[0.0, right], [0.0, top]]) {
-            series.push(Series::line(color, 1.3, simplified(&piece, scale)));
+            series.push(Series::stroke(color, 1.3, simplified(&piece, scale)));
         }
-        let ray = |look, to| Series { look, ..Series::line(color, 1.2, vec![(0.0, 0.0), to]) };
+        let ray = |look, to| Series { look, ..Series::stroke(color, 1.2, vec![(0.0, 0.0), to]) };
         series.push(ray(Look::Dashed, (check.d, check.a)));
         series.push(ray(Look::Dotted, place(&check)));
-        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::line(color, 5.0, vec![at]) };
+        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::stroke(color, 5.0, vec![at]) };
         marks.extend([mark(CAPACITY, (check.d, check.a)), mark(DEMAND, place(&check))]);
     }
-    series.push(Series::line(BLACK, 2.2, side.corners.clone()));
+    series.push(Series::stroke(BLACK, 2.2, side.corners.clone()));
     series.extend(marks);
     let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
     for line in &mut series {

@@ -33,11 +33,11 @@ pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<F
     let longest = (right / d_s).min(top / a_s);
     let capacity = 1000.0 * side.displacement_capacity;
     let named = |name: &str, line: Series| Series { name: name.to_owned(), ..line };
-    let dashed = |points| Series { look: Look::Dashed, ..Series::line(DARK_GREY, 1.3, points) };
+    let dashed = |points| Series { look: Look::Dashed, ..Series::stroke(DARK_GREY, 1.3, points) };
     let secant = format!("secant, T = {:.3} s", side.secant_period);
     let series = vec![
-        named("demand", Series::line(RED, 1.6, within(&spectrum))),
-        named("capacity curve", Series::line(BLUE, 2.0, within(&curve))),
+        named("demand", Series::stroke(RED, 1.6, within(&spectrum))),
+        named("capacity curve", Series::stroke(BLUE, 2.0, within(&curve))),
         named(&secant, dashed(vec![(0.0, 0.0), (1000.0 * longest * d_s, longest * a_s)])),
         named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
     ];

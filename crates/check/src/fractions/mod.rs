@@ -136,7 +136,8 @@ impl Statement {
 
     /// Reads the spectrum of a file.
     fn read_spectrum(&mut self, path: PathBuf, table: &FractionsTable) -> Result<(), CheckError> {
-        let read = SpectrumFile::read(&path, table.unit, table.column.as_deref())?;
+        let read = SpectrumFile::read(&path, table.unit, table.column.as_deref())
+            .map_err(|error| CheckError::value(&["spectrum"], error.to_string()))?;
         let name = path.display();
         self.records.warnings.extend(read.warning().map(|warning| format!("{name}: {warning}")));
         if let Some(stated) = read.damping {

@@ -14,8 +14,7 @@ _Motions = tuple[_Given, _Given | None]
 _WallValues = tuple[str, list[tuple[str, str]], float | None, _Motions | None, list[str]]
 _Values = tuple[str, list[tuple[str, str]], list[tuple[str, float, _Numbers]]]
 
-_Map = NDArray[np.float64]
-_Spectrum = tuple[_Numbers, _Numbers, _Map, NDArray[np.bool_], _Map]
+_Spectrum = tuple[_Numbers, _Numbers, _Columns]
 
 VERSION: Final[str]
 
@@ -92,7 +91,7 @@ def scaled_to(given: _Given, pga: float) -> _Motion: ...
 def trimmed(given: _Given, start: float, end: float) -> _Motion: ...
 def spectrum(given: _Given, periods: ArrayLike, damping: float, at_samples: bool) -> _Numbers: ...
 def average_sa(given: _Given, periods: ArrayLike, damping: float, at_samples: bool) -> float: ...
-def picture(given: _Given, periods: ArrayLike, name: str) -> str: ...
+def picture(given: _Given, name: str) -> str: ...
 def picture_of_building(
     time: list[float], ground: list[float], accelerations: list[list[float]], u_ratios: list[list[float]]
 ) -> str: ...
@@ -109,11 +108,11 @@ def spectrum_over_pulses(
     wall: Wall, form: str, columns: ArrayLike, rows: ArrayLike, threads: int | None
 ) -> _Spectrum: ...
 def picture_of_spectrum(
+    names: tuple[str, str],
     columns: list[float],
     rows: list[float],
-    points: list[list[tuple[float, bool, float]]],
+    points: list[tuple[float, bool, float]],
     title: str,
-    labels: tuple[str, str],
 ) -> str: ...
 def tie_of_wall(
     wall: Wall,

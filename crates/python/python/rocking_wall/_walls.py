@@ -306,8 +306,7 @@ class Wall(Given, Calculated):
             (angles is not None, slendernesses),
             threads,
         )
-        column = "height_m" if radii is None else "semi_diagonal_m"
-        return RockingSpectrum(column, "slenderness" if angles is None else "angle_rad", *values)
+        return RockingSpectrum(values[0], values[1], Table(values[2]))
 
     def pulse_spectrum(
         self,
@@ -331,7 +330,7 @@ class Wall(Given, Calculated):
         columns = PULSES if frequency_ratios is None else frequency_ratios
         rows = PULSES if amplitude_ratios is None else amplitude_ratios
         values = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
-        return RockingSpectrum("frequency_ratio", "amplitude_ratio", *values)
+        return RockingSpectrum(values[0], values[1], Table(values[2]))
 
     def tie(
         self,

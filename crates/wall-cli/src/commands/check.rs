@@ -63,7 +63,14 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         .context(name.clone())?;
     let mut scene = Scene::parse(&name, &text, file.folder())?;
     arguments.scene.apply(&mut scene)?;
-    one(console, arguments, &file, &*code()?, &scene)
+    let Arguments { plot, csv, report, .. } = arguments;
+    let outputs = || plot.iter().chain(csv).chain(report);
+    // before records are read, and after
+    console.check_distinct(arguments.scene.inputs(&scene), outputs())?;
+    let code = code()?;
+    console.check_distinct(&code.records().files, outputs())?;
+    code.records().warnings.iter().for_each(|warning| console.warn(warning));
+    one(console, arguments, &file, &*code, &scene)
 }
 
 /// Checks the wall of a scene.
@@ -75,30 +82,26 @@ fn one(
     scene: &Scene,
 ) -> Result<()> {
     let Arguments { plot, csv, report, .. } = arguments;
-    let records = code.records();
-    records.warnings.iter().for_each(|warning| console.warn(warning));
-    let outputs = plot.iter().chain(csv).chain(report);
-    console.check_distinct(arguments.scene.inputs(scene).chain(&records.files), outputs)?;
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
         let found = find(code, scene.into(), sought).map_err(|error| file.located(error))?;
         console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
-        return console.print(&if arguments.json {
-            serde_json::to_string_pretty(&found.json())? + "\n"
-        } else {
-            found.text() + &written("written  ", plot)
-        });
+        if arguments.json {
+            return console.json(&found.json());
+        }
+        return console.print(&(found.text() + &written("written  ", plot)));
     }
     let verdict = code.check(scene.into()).map_err(|error| file.located(error))?;
     if let Some(path) = report {
         let date = arguments.date.as_deref();
-        let origin = Origin { title: &scene.title, file, set: &arguments.scene.set, records, date };
+        let origin =
+            Origin { title: &scene.title, file, set: &arguments.scene.set, records: code.records(), date };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
     console.save(csv.as_ref(), || verdict.table().csv())?;
     if arguments.json {
-        return console.print(&(serde_json::to_string_pretty(&verdict.json())? + "\n"));
+        return console.json(&verdict.json());
     }
     verdict.warnings.iter().for_each(|warning| console.warn(warning));
     console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
@@ -113,15 +116,13 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>, cod
     let verdicts = check_walls(code, &walls, parallel::threads(None).get());
     console.save(csv.as_ref(), || verdicts.table().csv())?;
     console.save(html.as_ref(), || verdicts.page(file.name()))?;
-    if !arguments.json {
-        console.report_all(verdicts.warnings());
-    }
     warnings.iter().chain(&code.records().warnings).for_each(|warning| console.warn(warning));
-    console.print(&if arguments.json {
-        serde_json::to_string_pretty(&verdicts.json())? + "\n"
+    if arguments.json {
+        console.json(&verdicts.json())?;
     } else {
-        verdicts.table().text() + &written("written  ", csv.iter().chain(html))
-    })?;
+        console.report_all(verdicts.warnings());
+        console.print(&(verdicts.table().text() + &written("written  ", csv.iter().chain(html))))?;
+    }
     match verdicts.refused() {
         0 => Ok(()),
         refused => {

@@ -1,4 +1,4 @@
-//! `wall check` and `wall tie`.
+//! `wall check` and `wall study tie`.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -105,6 +105,24 @@ fn a_check_refuses_what_it_cannot_use() {
     refused(&folder, &["check"], &["there is no file", "[check]", "code = \"circolare-2019\""]);
 }
 
+#[test]
+fn a_check_reads_the_records_of_a_folder() {
+    let folder = folder("check_folder");
+    std::fs::create_dir(folder.join("records")).unwrap();
+    succeed(&folder, &["record", "--synthetic", "--samples", "records/a.csv"]);
+    let record = content(&folder, "records/a.csv");
+    std::fs::write(folder.join("records/b.csv"), &record).unwrap();
+    let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
+    std::fs::write(folder.join("records/c.csv"), vertical).unwrap();
+    of_fractions(&folder, "records = { files = [\"records\"] }");
+    let output = succeed(&folder, &["check", "scene.toml", "--json"]);
+    assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
+    assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
+    let over = ["check", "scene.toml", "--report", "records/a.csv"];
+    refused(&folder, &over, &["the input records/a.csv"]);
+    refused(&folder, &["check", "scene.toml", "--csv", "scene.toml"], &["the input scene.toml"]);
+}
+
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
 #[test]
 fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
@@ -167,7 +185,7 @@ fn ties_of_several_stiffnesses() {
     let (folder, scene) = (folder("ties"), crate::root().join("scenes/shaken_parapet.toml"));
     let scene = scene.to_str().unwrap();
     let stiffness = ["--stiffness", "1e7,0,1e5", "--set", "tie_height=3", "--set", "tie_side=both"];
-    let value = json(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat());
+    let value = json(&folder, &[&["study", "tie", scene, "--json"], &stiffness[..]].concat());
     let column = |name: &str| -> Vec<f64> {
         value["rows"].as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
     };
@@ -175,7 +193,7 @@ fn ties_of_several_stiffnesses() {
     let (force, u) = (column("force_max_n"), column("u_ratio_max"));
     assert!(force[0] == 0.0 && force[1] > 0.0 && force[2] > 0.0, "{force:?}");
     assert!(u[0] > u[1] && u[1] > u[2], "{u:?}");
-    refused(&folder, &["tie", scene], &["tie_height"]);
+    refused(&folder, &["study", "tie", scene], &["tie_height"]);
 }
 
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.

@@ -1,0 +1,71 @@
+//! What every code has: an entry, its rule in the manual, and a verdict from its example.
+
+use check::{CODES, CheckFile, Ends, Origin, Sought, check_walls, find, page, read};
+use rocking_wall::scene::Scene;
+use run::walls::NamedWall;
+
+fn source(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// A module with an `ENTRY` is one of the codes.
+#[test]
+fn every_module_of_a_code_is_listed() {
+    let list = source("src/code.rs");
+    for file in std::fs::read_dir(format!("{}/src", env!("CARGO_MANIFEST_DIR"))).unwrap() {
+        let path = file.unwrap().path();
+        let module = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let face = if path.is_dir() { path.join("mod.rs") } else { path };
+        if std::fs::read_to_string(face).unwrap().contains("pub const ENTRY: Entry") {
+            assert!(list.contains(&format!("{module}::ENTRY")), "CODES lacks {module}::ENTRY");
+        }
+    }
+}
+
+/// The manual names every code and its keys, as far as the example has them.
+#[test]
+fn every_code_is_documented() {
+    let manual = source("../../docs/model.md");
+    for code in CODES {
+        assert!(manual.contains(&format!("`\"{}\"`", code.name)), "docs/model.md lacks {:?}", code.name);
+        let example: toml::Table = code.example.parse().unwrap();
+        for key in example["check"].as_table().unwrap().keys() {
+            assert!(manual.contains(&format!("`{key}`")), "docs/model.md lacks `{key}` of {}", code.name);
+        }
+    }
+}
+
+/// The example of each code gives rows, numbers, a picture, a report, a search and a table of walls.
+#[test]
+fn every_code_gives_all_of_a_verdict() {
+    for code in CODES {
+        let name = code.name;
+        let scene = Scene::parse("scene.toml", code.example, ".".as_ref()).unwrap();
+        let file = CheckFile::parse("scene.toml", code.example).unwrap();
+        let stated = read(&file).unwrap();
+        let verdict = stated.check((&scene).into()).unwrap();
+        assert_eq!((verdict.json()["code"].as_str(), stated.entry().name), (Some(name), name));
+        assert_eq!(verdict.json()["passed"], verdict.passed, "{name}");
+        let governing = verdict.rows.iter().filter(|row| row.decides).map(|row| row.zeta);
+        assert_eq!(governing.fold(f64::INFINITY, f64::min), verdict.zeta, "{name}");
+        for row in &verdict.rows {
+            let (Ends::Accelerations([capacity, demand]) | Ends::Displacements([capacity, demand])) =
+                row.ends;
+            assert!((capacity / demand / row.zeta - 1.0).abs() < 1e-12, "{name}: {row:?}");
+        }
+        let text = verdict.text("a wall");
+        assert!(text.starts_with(&format!("a wall\n{}\n\ncheck", verdict.headline())), "{text}");
+        let records = stated.records();
+        let origin = Origin { title: "a wall", file: &file, set: &[], records, date: None };
+        let page = page(&verdict, &origin).unwrap();
+        for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {
+            assert!(page.contains(part), "{name}: the report lacks {part}");
+        }
+        let found = find(&*stated, (&scene).into(), Sought::Thickness).unwrap();
+        assert!(found.plot().svg().starts_with("<svg") && found.text().ends_with('\n'), "{name}");
+        let walls = [NamedWall::new("one", scene.parameters.clone())];
+        let table = check_walls(&*stated, &walls, 1).table();
+        let shown = table.columns.iter().filter(|column| code.checks.contains(&&*column.heading)).count();
+        assert_eq!(shown, code.checks.len(), "{name}");
+    }
+}
