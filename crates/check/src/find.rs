@@ -99,7 +99,7 @@ impl Found {
         let [from, to] = self.range.map(|end| format!("{end:.4}"));
         let (extreme, beyond) =
             if self.sought == Sought::Height { ("largest", "smaller") } else { ("smallest", "larger") };
-        let mut text = match self.value {
+        let text = match self.value {
             None if self.sought.is_of_tie() => format!(
                 "no {name} from {from} to {to} {unit} passes; a side without a tie may govern: see tie_side\n"
             ),
@@ -107,10 +107,8 @@ impl Found {
             Some(_) if self.everywhere => format!("every {name} from {from} to {to} {unit} passes\n"),
             Some(value) => format!("{extreme} {name} that passes: {value:.6} {unit}\n"),
         };
-        if self.fails_beyond {
-            text += &format!("some {beyond} values fail; look at the chart (--plot)\n");
-        }
-        text
+        let look = format!("some {beyond} values fail; look at the chart (--plot)\n");
+        text + if self.fails_beyond { &look } else { "" }
     }
 
     /// What was found, by names.

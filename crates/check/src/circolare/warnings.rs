@@ -29,7 +29,7 @@ pub(super) fn of_statement(
         }
         below = Some((given.state, given.ag));
     }
-    let on_ground = floors.is_none() && !statement.table.building.is_some();
+    let on_ground = floors.is_none() && statement.table.building.is_none();
     for given in statement.states.iter().flatten().filter(|_| on_ground) {
         if given.building_damping.is_some() || given.building_period.is_some() {
             warnings.push(format!(

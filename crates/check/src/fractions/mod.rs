@@ -175,7 +175,7 @@ impl Statement {
             source = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
             if let Some(floors) = floors {
                 warnings.extend(floors.warnings(&wall));
-                source += &format!(" {}", floors.note());
+                source = [source, floors.note()].join(" ");
             }
             Demand::of_motions(self.records.felt(floors, &wall)?, self.damping)?
         };

@@ -6,8 +6,8 @@ use ::report::escaped;
 
 /// A list of texts.
 pub(crate) fn list(texts: &[String]) -> String {
-    let items: String = texts.iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
-    if items.is_empty() { items } else { format!("<ul>\n{items}</ul>\n") }
+    let items = texts.iter().map(|text| ["<li>", &escaped(text), "</li>\n"].concat());
+    if texts.is_empty() { String::new() } else { format!("<ul>\n{}</ul>\n", items.collect::<String>()) }
 }
 
 /// The headline of a side.

@@ -26,15 +26,10 @@ fn near_each<const N: usize>(found: [f64; N], expected: [f64; N], what: &str) {
 
 /// Checks the wall of a scene by the table of its text.
 pub(crate) fn checked(text: &str) -> Result<Outcome, String> {
-    try_checked(text).map_err(|(error, file)| file.located(error).to_string())
-}
-
-/// The same, with the file of an error.
-pub(crate) fn try_checked(text: &str) -> Result<Outcome, (CheckError, CheckFile<'_>)> {
     let scene = Scene::parse("scene.toml", text, Path::new(".")).unwrap();
     let file = CheckFile::parse("scene.toml", text).unwrap();
     let outcome = || Ok(Statement::read(&file)?.checked((&scene).into())?.outcome);
-    outcome().map_err(|error| (error, file))
+    outcome().map_err(|error: CheckError| file.located(error).to_string())
 }
 
 pub(crate) const PARAPET: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
