@@ -8,14 +8,16 @@ use super::ground::{G, GroundSpectrum, damping_factor};
 const A: f64 = 0.8;
 const B: f64 = 1.1;
 
-/// A mode of the building at the place of a wall.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mode {
-    /// `T_k` \[s\].
-    pub period: f64,
-    /// `γ_k` `ψ_k(z)`: participation times shape there \[-\].
-    pub participation: f64,
+rocking_wall::tables! {
+    /// A mode of the building at the place of a wall.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Mode {
+        /// `T_k` \[s\].
+        #[key(exclusiveMinimum = 0)]
+        pub period: f64,
+        /// `γ_k` `ψ_k(z)`: participation times shape there (-).
+        pub participation: f64,
+    }
 }
 
 impl Mode {
