@@ -9,9 +9,9 @@ use super::error::Place;
 /// Most characters of a faulty line that a message repeats.
 pub(super) const SHOWN_CHARACTERS: usize = 60;
 
-/// Explains a text that is not TOML; `at` is the byte at which reading stopped, `is_twice` says that a name
-/// occurs twice there. Returns the line and the message.
-pub(super) fn explained(place: &Place<'_>, at: usize, is_twice: bool) -> (usize, String) {
+/// Explains a text that is not TOML; `at` is the byte at which reading stopped. Returns the line and the
+/// message.
+pub(super) fn explained(place: &Place<'_>, at: usize) -> (usize, String) {
     let text = place.text();
     let bare_return = text.bytes().zip(text.bytes().skip(1).chain([0])).any(|pair| {
         let (byte, next) = pair;
@@ -27,14 +27,9 @@ pub(super) fn explained(place: &Place<'_>, at: usize, is_twice: bool) -> (usize,
     let faulty = |number: &usize| fault(without_comment(line(*number))).is_some();
     let number = [stopped, stopped.saturating_sub(1).max(1)].into_iter().find(faulty).unwrap_or(stopped);
     let line = line(number);
-    let message = if is_twice {
-        let name = line.split('=').next().unwrap_or_default().trim();
-        format!("{name} is given twice; leave one out")
-    } else {
-        fault(without_comment(line)).unwrap_or_else(|| {
-            "expected a line such as height = 3, a table such as [geometry], or a comment after #".to_owned()
-        })
-    };
+    let message = fault(without_comment(line)).unwrap_or_else(|| {
+        "expected a line such as height = 3, a table such as [geometry], or a comment after #".to_owned()
+    });
     (number, format!("{message}, in `{}`", shown(line)))
 }
 
@@ -119,36 +114,33 @@ fn faulty_value(key: &str, value: &str) -> Option<String> {
 ///
 /// A decimal comma becomes a decimal point; a number has digits on both sides of it, and no unit.
 pub(super) fn number_meant(key: &str, text: &str) -> Option<String> {
-    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let unsigned = text.trim_start_matches(['+', '-']);
     let sign = &text[..text.len() - unsigned.len()];
-    let (whole, rest) = unsigned.split_at(digits(unsigned));
-    let fraction_of = |rest: &str| rest.get(1..).map_or(0, digits);
-    if !whole.is_empty() && rest.starts_with(',') && fraction_of(rest) > 0 {
-        let fraction = &rest[1..=fraction_of(rest)];
+    let (whole, rest) = digits(unsigned);
+    let mark = rest.chars().next().filter(|c| matches!(c, '.' | ','));
+    let (fraction, rest) = mark.map_or(("", rest), |mark| digits(&rest[mark.len_utf8()..]));
+    let (exponent, rest) = exponent(rest);
+    if mark == Some(',') && !whole.is_empty() && !fraction.is_empty() {
         return Some(format!(
-            "{key} = {sign}{whole},{fraction}: a number has a decimal point, not a comma; write {key} = \
-             {sign}{whole}.{fraction}"
+            "{key} = {sign}{whole},{fraction}{exponent}: a number has a decimal point, not a comma; write \
+             {key} = {sign}{whole}.{fraction}{exponent}"
         ));
     }
-    let point = rest.starts_with('.');
-    let fraction = if point { fraction_of(rest) } else { 0 };
-    if point && (whole.is_empty() != (fraction == 0)) {
-        let (before, after) = (
-            if whole.is_empty() { "0" } else { whole },
-            if fraction == 0 { "0" } else { &rest[1..=fraction] },
-        );
+    let point = match mark {
+        Some('.') => ".",
+        Some(_) => return None,
+        None => "",
+    };
+    let number = format!("{sign}{whole}{point}{fraction}{exponent}");
+    if !point.is_empty() && whole.is_empty() != fraction.is_empty() {
+        let (before, after) = if whole.is_empty() { ("0", fraction) } else { (whole, "0") };
         return Some(format!(
-            "{key} = {sign}{whole}{}: a number has digits on both sides of its point; write {key} = \
-             {sign}{before}.{after}",
-            &rest[..=fraction]
+            "{key} = {number}: a number has digits on both sides of its point; write {key} = \
+             {sign}{before}.{after}{exponent}"
         ));
     }
-    let end = if point { fraction + 1 } else { 0 };
-    let (number, after) = (format!("{sign}{whole}{}", &rest[..end]), &rest[end..]);
-    let unit = after.split([',', '}', ']', '"', '#']).next().unwrap_or_default().trim();
-    let exponent = after.starts_with(['e', 'E']) && number_like(&after[1..]);
-    if whole.is_empty() || exponent || !unit.starts_with(|c: char| c.is_alphabetic() || c == '%') {
+    let unit = rest.split([',', '}', ']', '"', '#']).next().unwrap_or_default().trim();
+    if whole.is_empty() || !unit.starts_with(|c: char| c.is_alphabetic() || c == '%') {
         return None;
     }
     Some(format!(
@@ -158,8 +150,18 @@ pub(super) fn number_meant(key: &str, text: &str) -> Option<String> {
     ))
 }
 
-fn number_like(text: &str) -> bool {
-    text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit())
+/// Splits a text after the digits that it starts with.
+fn digits(text: &str) -> (&str, &str) {
+    text.split_at(text.bytes().take_while(u8::is_ascii_digit).count())
+}
+
+/// Splits a text after the exponent that it starts with, `e-3`, if there is one.
+fn exponent(text: &str) -> (&str, &str) {
+    let power = text.strip_prefix(['e', 'E']).map(|power| power.strip_prefix(['+', '-']).unwrap_or(power));
+    match power.map(digits) {
+        Some((power, rest)) if !power.is_empty() => text.split_at(text.len() - rest.len()),
+        _ => ("", text),
+    }
 }
 
 /// The unit of a parameter; SI for other keys.

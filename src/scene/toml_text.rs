@@ -29,9 +29,12 @@ pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneErro
         if let Ok(document) = DeTable::parse(place.text()) {
             let found = Found::at(document.get_ref(), place.text(), &span);
             place.error(span, found.explained(error.message()))
+        } else if error.message().starts_with("duplicate key") {
+            let key = place.text().get(span.clone()).unwrap_or_default();
+            let name = key.trim_matches(['"', '\'']);
+            place.error(span, format!("{name} is given twice; leave one out"))
         } else {
-            let is_twice = error.message().starts_with("duplicate key");
-            let (line, message) = explained(place, span.start, is_twice);
+            let (line, message) = explained(place, span.start);
             SceneError::Line { file: place.name().to_owned(), line, message }
         }
     })

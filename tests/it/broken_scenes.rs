@@ -6,6 +6,13 @@ use rocking_wall::scene::Scene;
 
 use crate::broken::walk;
 
+/// Asserts that a text is refused with a line and some words.
+#[track_caller]
+fn assert_says(text: &str, message: &str) {
+    let found = refused(text);
+    assert!(found.starts_with("scene.toml, line ") && found.contains(message), "{found}\nfor {message}");
+}
+
 fn refused(text: &str) -> String {
     Scene::parse("scene.toml", text, Path::new(".")).unwrap_err().to_string()
 }
@@ -37,7 +44,6 @@ fn messages_name_line_and_key_and_say_how_to_write_it() {
         ("title = “a”\n", "straight quotes"),
         ("// a scene\n", "line 1: a comment begins with #"),
         ("[motion]\nrecord = \"C:\\acc.AT2\"\n", "record: write / for \\"),
-        ("[start]\nu_start = 0\nu_start = 1\n", "line 3: u_start is given twice; leave one out"),
         ("[start]\r[geometry]\r", "line 1: the lines end with CR alone"),
         ("height = 3\n", "line 1: \"height\" belongs in [geometry]"),
         (
@@ -59,9 +65,51 @@ fn messages_name_line_and_key_and_say_how_to_write_it() {
         ("[motion]\nsynthetic = {}\npga = true\n", "pga = true: expected an acceleration"),
         ("[supports]\ndrift = 1\n", "drift = 1: expected true or false"),
     ] {
-        let found = refused(text);
-        assert!(found.starts_with("scene.toml, line ") && found.contains(message), "{found}\nfor {message}");
+        assert_says(text, message);
     }
+}
+
+#[test]
+fn advice_on_numbers_keeps_their_exponents() {
+    for (text, message) in [
+        (
+            "[geometry]\noverburden = 1,2e6\n",
+            "overburden = 1,2e6: a number has a decimal point, not a comma; write overburden = 1.2e6",
+        ),
+        (
+            "[geometry]\noverburden = \"1,2E+6\"\n",
+            "line 2: overburden = 1,2E+6: a number has a decimal point",
+        ),
+        (
+            "[geometry]\noverburden = 3.e5\n",
+            "overburden = 3.e5: a number has digits on both sides of its point; write overburden = 3.0e5",
+        ),
+        ("[geometry]\nheight = .5e-3\n", "height = .5e-3: a number has digits on both sides"),
+        ("[geometry]\nheight = .5e-3\n", "write height = 0.5e-3"),
+        ("[geometry]\noverburden = 3e3 N\n", "a number stands without its unit; write overburden = 3e3, if"),
+    ] {
+        assert_says(text, message);
+    }
+}
+
+#[test]
+fn a_doubled_key_is_named_with_its_line() {
+    for (text, message) in [
+        ("[start]\nu_start = 0\nu_start = 1\n", "line 3: u_start is given twice; leave one out"),
+        ("title = \"xi = 0,3\"\ntitle = \"b\"\n", "line 2: title is given twice"),
+        ("damping = { c_bar = 1, xi = 0.1, xi = 0.2 }\n", "line 1: xi is given twice; leave one out"),
+        ("[start]\nu_start = 1\n[geometry]\n[start]\n", "line 4: start is given twice; leave one out"),
+        ("start.u_start = 1\nstart.u_start = 2\n", "line 2: u_start is given twice; leave one out"),
+        ("[start]\nvelocity = \"a\"\n\"velocity\" = 2\n", "line 3: velocity is given twice"),
+    ] {
+        assert_says(text, message);
+    }
+}
+
+#[test]
+fn a_value_that_is_set_keeps_its_exponent() {
+    let error = Scene::default().set("overburden", "1,2e6").unwrap_err().to_string();
+    assert!(error.ends_with("write overburden = 1.2e6"), "{error}");
 }
 
 /// Every line of a scene with all tables, broken in every way.

@@ -449,6 +449,20 @@ def test_a_table_of_walls_has_names_of_its_own(record):
         rw.Study(walls=frame, **options)
 
 
+def test_columns_of_walls_have_one_length(record):
+    options = {"records": record, "models": ["CDC 0.05"], "levels": OPTIONS["levels"]}
+    columns = {"name": ["low", "middle", "high"], "height": [1.5, 2.0], "thickness": [0.25] * 3}
+    with pytest.raises(ValueError, match="'name' has 3, 'height' has 2, 'thickness' has 3"):
+        rw.Study(walls=columns, **options)
+
+
+def test_a_table_of_pyarrow_has_names_of_its_own(record):
+    pyarrow = pytest.importorskip("pyarrow")
+    table = pyarrow.table([["low"], [1.5], [0.25]], names=["name", "height", "height"])
+    with pytest.raises(ValueError, match="two columns 'height'"):
+        rw.Study(walls=table, records=record, models=["CDC 0.05"], levels=OPTIONS["levels"])
+
+
 def test_a_study_without_a_file_is_sent(program, tmp_path, record):
     wall = rw.Wall(height=1.5, thickness=0.25).on_storeys([rw.Storey(period=0.3)])
     options = {"models": ["CR"], "levels": {"method": "grid", "values": [1]}}

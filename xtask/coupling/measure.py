@@ -2,7 +2,7 @@
 
     python measure.py WALL.fmu FLOOR.fmu OUTPUT_FOLDER
 
-Writes a CSV file, a page and a table. The reference is the system integrated as one
+Writes a CSV file and a table. The reference is the system integrated as one
 (tests/python/monolith.py). The master is that of examples/coupling. Run times are those of this master in
 Python; they show how many steps and sweeps each scheme takes.
 """
@@ -18,7 +18,6 @@ import numpy as np
 ROOT = Path(__file__).parents[2]
 sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "tests/python")]
 import compiled  # noqa: E402
-import page  # noqa: E402
 from master import SCHEMES, Archive  # noqa: E402
 from monolith import Monolith, Wall  # noqa: E402
 from run import pulse  # noqa: E402
@@ -120,39 +119,16 @@ def table(rows):
     return "\n".join(lines) + "\n"
 
 
-def fall(archives):
-    """Returns histories of u/u_ins in a building whose parapet overturns, and the overturning times."""
-    log = []
-    system = building(
-        *archives, {"parapet": {"u_dot_start": 0.85, "log": lambda *line: log.append(line)}}, pulse
-    )
-    system.initialize()
-    times, step = [], 0.002
-    histories = {"strip": [], "parapet": []}
-    for _ in range(round(2.0 / step)):
-        SCHEMES["Jacobi, loop closed, linear"](system, step)
-        times.append(system.time)
-        for name, history in histories.items():
-            history.append(system.get(f"{name}.u_ratio"))
-    events = [
-        (name, system.get(f"{name}.overturn_time")) for name in histories if system.get(f"{name}.overturned")
-    ]
-    assert events and any("overturned" in message for _, _, message in log)
-    return times, histories, events
-
-
 def main():
     wall, floor, output = sys.argv[1:]
     output = Path(output)
     with Archive(wall) as wall_archive, Archive(floor) as floor_archive:
         archives = wall_archive, floor_archive
         rows = measure(archives)
-        accident = fall(archives)
     with open(output / "coupling.csv", "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["system", "scheme", "step_s", "error_over_peak", "seconds"])
         writer.writerows(rows)
-    (output / "coupling.html").write_text(page.text(rows, accident, DURATION))
     hundred = compiled.run(wall, floor, 100, 10.0, 0.001)
     # the allocator takes whole pages, so only many walls show how much one needs
     each = compiled.run(wall, floor, 2000, 0.001, 0.001)["bytes_per_wall"]

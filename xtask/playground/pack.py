@@ -16,7 +16,7 @@ PAGE = ROOT / "crates/playground/src/page"
 # Marks of the template, and the files that take their place. Texts are escaped.
 PARTS = {"style": "page.css", "fields": "fields.js", "wall": "wall.js", "script": "page.js"}
 # What the pages of the program begin with, and how they print.
-HEAD, PAPER = (ROOT / "crates/figures/src" / name for name in ("page.html", "paper.css"))
+HEAD, PAPER = (ROOT / "crates/report/src" / name for name in ("page.html", "paper.css"))
 TEXTS = {"notices": PAGE / "notices.txt", "mit": ROOT / "LICENSE-MIT", "apache": ROOT / "LICENSE-APACHE"}
 
 

@@ -1,5 +1,5 @@
-//! `cargo xtask coupling`: measures coupling error against communication step and run time; writes a page and
-//! the figures of `docs/coupling.md`.
+//! `cargo xtask coupling`: measures coupling error against communication step and run time; writes a
+//! table and the figures of `docs/coupling.md`.
 
 use crate::command::{Result, root, succeed};
 use crate::figures;
@@ -8,7 +8,7 @@ use crate::python::Environment;
 
 const DOCUMENT: &str = "docs/coupling.md";
 
-/// Measures, writes the page, the CSV file and the figures of the document.
+/// Measures, writes the CSV file and the figures of the document.
 pub(crate) fn run() -> Result<()> {
     let wall = fmu::build(fmu::WALL)?;
     let floor = fmu::build(fmu::FLOOR)?;
@@ -20,6 +20,6 @@ pub(crate) fn run() -> Result<()> {
     let path = folder.join("coupling.md");
     let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     figures::write(DOCUMENT, &[("figures", table)])?;
-    println!("written {DOCUMENT}, fmu_out/coupling.html, fmu_out/coupling.csv");
+    println!("written {DOCUMENT}, fmu_out/coupling.csv");
     Ok(())
 }

@@ -6,9 +6,8 @@ use crate::command::{Result, cargo, output, root};
 pub(crate) fn run() -> Result<()> {
     let folder = root().join("docs/images");
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    wall(&["simulate", "--synthetic", "--svg", "docs/images/wall.svg"])?;
-    let building = "scenes/building/three_storeys.toml";
-    wall(&["building", building, "--synthetic", "--svg", "docs/images/building.svg"])?;
+    page("wall", &["simulate"])?;
+    page("building", &["building", "scenes/building/three_storeys.toml"])?;
     let map = ["--heights", "1:6:21", "--ratios", "5:14:19", "--svg", "docs/images/spectrum.svg"];
     wall(&[&["spectrum", "--synthetic", "--pga", "2.5"], &map[..]].concat())?;
     let plot = ["--plot", "docs/images/work_precision.svg"];
@@ -24,6 +23,23 @@ pub(crate) fn run() -> Result<()> {
         .map_err(|error| format!("{}: {error}", results.join(fragilities).display()))?;
     println!("written docs/images");
     Ok(())
+}
+
+/// Takes a picture of the page of a command under the synthetic motion.
+fn page(name: &str, command: &[&str]) -> Result<()> {
+    let (page, picture) = (format!("target/{name}.html"), format!("docs/images/{name}.png"));
+    wall(&[command, &["--synthetic", "--html", &page]].concat())?;
+    let arguments = ["--headless", "--no-sandbox", "--hide-scrollbars", "--window-size=1000,640"];
+    let browser = std::process::Command::new("chromium")
+        .args(arguments)
+        .arg(format!("--screenshot={}", root().join(picture).display()))
+        .arg(root().join(page))
+        .output();
+    match browser {
+        Ok(output) if output.status.success() => Ok(()),
+        Ok(output) => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+        Err(error) => Err(format!("chromium: {error}")),
+    }
 }
 
 /// Runs `wall` as released, from the root, and returns what it prints.

@@ -110,6 +110,13 @@ pub enum Warning {
     },
     /// The line that closes the last channel is missing, with all its samples there.
     Unclosed,
+    /// The times of the file, in another unit than seconds, have another step than the stated one.
+    StatedStep {
+        /// Step of the times (s).
+        step: f64,
+        /// The step that the user has stated, which counts (s).
+        stated: f64,
+    },
     /// A comment above the numbers names another unit than the one that the user has stated.
     Comment {
         /// The unit of the comment.
@@ -124,6 +131,10 @@ impl fmt::Display for Warning {
             Self::Comment { unit } => {
                 write!(f, "unit: a comment above the numbers says {unit}; the unit that you state counts")
             }
+            Self::StatedStep { step, stated } => write!(
+                f,
+                "step: the times of the file are {step} s apart; the {stated} s that you state count"
+            ),
             Self::Step { step } => write!(
                 f,
                 "step: {step} s between samples is longer than records have; are the times in milliseconds, \

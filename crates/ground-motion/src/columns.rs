@@ -13,13 +13,12 @@ mod cells;
 mod heading;
 
 pub use crate::error::Fault;
-pub use cells::{Numbers, Row};
+pub use cells::{Numbers, Row, Thousands};
 pub use heading::Name;
 pub(crate) use heading::Said;
 
 use crate::error::excerpt;
 use crate::fields::{Line, lines};
-pub(crate) use cells::Thousands;
 use cells::{Cells, Separator};
 
 /// What starts a comment.
@@ -90,6 +89,10 @@ impl<'a> Columns<'a> {
         let found = titles_only.last().filter(is_heading).or_else(|| titles_only.iter().find(is_heading));
         let fits = |&&(_, line): &&Line<'a>| width > 1 && names(line).len() == width;
         let found = found.or_else(|| titles_only.last().filter(fits));
+        let has_commas = |line| Separator::of_names(line, false) == Separator::Comma;
+        if let Some(row) = row.filter(|_| !found.is_some_and(|(_, line)| has_commas(line))) {
+            refuse_ambiguous_commas(text, row, width)?;
+        }
         if let Some(&(number, line)) = found {
             let mut names = names(line);
             if let Some((_, units)) = unit_row {
@@ -125,7 +128,6 @@ impl<'a> Columns<'a> {
             let remedy = "name the columns in the line above the numbers; mark titles with #";
             return Err(Fault::excerpt(first.0, forms, first.1, remedy));
         }
-        columns.refuse_ambiguous_commas()?;
         let remark = lines(text).take_while(|(line, _)| *line < number).last();
         let remark = remark.map_or("", |(_, line)| line.trim_start_matches(COMMENTS).trim());
         columns.remark = Some(names(remark)).filter(|names| names.len() == width).unwrap_or_default();
@@ -288,20 +290,20 @@ impl<'a> Columns<'a> {
             }
         }
     }
+}
 
-    /// Refuses rows such as `0,5`: one number, or two.
-    fn refuse_ambiguous_commas(&self) -> Result<(), Fault> {
-        let (line, first) = self.heading;
-        let is_clear = |(_, row): Line<'_>| row.contains(['.', '"']);
-        let is_comma = self.separator == Separator::Comma && self.width == 2;
-        if !is_comma || first.contains(char::is_whitespace) || content(self.text).any(is_clear) {
-            return Ok(());
-        }
-        let expected = "commas that either separate or stand before decimals";
-        let remedy = "write decimal points, separate columns by semicolons, or add a header line such as \
-                      `time,a_g`";
-        Err(Fault::excerpt(line, expected, first, remedy))
+/// Refuses rows such as `0,5`, from the first one on: one number, or two.
+fn refuse_ambiguous_commas(text: &str, (line, first): Line<'_>, width: usize) -> Result<(), Fault> {
+    let mut rows = content(text).skip_while(|(number, _)| *number < line);
+    let is_comma = Separator::of_row(first) == Separator::Comma && width == 2;
+    let is_clear = |(_, row): Line<'_>| row.contains(['.', '"']);
+    if !is_comma || first.contains(char::is_whitespace) || rows.any(is_clear) {
+        return Ok(());
     }
+    let expected = "commas that either separate or stand before decimals";
+    let remedy = "write decimal points, separate columns by semicolons, or add a header line such as \
+                  `time,a_g`";
+    Err(Fault::excerpt(line, expected, first, remedy))
 }
 
 /// Makes the fault of a first column without a name.

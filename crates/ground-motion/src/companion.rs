@@ -31,18 +31,42 @@ pub fn is_listed(path: &Path) -> bool {
     path.is_file() && !is_hidden && !is_companion(path)
 }
 
-/// Adds the step of the times beside a record, if there are any and no step is stated.
-pub(crate) fn completed(path: &Path, options: &RecordOptions) -> Result<RecordOptions, GroundMotionError> {
-    let times = beside(path, "acc", "dts").filter(|times| options.step.is_none() && times.is_file());
-    let step = match times {
-        Some(times) => {
-            let name = times.display().to_string();
-            let bytes = read_bounded(&times, &name)?;
-            Some(step(&String::from_utf8_lossy(&bytes)).map_err(|fault| fault.in_file(&name))?)
+/// The times beside a record.
+pub(crate) struct Times {
+    name: String,
+    step: f64,
+    /// How many there are; 1 where the file has the step alone.
+    count: usize,
+    last_line: usize,
+}
+
+impl Times {
+    /// Reads the times beside a record, if there are any and no step is stated.
+    pub(crate) fn beside(path: &Path, options: &RecordOptions) -> Result<Option<Self>, GroundMotionError> {
+        let times = beside(path, "acc", "dts").filter(|times| options.step.is_none() && times.is_file());
+        let Some(times) = times else { return Ok(None) };
+        let name = times.display().to_string();
+        let bytes = read_bounded(&times, &name)?;
+        match parsed(&String::from_utf8_lossy(&bytes)) {
+            Ok((step, count, last_line)) => Ok(Some(Self { name, step, count, last_line })),
+            Err(fault) => Err(fault.in_file(&name)),
         }
-        None => options.step,
-    };
-    Ok(RecordOptions { step, ..options.clone() })
+    }
+
+    /// Adds their step to what is stated of the record.
+    pub(crate) fn completed(&self, options: &RecordOptions) -> RecordOptions {
+        RecordOptions { step: Some(self.step), ..options.clone() }
+    }
+
+    /// Refuses a record with another number of samples.
+    pub(crate) fn check_count(&self, samples: usize) -> Result<(), GroundMotionError> {
+        if [1, samples].contains(&self.count) {
+            return Ok(());
+        }
+        let expected = format!("{samples} times, one for each sample of the record");
+        Err(Fault::new(self.last_line, expected, format!("{} up to the end", self.count), REMEDY)
+            .in_file(&self.name))
+    }
 }
 
 /// Finds `to_3.csv` of `from_3.csv` in the same folder, or in the folder `to` beside the folder `from`.
@@ -59,28 +83,38 @@ fn beside(path: &Path, from: &str, to: &str) -> Option<PathBuf> {
     if sibling && !same.is_file() { Some(folder.with_file_name(to).join(name)) } else { Some(same) }
 }
 
-/// Finds the uniform step of times, one a line, or the one number that is the step itself.
-fn step(text: &str) -> Result<f64, Fault> {
-    let remedy = "correct the times, or state the step as `step` (on the command line --record-step)";
-    let mut times = Vec::new();
-    for (number, line) in lines(text) {
-        let time = real(line).filter(|time| time.is_finite());
-        times.push(time.ok_or_else(|| Fault::excerpt(number, "one time in s", line, remedy))?);
+const REMEDY: &str = "correct the times, or state the step as `step` (on the command line --record-step)";
+
+/// Finds the uniform step of times, one a line, or the one number that is the step itself; how many there
+/// are, and the last line.
+fn parsed(text: &str) -> Result<(f64, usize, usize), Fault> {
+    let mut times: Vec<(usize, f64)> = Vec::new();
+    for (line, text) in lines(text) {
+        let time = real(text).filter(|time| time.is_finite());
+        let time = time.ok_or_else(|| Fault::excerpt(line, "one time in s", text, REMEDY))?;
+        if let Some((_, last)) = times.last().filter(|(_, last)| time <= *last) {
+            return Err(Fault::new(line, format!("a time after {last} s"), format!("{time} s"), REMEDY));
+        }
+        times.push((line, time));
     }
-    let step = match times[..] {
-        [step] => step,
-        [first, .., last] => (last - first) / (times.len() - 1) as f64,
-        [] => f64::NAN,
+    let (Some(&(first_line, first)), Some(&(last_line, last))) = (times.first(), times.last()) else {
+        return Err(Fault::new(1, "times in s, one a line", "an empty file", REMEDY));
     };
-    let due = |index: usize| times[0] + index as f64 * step;
-    let off = |&(index, time): &(usize, &f64)| (*time - due(index)).abs() > TOLERANCE * step;
-    match times.iter().enumerate().find(off) {
-        // decimal fractions are quotients of their sums only up to rounding
-        None if step > 0.0 => Ok(format!("{step:.9e}").parse().unwrap_or(step)),
-        None => Err(Fault::new(1, "times in s that rise, one a line", format!("a step of {step} s"), remedy)),
-        Some((index, time)) => {
-            let expected = format!("uniform times, here {} s", due(index));
-            Err(Fault::new(index + 1, expected, format!("{time} s"), remedy))
+    if times.len() == 1 && first <= 0.0 {
+        return Err(Fault::new(first_line, "a step above 0 s", format!("{first} s"), REMEDY));
+    }
+    let step = if times.len() == 1 { first } else { (last - first) / (times.len() - 1) as f64 };
+    for (index, &(line, time)) in times.iter().enumerate() {
+        let due = first + index as f64 * step;
+        if (time - due).abs() > TOLERANCE * step {
+            return Err(Fault::new(
+                line,
+                format!("uniform times, here {due} s"),
+                format!("{time} s"),
+                REMEDY,
+            ));
         }
     }
+    // decimal fractions are quotients of their sums only up to rounding
+    Ok((format!("{step:.9e}").parse().unwrap_or(step), times.len(), last_line))
 }

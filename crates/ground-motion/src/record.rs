@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::companion;
+use crate::companion::Times;
 use crate::error::{Fault, GroundMotionError, excerpt};
 use crate::file::{END_OF_FILE, is_utf16, line_of, read_file, strange_byte, utf16};
 use crate::format::Format;
@@ -88,8 +88,7 @@ impl Parsed {
 /// for; the message names the file, the line, what was expected, what was found and the remedy.
 pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
-    let name = path.display().to_string();
-    parse(&name, read_bounded(path, &name)?, &companion::completed(path, options)?)
+    only(read_channels(path, options)?, &path.display().to_string())
 }
 
 /// Reads every channel of a record file, or the one that is asked for.
@@ -102,7 +101,11 @@ pub fn read_channels(
 ) -> Result<Vec<Record>, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    parse_channels(&name, read_bounded(path, &name)?, &companion::completed(path, options)?)
+    let bytes = read_bounded(path, &name)?;
+    let Some(times) = Times::beside(path, options)? else { return parse_channels(&name, bytes, options) };
+    let records = parse_channels(&name, bytes, &times.completed(options))?;
+    records.iter().try_for_each(|record| times.check_count(record.motion.samples().len()))?;
+    Ok(records)
 }
 
 /// Reads a record from the bytes of a file; `name` stands for the file in messages.
@@ -110,7 +113,11 @@ pub fn read_channels(
 /// # Errors
 /// As [`read`].
 pub fn parse(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
-    let mut records = parse_channels(name, bytes, options)?;
+    only(parse_channels(name, bytes, options)?, name)
+}
+
+/// Returns the only record of a file.
+fn only(mut records: Vec<Record>, name: &str) -> Result<Record, GroundMotionError> {
     let channels: Vec<_> = records.iter().map(|record| record.channel.clone().unwrap_or_default()).collect();
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),

@@ -19,6 +19,9 @@ const LONGEST_PERIOD: f64 = 20.0;
 /// Range of the largest Sa (g) without a warning about the unit: demands on walls have 0.05 g to 5 g.
 const CREDIBLE_LARGEST: [f64; 2] = [0.01, 10.0];
 
+/// Largest percentage that is a damping ratio without a word that says so; 50 % and 84 % are fractiles.
+const LARGEST_UNSAID: f64 = 0.3;
+
 const FORMS: &str = "rows of periods in s and Sa, below a header line such as `T [s],Sa [g]`";
 
 /// A response spectrum as read from a file.
@@ -30,7 +33,7 @@ pub struct SpectrumFile {
     pub lines: Vec<usize>,
     /// Unit of the file.
     pub unit: Unit,
-    /// Damping ratio that the name of the column states, `Sa (5 %)`.
+    /// Damping ratio that the name of the column states, `Sa (5 %)` or `Sa (ξ = 5 %)`.
     pub damping: Option<f64>,
     /// Name of the column that Sa was read from, in a file with several beside the periods.
     pub column: Option<String>,
@@ -113,7 +116,7 @@ impl SpectrumFile {
         thousands.check()?;
         refuse_milliseconds(&columns, &points, &lines)?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
-        let damping = columns.named(column_number).and_then(|name| percentage(name.written()));
+        let damping = columns.named(column_number).and_then(|name| stated_damping(name.written()));
         Ok(Self { points, lines, unit, damping, column })
     }
 
@@ -157,15 +160,24 @@ fn is_abscissa(name: &Name) -> bool {
     matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
 }
 
-/// Finds the percentage in a name, `Sa (5 %)` or `Sa_2.5%`, as a ratio. That of `%g` is none.
-fn percentage(name: &str) -> Option<f64> {
-    let (before, after) = name.split_once('%')?;
-    let before = before.trim_end();
-    let start = before
-        .rfind(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',')))
-        .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
-    let percent: f64 = before[start..].replace(',', ".").parse().ok()?;
-    (!after.trim_start().starts_with(['g', 'G'])).then_some(percent / 100.0)
+/// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
+/// or one alone in its brackets or behind Sa, `Sa (5 %)` and `Sa_2.5%`. That of `10 % in 50 years` is none.
+fn stated_damping(name: &str) -> Option<f64> {
+    name.split(['(', ')', '[', ']']).find_map(|part| {
+        let (before, after) = part.split_once('%')?;
+        let before = before.trim_end();
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ','));
+        let ratio = before[number.len()..].replace(',', ".").parse::<f64>().ok()? / 100.0;
+        let words = part.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+        let mut words = words.map(str::to_lowercase);
+        let means_damping = |word: String| {
+            ["damp", "smorz"].iter().any(|start| word.starts_with(start))
+                || ["ξ", "xi", "ζ", "zeta"].contains(&word.as_str())
+        };
+        let is_alone = words.clone().all(|word| ["sa", "psa", "se"].contains(&word.as_str()));
+        let is_damping = is_alone && ratio <= LARGEST_UNSAID || words.any(means_damping);
+        (is_damping && !after.contains('%')).then_some(ratio)
+    })
 }
 
 /// Refuses long periods under a name without a unit.

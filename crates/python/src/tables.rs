@@ -20,7 +20,7 @@ impl<'a> Column<'a> {
     pub(crate) fn of(cell: &Cell<'a>) -> Self {
         match cell {
             Cell::Text(_) => Self::Names(Vec::new()),
-            Cell::Empty | Cell::Number(_) | Cell::Between(_) => Self::Numbers(Vec::new()),
+            Cell::Empty | Cell::Number(_) | Cell::Rounded(..) | Cell::Between(_) => Self::Numbers(Vec::new()),
             Cell::Count(_) => Self::Counts(Vec::new()),
             Cell::Flag(_) => Self::Flags(Vec::new()),
         }
@@ -30,7 +30,9 @@ impl<'a> Column<'a> {
     pub(crate) fn push(&mut self, cell: &Cell<'a>) {
         match (self, cell) {
             (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
-            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(*number),
+            (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
+                numbers.push(*number)
+            }
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {
                 let is_known = least == most || *most == f64::INFINITY;

@@ -16,7 +16,8 @@
 //! | [`sheet`] | drawings side by side in a file |
 //! | [`points`] | lines with fewer points that look the same |
 //! | [`palette`] | the colours and marks of all of them |
-//! | [`template`] | pages: their head and style, and the gaps of a template |
+//! | [`mod@page`] | pages of a title, an introduction and sections |
+//! | [`template`] | pages with a body of their own: their head and style, and the gaps of a template |
 //! | [`moving`] | pages with a moving picture |
 
 mod axes;
@@ -25,6 +26,7 @@ mod frame;
 pub mod heat_map;
 pub mod many_lines;
 pub mod moving;
+pub mod page;
 pub mod palette;
 pub mod plot;
 pub mod points;

@@ -110,6 +110,9 @@ pub struct RecordFile {
 }
 
 /// Lists the record files of a study, in the order of its patterns.
+///
+/// # Errors
+/// [`SceneError`] of a pattern that matches no file.
 pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<RecordFile>, SceneError> {
     let mut listed: Vec<RecordFile> = Vec::new();
     for (pattern, line) in &entry.files {
@@ -132,6 +135,9 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
 }
 
 /// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
+///
+/// # Errors
+/// [`SceneError`] of a record that cannot be read, or if all are vertical.
 pub fn all_records(
     entry: &RecordsEntry,
     files: &[RecordFile],
@@ -175,18 +181,31 @@ pub fn all_records(
     Ok(records)
 }
 
+/// Lists the files of a folder in the order of their names, but for hidden ones and the times beside records.
+///
+/// # Errors
+/// If the folder cannot be read.
+pub fn folder_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let files = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+    Ok(listed(files.collect::<std::io::Result<_>>()?))
+}
+
+fn listed(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
+    files.retain(|path| is_listed(path));
+    files.sort();
+    files
+}
+
 /// Lists the files of a folder, of a pattern, or the one file, in order of their names.
 fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
-    let mut found: Vec<PathBuf> = if path.is_dir() {
-        std::fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?
+    let found: Vec<PathBuf> = if path.is_dir() {
+        folder_files(path)?
     } else if path.is_file() {
         return Ok(vec![path.to_owned()]);
     } else {
         let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
-        glob::glob(pattern)?.collect::<Result<_, _>>()?
+        listed(glob::glob(pattern)?.collect::<Result<_, _>>()?)
     };
-    found.retain(|path| is_listed(path));
-    found.sort();
     if found.is_empty() {
         return Err(
             "no such file, no match, or a folder without files; name records beside the study file, \

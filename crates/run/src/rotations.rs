@@ -1,6 +1,7 @@
 //! Free rocking of a rigid wall in small and in full rotations.
 //!
-//! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full ones.
+//! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full
+//! ones.
 //!
 //! ```
 //! use rocking_wall::wall::Parameters;
@@ -176,8 +177,8 @@ impl Release {
         self.time_to_impact(self.released(start), longest)
     }
 
-    /// Releases the wall at rest from a fraction of its unstable equilibrium and follows it over `duration` in steps
-    /// of `step` \[s\].
+    /// Releases the wall at rest from a fraction of its unstable equilibrium and follows it over `duration`,
+    /// in steps of `step` \[s\].
     ///
     /// # Errors
     /// [`SolverError`] if the motion cannot be followed.

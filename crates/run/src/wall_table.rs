@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use ground_motion::columns::{Columns, Fault, Name, Numbers};
+use ground_motion::columns::{Columns, Fault, Name, Numbers, Row, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
@@ -15,27 +15,31 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The column of the walls' names.
 const NAME: &str = "name";
 
-/// Reads the walls of a table. An empty cell leaves its parameter at the default, a row without any content
-/// is skipped, and one with a name and no value refused.
-pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
+/// Reads the walls of a table, and returns them with warnings. An empty cell leaves its parameter at the
+/// default, a row without any content is skipped, and one with a name and no value refused.
+pub(crate) fn read(path: &Path) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
     let file = path.display().to_string();
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
 }
 
-/// Reads the walls from the text of a table; `file` stands for it in messages.
-fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
+/// Reads the walls from the text of a table, and returns them with warnings; `file` stands for it in
+/// messages.
+fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
     let fail = |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, message };
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
+    let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
     let forms = "a table of walls: a line of names with a column `name`, and a row for each wall";
     let columns = Columns::of_texts(text.trim_start_matches('\u{feff}'), forms).map_err(in_file)?;
     let names: Vec<&str> = columns.names().iter().map(Name::written).collect();
     check_names(&names).map_err(|message| fail(columns.line(), message))?;
     let (mut walls, mut scene, mut numbers) = (Vec::new(), Scene::default(), Numbers::new(&columns));
+    let mut thousands = vec![Thousands::default(); names.len()];
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
         scene.parameters = Parameters::default();
         let (mut wall, mut is_default) = (None, names.len() > 1);
-        for (&column, cell) in names.iter().zip(row.cells()).filter(|(_, cell)| !cell.is_empty()) {
+        let cells = names.iter().zip(&mut thousands).zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
+        for ((&column, thousands), cell) in cells {
             if column == NAME {
                 wall = Some(cell.into_owned());
                 continue;
@@ -43,7 +47,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
             is_default = false;
             if cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '−' | '.' | ',')) {
                 let number = numbers.real(&cell, row.line);
-                let number = number.map_err(|fault| fail(row.line, format!("{column}: {fault}")))?;
+                let number = number.map_err(|fault| in_column(column, &fault))?;
+                thousands.push(&cell, row.line);
                 scene.set(column, &number.to_string()).map_err(|error| fail(row.line, error.to_string()))?;
             } else {
                 scene.set(column, &cell).map_err(|error| fail(row.line, error.to_string()))?;
@@ -60,13 +65,30 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
         }
         walls.push(NamedWall::new(wall, scene.parameters.clone()));
     }
+    for (column, thousands) in names.iter().zip(thousands) {
+        thousands.check().map_err(|fault| in_column(column, &fault))?;
+    }
     if walls.is_empty() {
         return Err(fail(
             columns.line(),
             "the table has no walls; write a row for each below this line".to_owned(),
         ));
     }
-    Ok(walls)
+    Ok((walls, defaults(&columns, &names).map(|warning| format!("{file}: {warning}")).collect()))
+}
+
+/// Warns about walls for which the table gives no height or no thickness.
+fn defaults(columns: &Columns<'_>, names: &[&str]) -> impl Iterator<Item = String> {
+    let Parameters { height, thickness, .. } = Parameters::default();
+    [("height", height), ("thickness", thickness)].into_iter().filter_map(|(size, default)| {
+        let column = names.iter().position(|name| *name == size);
+        let has_size =
+            |row: &Row<'_>| column.is_some_and(|at| row.cells().nth(at).is_some_and(|c| !c.is_empty()));
+        let (with, without): (Vec<_>, Vec<_>) = columns.rows().flatten().partition(has_size);
+        let (count, all) = (without.len(), with.len() + without.len());
+        (count > 0)
+            .then(|| format!("{count} of {all} walls have no {size}; the default of {default} m counts"))
+    })
 }
 
 /// Refuses columns that are no parameters, and a table without names of walls.
@@ -95,19 +117,19 @@ mod tests {
     #[test]
     fn walls_of_a_table() {
         let text = "name, height,force_law\n\"a, \"\"b\"\"\",3.5,trilinear\n\nc,3.6,\n";
-        let walls = parse("walls.csv", text).unwrap();
+        let (walls, _) = parse("walls.csv", text).unwrap();
         assert_eq!((walls.len(), walls[0].name.as_str()), (2, "a, \"b\""));
         assert_eq!(walls[0].parameters.height, 3.5);
         let default = rocking_wall::wall::Parameters::default();
         assert_eq!(walls[1].parameters, rocking_wall::wall::Parameters { height: 3.6, ..default.clone() });
         // a table of names only has walls of the default
-        assert_eq!(parse("walls.csv", "name\na\n").unwrap()[0].parameters, default);
+        assert_eq!(parse("walls.csv", "name\na\n").unwrap().0[0].parameters, default);
     }
 
     #[test]
     fn tables_are_read_as_people_have_them() {
         let of = |text: &str| -> Vec<(String, f64, f64)> {
-            let walls = parse("walls.csv", text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let (walls, _) = parse("walls.csv", text).unwrap_or_else(|error| panic!("{text}: {error}"));
             let sizes = |p: &rocking_wall::wall::Parameters| (p.height, p.thickness);
             walls
                 .iter()
@@ -131,6 +153,22 @@ mod tests {
         }
         // a tab stands for an empty cell, too
         assert_eq!(of("name\theight\tthickness\na\t\t0.3\n")[0].2, 0.3);
+    }
+
+    #[test]
+    fn sizes_of_the_default_are_warned_of() {
+        let of = |text: &str| parse("walls.csv", text).unwrap().1;
+        assert!(of("name,height,thickness\na,3,0.3\n,,\nb,2,0.3\n").is_empty());
+        let default = rocking_wall::wall::Parameters::default();
+        let thickness = format!("have no thickness; the default of {} m counts", default.thickness);
+        assert_eq!(of("name,height\na,3\nb,2\n"), [format!("walls.csv: 2 of 2 walls {thickness}")]);
+        assert_eq!(
+            of("name,height,thickness\na,3,0.3\nb,2,\n"),
+            [format!("walls.csv: 1 of 2 walls {thickness}")]
+        );
+        let height = format!("have no height; the default of {} m counts", default.height);
+        let both = [height, thickness].map(|words| format!("walls.csv: 1 of 1 walls {words}"));
+        assert_eq!(of("name,density\na,1800\n"), both);
     }
 
     #[test]
@@ -163,6 +201,10 @@ mod tests {
             ("name,height\na,nan", "line 2: height"),
             ("name,height\na,3 m", "line 2: height: expected a finite number, found `3 m`"),
             ("name;height\na;1,2\nb;1.2", "line 3: height: expected `,` before the decimals, as on line 2"),
+            (
+                "name;overburden\na;931\nb;1.053\nc;850\nd;900\n",
+                "line 3: overburden: expected numbers without marks between thousands, found `1.053`",
+            ),
             ("// walls\nname,height\na,3", "comments start with # or %"),
             ("name,height\n#1,3", "line 2: expected a row or a comment, found `#1,3`"),
         ] {

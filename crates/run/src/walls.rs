@@ -246,27 +246,34 @@ pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
 }
 
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
-/// looked up beside its file. Returns them and the files that were read.
+/// looked up beside its file. Adds the files that are read, and warnings about tables.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
-pub fn read_walls(text: &str, path: &Path) -> Result<(Vec<NamedWall>, Vec<PathBuf>), SceneError> {
+pub fn read_walls(
+    text: &str,
+    path: &Path,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<NamedWall>, SceneError> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new("."));
-    let (mut walls, mut inputs) = (Vec::new(), vec![path.to_owned()]);
+    let mut walls = Vec::new();
+    inputs.push(path.to_owned());
     for entry in walls_of(&name, text)? {
         // a check uses neither the motion nor the damping of a scene
-        walls.extend(self::walls(entry, folder, &name, &mut inputs, &mut Vec::new())?);
+        walls.extend(self::walls(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?);
     }
     check_unique("walls", walls.iter().map(|wall| &wall.name))
         .map_err(|reason| SceneError::File { file: name, reason })?;
-    Ok((walls, inputs))
+    Ok(walls)
 }
 
 /// The name of a wall, and what the study ignores of its scene.
 pub type Ignored = (String, &'static str);
 
-/// Reads the walls of an entry; adds the files that it names to `inputs`.
+/// Reads the walls of an entry. Adds the files that it names to `inputs`, what the study ignores of a scene,
+/// and warnings about a table.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
@@ -275,7 +282,7 @@ pub fn walls(
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    ignored: &mut Vec<Ignored>,
+    (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         file: study.to_owned(),
@@ -289,7 +296,9 @@ pub fn walls(
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
-            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            let (walls, found) =
+                wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            warnings.extend(found);
             inputs.push(path);
             Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
         }

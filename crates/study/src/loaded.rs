@@ -56,7 +56,7 @@ impl LoadedStudy {
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            all.extend(walls(entry, folder, &name, &mut inputs, &mut ignored)?);
+            all.extend(walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
         }
         warn(&all, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;

@@ -11,6 +11,7 @@ use ground_motion::{
 };
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use run::records::folder_files;
 
 use crate::output::Console;
 
@@ -164,10 +165,54 @@ pub(crate) fn read_record(console: &Console<'_>, path: &Path, options: &RecordOp
         None => read(path, options)?,
     };
     let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
+    warn_of(console, &name, &record);
+    Ok(record)
+}
+
+fn warn_of(console: &Console<'_>, name: &str, record: &Record) {
     for warning in &record.check().warnings {
         console.warn(&format!("{name}: {warning}"));
     }
-    Ok(record)
+}
+
+/// Lists record files; in place of a folder the files in it.
+pub(crate) fn record_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            files.extend(folder_files(path).with_context(|| format!("{}: cannot be read", path.display()))?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+/// Reads the records of files and folders, and warns about what their checks find. Vertical ones of a folder
+/// are left out, with a warning.
+pub(crate) fn read_records(
+    console: &Console<'_>,
+    paths: &[PathBuf],
+    options: &RecordOptions,
+) -> Result<Vec<Record>> {
+    let mut records = Vec::new();
+    for path in record_files(paths)? {
+        if paths.contains(&path) {
+            records.push(read_record(console, &path, options)?);
+            continue;
+        }
+        let (record, name) = (read(&path, options)?, path.display().to_string());
+        if record.is_vertical {
+            console.warn(&format!("{name}: vertical, left out; name the file itself to use it"));
+            continue;
+        }
+        warn_of(console, &name, &record);
+        records.push(record);
+    }
+    if let ([], [folder, ..]) = (&records[..], paths) {
+        bail!("{}: a folder without horizontal records; name a folder with records", folder.display());
+    }
+    Ok(records)
 }
 
 /// Reads every channel of a record, or the one that is asked for; `-` is standard input.

@@ -15,8 +15,8 @@ use output::Console;
 /// Exit code for input that cannot be used; clap uses the same.
 const BAD_INPUT: u8 = 2;
 
-/// Runs the program with its arguments, the first of which is its name. Results go to `out`, messages to `err`.
-/// Returns the exit code: 0, 1 where a verification fails, 2 for input that cannot be used.
+/// Runs the program with its arguments, the first of which is its name. Results go to `out`, messages to
+/// `err`. Returns the exit code: 0, 1 where a verification fails, 2 for input that cannot be used.
 ///
 /// ```
 /// let (mut out, mut err) = (Vec::new(), Vec::new());

@@ -119,36 +119,42 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &str); 16] = [
+const KNOWN: [(&str, &str); 17] = [
     ("fmu-export", ""),
     ("fmu-export-build", "fmu-export"),
     ("rocking-oscillator", ""),
+    ("rocking-report", ""),
     ("ground-motion", "rocking-oscillator"),
     ("rocking-floor", "fmu-export rocking-oscillator"),
     ("rocking-wall", "fmu-export ground-motion rocking-oscillator"),
     ("rocking-record", "rocking-oscillator rocking-wall"),
-    ("rocking-study", "fmu-export ground-motion rocking-record rocking-wall"),
-    ("rocking-figures", "rocking-study"),
-    (
-        "rocking-evidence",
-        "fmu-export ground-motion rocking-figures rocking-record rocking-study rocking-wall",
-    ),
-    ("rocking-study-folder", "ground-motion rocking-figures rocking-study rocking-wall"),
+    ("rocking-run", "ground-motion rocking-record rocking-report rocking-wall"),
+    ("rocking-check", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
+    ("rocking-study", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
         "rocking-building",
-        "fmu-export fmu-export-build ground-motion rocking-floor rocking-scene-fmu rocking-wall",
+        "fmu-export fmu-export-build ground-motion rocking-floor rocking-report rocking-run \
+         rocking-scene-fmu rocking-wall",
     ),
-    ("rocking-playground", "fmu-export ground-motion rocking-figures rocking-study rocking-wall"),
+    (
+        "rocking-evidence",
+        "fmu-export ground-motion rocking-check rocking-record rocking-report rocking-run rocking-study \
+         rocking-wall",
+    ),
+    (
+        "rocking-playground",
+        "fmu-export ground-motion rocking-check rocking-report rocking-run rocking-study rocking-wall",
+    ),
     (
         "rocking-wall-python",
-        "fmu-export ground-motion rocking-building rocking-evidence rocking-figures rocking-record \
-         rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
+        "fmu-export ground-motion rocking-building rocking-check rocking-evidence rocking-record \
+         rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
     ),
     (
         "rocking-wall-cli",
-        "fmu-export fmu-export-build ground-motion rocking-building rocking-evidence rocking-figures \
-         rocking-floor rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
+        "fmu-export fmu-export-build ground-motion rocking-building rocking-check rocking-evidence \
+         rocking-floor rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
     ),
 ];
 

@@ -5,15 +5,17 @@ use std::collections::BTreeSet;
 use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
-const ABOVE_THE_UNIT: [&str; 10] = [
+const ABOVE_THE_UNIT: [&str; 12] = [
     "argmin",
     "clap",
     "fearless_simd",
     "parquet",
     "pyo3",
     "rocking-building",
+    "rocking-check",
     "rocking-evidence",
     "rocking-record",
+    "rocking-run",
     "rocking-study",
     "serde_json",
 ];

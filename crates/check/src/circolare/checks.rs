@@ -27,7 +27,7 @@ fn period_factor(state: LimitState) -> f64 {
 ///
 /// ```
 /// use rocking_wall::wall::Parameters;
-/// use crate::circolare::{Records, check, read_table};
+/// use check::circolare::{Records, check, read_table};
 /// use rocking_wall::scene::Place;
 ///
 /// let text = r#"
@@ -96,8 +96,8 @@ fn checked(
 ///
 /// ```
 /// use rocking_wall::scene::Place;
-/// use rocking_wall::wall::{Parameters, Wall, Warning};
-/// use crate::circolare::{LimitState, Records, demands, read_table};
+/// use rocking_wall::wall::{Parameters, Wall};
+/// use check::circolare::{LimitState, Records, demands, read_table};
 ///
 /// let text = r#"
 /// [check]

@@ -1,14 +1,14 @@
 //! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
 //!
 //! ```
-//! use crate::circolare::figure::{Drawn, spectra};
-//! use crate::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
+//! use check::circolare::figure::{Drawn, spectra};
+//! use check::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
 //!
 //! let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
 //! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
 //! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
 //! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
-//! # Ok::<(), crate::circolare::CheckError>(())
+//! # Ok::<(), check::circolare::CheckError>(())
 //! ```
 
 use crate::circolare::{

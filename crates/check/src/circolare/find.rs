@@ -87,7 +87,7 @@ pub struct Found {
 /// ```
 /// use rocking_wall::scene::Place;
 /// use rocking_wall::wall::Parameters;
-/// use crate::circolare::{Records, Sought, find, read_table};
+/// use check::circolare::{Records, Sought, find, read_table};
 ///
 /// let text = r#"
 /// [check]

@@ -32,7 +32,7 @@ impl Mode {
 /// The spectrum of a limit state at the height of a wall.
 ///
 /// ```
-/// use crate::circolare::{FloorSpectrum, GroundSpectrum, Hazard, Mode, Soil};
+/// use check::circolare::{FloorSpectrum, GroundSpectrum, Hazard, Mode, Soil};
 ///
 /// let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
 /// let ground = GroundSpectrum::new(hazard, Soil::B, 1.0);
@@ -135,7 +135,7 @@ impl FloorSpectrum {
 /// damping, and the check of masonry does not use it.
 ///
 /// ```
-/// use crate::circolare::{GroundSpectrum, Hazard, Soil, frame_acceleration};
+/// use check::circolare::{GroundSpectrum, Hazard, Soil, frame_acceleration};
 ///
 /// let ground = GroundSpectrum::new(Hazard { ag: 0.15, f0: 2.45, tc: 0.32 }, Soil::B, 1.0);
 /// // on the roof, in resonance with the frame

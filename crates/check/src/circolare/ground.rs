@@ -82,7 +82,7 @@ pub struct Hazard {
 /// The elastic spectrum of a limit state on the ground.
 ///
 /// ```
-/// use crate::circolare::{GroundSpectrum, Hazard, Soil};
+/// use check::circolare::{GroundSpectrum, Hazard, Soil};
 ///
 /// let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
 /// let ground = GroundSpectrum::new(hazard, Soil::B, 1.0);

@@ -17,6 +17,8 @@ pub struct Walls {
     pub walls: Vec<NamedWall>,
     /// Files that they were read from.
     pub inputs: Vec<PathBuf>,
+    /// Warnings about tables of walls, and of a quick check of the records.
+    pub warnings: Vec<String>,
     statement: Statement,
     records: Records,
 }
@@ -47,7 +49,8 @@ impl Walls {
         let name = path.display().to_string();
         let place = Place::new(&name, text);
         let folder = path.parent().unwrap_or(Path::new("."));
-        let (walls, mut inputs) = read_walls(text, path)?;
+        let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
+        let walls = read_walls(text, path, &mut inputs, &mut warnings)?;
         let Some(table) = read_table(&place)? else {
             let reason = "there is no table [check]; add one with code = \"circolare-2019\"".into();
             return Err(SceneError::File { file: name, reason });
@@ -55,12 +58,8 @@ impl Walls {
         let statement = CheckTable::statement(&table).map_err(|error| in_table(error, &place))?;
         let records = Records::read(&table, &place, folder)?;
         inputs.extend(records.files.clone());
-        Ok(Self { walls, inputs, statement, records })
-    }
-
-    /// Warnings of a quick check of the records.
-    pub fn record_warnings(&self) -> &[String] {
-        &self.records.warnings
+        warnings.extend(records.warnings.clone());
+        Ok(Self { walls, inputs, warnings, statement, records })
     }
 
     /// Checks every wall on some threads; returns the worst first, in the order of the file where they are

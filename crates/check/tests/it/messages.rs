@@ -1,4 +1,5 @@
-//! Tests what is said of tables `[check]` that cannot be read: key, line and what is expected, in plain words.
+//! Tests what is said of tables `[check]` that cannot be read: key, line and what is expected, in plain
+//! words.
 
 use check::circolare::read_table;
 use rocking_wall::scene::Place;

@@ -172,8 +172,18 @@ pub(super) fn unquoted(cell: &str) -> Cow<'_, str> {
 }
 
 /// Finds whole numbers with marks between thousands, as Germans write them: `931` above `1.053`.
+///
+/// ```
+/// use ground_motion::columns::Thousands;
+///
+/// let mut column = Thousands::default();
+/// for (line, cell) in ["931", "1.053", "12", "7"].into_iter().enumerate() {
+///     column.push(cell, line + 1);
+/// }
+/// assert_eq!(column.check().unwrap_err().line(), 2);
+/// ```
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Thousands {
+pub struct Thousands {
     /// The first number with a mark, and its line.
     marked: Option<(String, usize)>,
     /// How many numbers are whole, and whether one of them has three digits.
@@ -185,7 +195,7 @@ pub(crate) struct Thousands {
 
 impl Thousands {
     /// Takes the next number of a column.
-    pub(crate) fn push(&mut self, cell: &str, line: usize) {
+    pub fn push(&mut self, cell: &str, line: usize) {
         let digits = cell.trim_start_matches(['+', '-']);
         let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         match digits.split_once(['.', ',']) {
@@ -204,7 +214,10 @@ impl Thousands {
 
     /// Refuses a column in which every mark can stand between thousands, beside whole numbers, some of three
     /// digits: `1.053` after `931`. One or two whole numbers can have zeros as decimals.
-    pub(crate) fn check(self) -> Result<(), Fault> {
+    ///
+    /// # Errors
+    /// [`Fault`] of the first number with a mark.
+    pub fn check(self) -> Result<(), Fault> {
         match self.marked {
             Some((cell, line)) if self.whole > 2 && self.has_hundreds && !self.has_decimals => {
                 let expected = "numbers without marks between thousands";

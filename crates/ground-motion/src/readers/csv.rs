@@ -54,12 +54,12 @@ fn is_time(name: &Name) -> bool {
 /// Reads the text of a table or a column.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
     let columns = Columns::of_numbers(text, is_time, FORMS)?;
-    let column = if columns.width() == 1 {
-        0
+    let (column, seconds) = if columns.width() == 1 {
+        (0, 1.0)
     } else {
         refuse_spectrum(&columns, 1)?;
-        check_times(&columns)?;
-        columns.beside_the_first(options.column.as_deref(), "`time`")?
+        let seconds = check_times(&columns, options)?;
+        (columns.beside_the_first(options.column.as_deref(), "`time`")?, seconds)
     };
     refuse_spectrum(&columns, column)?;
     let commented = comment_unit(&columns, column);
@@ -73,7 +73,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     if columns.width() == 1 {
         read_column(&columns, options, &mut parsed)?;
     } else {
-        read_table(&columns, column, options, &mut parsed)?;
+        read_table(&columns, column, seconds, options, &mut parsed)?;
     }
     if stated.is_none() {
         let remedy = "give `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g; or write it into a \
@@ -84,9 +84,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// Refuses a first column that is not the time in seconds.
-fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
-    let Some(name) = columns.checked_first()? else { return Ok(()) };
+/// Returns how many seconds the unit of the times has. Refuses a first column that is not the time, and times
+/// in another unit than seconds where no step is stated.
+fn check_times(columns: &Columns<'_>, options: &RecordOptions) -> Result<f64, Fault> {
+    let Some(name) = columns.checked_first()? else { return Ok(1.0) };
     let stated = name.stated();
     let is_comment = columns.names().is_empty();
     if !is_comment && !is_time(name) {
@@ -95,13 +96,15 @@ fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
         return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
     }
     match (stated, name.unit()) {
-        (Some((_, Quantity::Time(1.0))), _) | (None, None) => Ok(()),
+        (Some((_, Quantity::Time(seconds))), _) if seconds == 1.0 || options.step.is_some() => Ok(seconds),
+        (None, None) => Ok(1.0),
         // `time (a_g in m/s2)`
-        (None, Some(unit)) if is_comment || unit.contains(" in ") => Ok(()),
+        (None, Some(unit)) if is_comment || unit.contains(" in ") => Ok(1.0),
         (stated, unit) => {
             let last = stated.map(|(unit, _)| unit).unwrap_or_default();
             let unit = unit.unwrap_or(&last);
-            let remedy = "write the times in seconds, and so in the header line";
+            let remedy = "write the times in seconds, and so in the header line; or state the step in \
+                          seconds as `step` (on the command line --record-step, in Python dt)";
             Err(Fault::excerpt(columns.line(), "times in s", unit, remedy))
         }
     }
@@ -133,12 +136,15 @@ fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) ->
     Ok(None)
 }
 
-/// Refuses a response spectrum: periods, or a column such as `Sa`.
+/// Refuses a response spectrum: periods in the first column, or a column such as `Sa`. A column `T` beside
+/// times is a transverse component.
 fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
     let names = [columns.names().first(), columns.names().get(column)].into_iter().flatten();
-    let is_period = |name: &Name| column > 0 && name.text() == "T";
-    let mut spectral = names.filter(|name| name.says() == Some(Said::Spectrum) || is_period(name));
-    let Some(name) = spectral.next() else { return Ok(()) };
+    let is_first_of_several = |index: usize| index == 0 && columns.width() > 1;
+    let mut spectral = names.enumerate().filter(|(index, name)| {
+        name.says() == Some(Said::Spectrum) || is_first_of_several(*index) && name.text() == "T"
+    });
+    let Some((_, name)) = spectral.next() else { return Ok(()) };
     let expected = "accelerations of the ground at times";
     let remedy = "this is a response spectrum: use the record itself; if it is a record, name its columns \
                   `time` and `a`";
@@ -165,23 +171,26 @@ fn read_column(columns: &Columns<'_>, options: &RecordOptions, parsed: &mut Pars
     Ok(())
 }
 
-/// Reads the rows of a table; they start with the time.
+/// Reads the rows of a table; they start with the time, in a unit of some `seconds`.
 fn read_table(
     columns: &Columns<'_>,
     column: usize,
+    seconds: f64,
     options: &RecordOptions,
     parsed: &mut Parsed,
 ) -> Result<(), Fault> {
     let mut times = Times::default();
-    read_samples(columns, column, parsed, |time, line| times.push(time, line))?;
+    read_samples(columns, column, parsed, |time, line| times.push(seconds * time, line))?;
     let Some((first_time, step)) = times.uniform()? else {
         let found = parsed.samples.len().to_string();
         let remedy = "check that the file is complete";
         return Err(Fault::new(parsed.last_line, "at least two rows", found, remedy));
     };
-    // numbers of samples, and milliseconds
+    // numbers of samples, and milliseconds whose unit is not written
     let is_other = |stated: f64| stated < 1.0 && (step == 1.0 || step > 1.0 && is_close(step, 1e3 * stated));
-    if let Some(stated) = options.step.filter(|stated| is_other(*stated)) {
+    if let Some(stated) = options.step.filter(|stated| seconds != 1.0 || is_other(*stated)) {
+        let contradicts = seconds != 1.0 && !is_close(stated, step);
+        parsed.warnings.extend(contradicts.then_some(Warning::StatedStep { step, stated }));
         (parsed.first_time, parsed.step) = (first_time * stated / step, stated);
         return Ok(());
     }

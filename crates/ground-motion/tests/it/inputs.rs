@@ -170,6 +170,22 @@ fn tables_of_records_are_refused() {
     }
 }
 
+/// Where the times are in another unit, a stated step counts, and is compared with them.
+#[test]
+fn the_stated_step_counts_beside_times_in_other_units() {
+    let text = "time [ms],a [m/s2]\n20,1\n30,2\n40,1\n";
+    let of = |step: f64| {
+        let record = crate::read("x.csv", text, &with_step(step)).unwrap();
+        assert_eq!((record.motion.step(), record.first_time), (step, 2.0 * step));
+        record.warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert!(of(0.01).is_empty());
+    let warning = "step: the times of the file are 0.01 s apart; the 0.005 s that you state count";
+    assert_eq!(of(0.005), [warning]);
+    let error = crate::read("x.csv", text, &RecordOptions::default()).unwrap_err();
+    assert_mentions(&error, &["times in s", "`ms`", "write the times in seconds", "--record-step"]);
+}
+
 /// Decimals beside whole numbers are no thousands if one of them is below 1, or has another number of digits.
 #[test]
 fn whole_numbers_beside_decimals_are_read() {

@@ -169,12 +169,23 @@ fn only_a_count_and_a_step_make_an_at2() {
     }
 }
 
+#[test]
+fn a_column_t_beside_times_is_a_transverse_component() {
+    for text in ["time [s],T [m/s2]\n0,1\n0.1,2\n", "time [s],L [m/s2],T [m/s2]\n0,3,1\n0.1,4,2\n"] {
+        let options = if text.contains('L') { with_column("T") } else { si() };
+        assert_eq!(read(text, &options).unwrap().motion.samples(), [1.0, 2.0], "{text}");
+    }
+}
+
 /// What could be read in two ways is not read.
 #[test]
 fn ambiguous_tables_are_refused_with_the_remedy() {
     for (text, fragments) in [
         ("0,5\n-0,1\n0,25\n", &["line 1", "commas that either", "`0,5`", "semicolons"][..]),
         ("0,1\n1,2\n2,4\n", &["line 1", "commas that either", "decimal points"]),
+        ("acc. [m/s2]\n0,5\n-0,1\n0,25\n", &["line 2", "commas that either", "`0,5`", "decimal points"]),
+        ("acc EW\n0,5\n-0,1\n0,25\n", &["line 2", "commas that either", "`0,5`", "decimal points"]),
+        ("El Centro, 1940\nacc\n0,5\n-0,1\n0,25\n", &["line 3", "commas that either", "`0,5`"]),
         ("time,a_g\n0,000,0,5\n0,005,0,1\n", &["line 2", "2 values", "found 4", "semicolons"]),
         ("0,000,0,5\n0,005,0,1\n", &["line 1", "two columns", "found 4", "semicolons"]),
         ("0,000, 0,5\n0,005, 0,1\n", &["line 1", "two columns", "found 4", "semicolons"]),

@@ -196,9 +196,20 @@ fn times_beside_a_record_give_its_step() {
         assert_eq!(read(&record, &other).unwrap().motion.step(), 0.01);
         fs::write(&step, "0.005\n").unwrap();
         assert_eq!(read(&record, &stated).unwrap().motion.step(), 0.005);
-        fs::write(&step, "0.00\n0.01\n0.04\n").unwrap();
-        let error = read(&record, &stated).unwrap_err().to_string();
-        assert_mentions(&error, &["dts_3.csv, line 2", "uniform times, here 0.02 s", "--record-step"]);
+        for (times, words) in [
+            ("0.00\n0.01\n0.04\n", ["line 2", "uniform times, here 0.02 s"]),
+            ("\n0.00\n\n0.01\n0.04\n", ["line 4", "uniform times, here 0.02 s"]),
+            ("0.03\n0.02\n0.01\n0.00\n", ["line 2", "expected a time after 0.03 s, found 0.02 s"]),
+            ("0\n0.01\n\n0.01\n", ["line 4", "expected a time after 0.01 s, found 0.01 s"]),
+            ("\n-0.01\n", ["line 2", "expected a step above 0 s, found -0.01 s"]),
+            ("\n", ["line 1", "found an empty file"]),
+            ("0\n0.01\n0.02\n\n", ["line 3", "expected 4 times, one for each sample of the record, found 3"]),
+            ("0\n1\n2\n3\n4\n", ["line 5", "expected 4 times, one for each sample of the record, found 5"]),
+        ] {
+            fs::write(&step, times).unwrap();
+            let error = read(&record, &stated).unwrap_err().to_string();
+            assert_mentions(&error, &["dts_3.csv", words[0], words[1], "--record-step"]);
+        }
     }
     assert!(!is_companion(&folder.join("dts/dts_4.csv")));
 }

@@ -50,6 +50,17 @@ fn spectra_state_their_damping_and_are_warned_of() {
         ("Sa_2.5% [g]", Some(0.025)),
         ("Sa(10%) [g]", Some(0.1)),
         ("Sa [g]", None),
+        ("Sa NS (5 %) [g]", Some(0.05)),
+        ("Sa (damping 50 %) [g]", Some(0.5)),
+        ("Sa (ξ = 2,5 %) [g]", Some(0.025)),
+        ("smorzamento 5% [g]", Some(0.05)),
+        ("5%-damped Sa [g]", Some(0.05)),
+        ("Sa (10% in 50 years) (xi 5%) [g]", Some(0.05)),
+        // a probability, fractiles, and a percentage of g
+        ("Sa 10% in 50 years [g]", None),
+        ("Sa (84 % fractile) [g]", None),
+        ("Sa 84% [g]", None),
+        ("Sa 10% 5% [g]", None),
     ] {
         let read = spectrum(&format!("T [s];{name}\n0;0.25\n30;0.75\n"), None, None).unwrap();
         assert_eq!((read.damping, read.warning()), (damping, None), "{name}");

@@ -184,6 +184,7 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
         walls = [walls]
     elif hasattr(walls, "to_pylist"):
         # a table of pyarrow
+        check_names(getattr(walls, "column_names", []))
         walls = with_content(walls.to_pylist())
     elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
         walls = rows_of(walls)
@@ -199,16 +200,23 @@ def rows_of(frame: Any) -> list[dict[str, Any]]:
     """Returns the rows of a DataFrame that have content; names may be an index called `name`."""
     if "name" in getattr(getattr(frame, "index", None), "names", ()) and "name" not in frame.columns:
         frame = frame.reset_index()
-    names = [str(name) for name in frame.columns]
+    check_names([str(name) for name in frame.columns])
+    return rows_of_columns({str(name): frame[name] for name in frame.columns})
+
+
+def check_names(names: Sequence[str]) -> None:
+    """Refuses two columns of one name."""
     twins = sorted({name for name in names if names.count(name) > 1})
     if twins:
         raise ValueError(f"the table of walls has two columns {twins[0]!r}; give each column its own name")
-    return rows_of_columns({str(name): frame[name] for name in frame.columns})
 
 
 def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Returns the rows of columns by their names that have content; each cell keeps its type."""
-    cells = (each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values())
+    cells = [each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values()]
+    if len({len(column) for column in cells}) > 1:
+        found = ", ".join(f"{name!r} has {len(column)}" for name, column in zip(columns, cells))
+        raise ValueError(f"the columns of a table of walls need one length: {found}; complete the short ones")
     return with_content(dict(zip(columns, row)) for row in zip(*cells))
 
 

@@ -12,7 +12,7 @@
 //! | [`mod@file`] | files, written completely or not at all |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
-//! | `folder` | the folder |
+//! | `store` | the folder on disk |
 //! | `work` | computes the parts that are not on disk yet |
 //! | `tables` | the tables |
 //! | `legend` | colours and marks of the damping models |
@@ -28,7 +28,6 @@ mod comparison;
 mod contents;
 mod error;
 pub mod file;
-mod folder;
 mod legend;
 mod nrml;
 mod page;
@@ -37,12 +36,13 @@ mod plots;
 mod population;
 mod report;
 mod risk;
+mod store;
 mod tables;
 mod work;
 
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use error::FolderError;
-pub use folder::Folder;
 pub use part::{decode, encode};
 pub use report::{Report, finish};
+pub use store::Folder;
 pub use work::{WorkError, work};

@@ -16,12 +16,12 @@ use super::comparison::Comparison;
 use super::contents::{Contents, Manifest};
 use super::error::FolderError;
 use super::file::{self, Draft};
-use super::folder::Folder;
 use super::legend;
 use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
+use super::store::Folder;
 use super::tables::{names, tables, write};
 
 /// Most walls that the page and the summary show one by one.

@@ -8,7 +8,7 @@ use crate::ida::{Case, Curve, IdaError, Study};
 use run::parallel;
 
 use super::error::FolderError;
-use super::folder::Folder;
+use super::store::Folder;
 
 /// Why parts could not be made.
 #[derive(Debug, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! The records of a study: files, folders and patterns.
+//! The files of a study: records, folders and patterns of them, a table of walls.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,4 +54,17 @@ fn vertical_files_of_a_folder_are_left_out() {
     }
     let error = loaded(&folder, "\"records/b*\"").unwrap_err();
     assert!(error.contains("all are vertical") && error.contains("name horizontal ones"), "{error}");
+}
+
+/// The study passes the warnings of a table of walls on.
+#[test]
+fn a_table_of_walls_without_a_column_is_warned_of() {
+    let folder = folder("study_table");
+    fs::write(folder.join("walls.csv"), "name,height\na,2\nb,3\n").unwrap();
+    let path = folder.join("study.toml");
+    let text = "models = [\"CDC\"]\nlevels = { method = \"grid\", values = [0.1] }\n\
+                records = { files = [\"records/a.AT2\"] }\nwalls = [{ table = \"walls.csv\" }]\n";
+    fs::write(&path, text).unwrap();
+    let warnings = LoadedStudy::read(&path).unwrap().warnings.join("\n");
+    assert!(warnings.contains("walls.csv: 2 of 2 walls have no thickness"), "{warnings}");
 }

@@ -65,24 +65,29 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
-    let mut files = Vec::new();
-    for path in &arguments.files {
-        if path.is_dir() { files.extend(listing::files(path)?) } else { files.push(path.clone()) }
-    }
+    let files = args::record_files(&arguments.files)?;
     console.check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
     let mut rows = Vec::new();
-    let mut failures = Vec::new();
+    let (mut failures, mut missing) = (Vec::new(), 0);
     for path in &files {
         match read(path, &options, arguments, spectrum) {
             Ok(found) => rows.extend(found),
-            Err(error) => failures.push(output::message(&error)),
+            Err(error) => {
+                failures.push(output::message(&error));
+                missing += usize::from(arguments.files.contains(path));
+            }
         }
     }
     if let ([failure], true) = (&failures[..], rows.is_empty()) {
         bail!("{failure}");
     }
     if is_listing && !rows.is_empty() {
-        return show(console, &rows, &failures, arguments, spectrum);
+        show(console, &rows, &failures, arguments, spectrum)?;
+        // a folder may have files that are no records
+        if missing > 0 {
+            bail!("{missing} of the files that are named could not be read; they are listed as not read");
+        }
+        return Ok(());
     }
     if files.is_empty() {
         bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());

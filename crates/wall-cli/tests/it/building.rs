@@ -64,8 +64,7 @@ fn the_program_prints_peaks_and_writes_histories() {
     fs::write(folder.join("light.toml"), PARAPET).unwrap();
     fs::write(folder.join("thin.toml"), PARAPET.replace("0.3", "0.06")).unwrap();
     fs::write(folder.join("b.toml"), BUILDING).unwrap();
-    let arguments =
-        args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html");
+    let arguments = args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html");
     let shown = printed(&folder, &arguments);
     let row = |name: &str| shown.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
     assert!(row("light").ends_with("no") && row("thin").contains(" at "), "{shown}");

@@ -85,6 +85,25 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("0,1.0\n1\n", "line 2: expected 2 values");
 }
 
+/// A folder stands for the records in it, without vertical ones.
+#[test]
+fn a_check_reads_the_records_of_a_folder() {
+    let folder = folder("check_folder");
+    std::fs::create_dir(folder.join("records")).unwrap();
+    succeed(&folder, &["motion", "--synthetic", "--csv", "records/a.csv"]);
+    let record = content(&folder, "records/a.csv");
+    std::fs::write(folder.join("records/b.csv"), &record).unwrap();
+    let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
+    std::fs::write(folder.join("records/c.csv"), vertical).unwrap();
+    let output = succeed(&folder, &["check", "--records", "records", "--json"]);
+    assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
+    assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
+    let over = ["check", "--records", "records", "--html", "records/a.csv"];
+    refused(&folder, &over, &["the input records/a.csv"]);
+    std::fs::create_dir(folder.join("empty")).unwrap();
+    refused(&folder, &["check", "--records", "empty"], &["empty: a folder without horizontal records"]);
+}
+
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
 #[test]
 fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
@@ -229,6 +248,9 @@ fn many_walls_are_checked() {
     let tall = "height = 200 m is unusual: 0.2 to 30 m is usual; if it is in cm, give 2 m";
     assert_has(of("a").unwrap(), &[tall, thick]);
     assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
+    std::fs::write(folder.join("walls.csv"), "name,height\na,1\nb,0.9\n").unwrap();
+    let warned = text(&wall(&folder, &["check", "walls.toml"]).stderr);
+    assert_has(&warned, &["walls.csv: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);
     refused(&folder, &["check", "walls.toml", "--find", "height"], &["take one wall"]);

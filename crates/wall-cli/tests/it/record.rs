@@ -146,6 +146,9 @@ fn a_folder_is_listed() {
         (4, 2)
     );
     refused(&folder, &["record", "inner"], &["inner", "a folder without files"]);
+    // a file that is named itself must be there
+    let output = fails(&folder, &["record", ".", "missing.AT2"], &["1 of the files that are named"]);
+    assert_has(&text(&output.stdout), &["one.AT2", "not read  missing.AT2: cannot be read"]);
 }
 
 #[test]

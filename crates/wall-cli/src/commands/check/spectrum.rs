@@ -16,7 +16,7 @@ use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 
-use crate::args::{read_record, refuse};
+use crate::args::{read_records, record_files, refuse};
 use crate::output::significant;
 use crate::output::{self, Console};
 use report::template;
@@ -26,7 +26,8 @@ pub(super) struct SpectrumArguments {
     /// Demand: a response spectrum as CSV or text, T in s and Sa, from T = 0 on; of the ground or of a floor
     #[arg(long, value_name = "FILE", conflicts_with = "records")]
     spectrum: Option<PathBuf>,
-    /// Demand: the median spectrum of these records, felt on the floor of a scene with storeys
+    /// Demand: the median spectrum of these records, or of those in a folder; felt on the floor of a scene
+    /// with storeys
     #[arg(long, value_name = "FILE", num_args = 1..)]
     records: Vec<PathBuf>,
     /// Unit of a spectrum or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
@@ -81,7 +82,8 @@ pub(super) fn run(console: &Console<'_>, all: &super::Arguments) -> Result<()> {
     }
     let mut scene = all.scene.load_unshaken()?;
     all.scene.apply(&mut scene)?;
-    let inputs = all.scene.inputs(&scene).chain(&arguments.spectrum).chain(&arguments.records);
+    let records = record_files(&arguments.records)?;
+    let inputs = all.scene.inputs(&scene).chain(&arguments.spectrum).chain(&records);
     console.check_distinct(inputs, &all.html)?;
     let wall = all.scene.named(Wall::new(&scene.parameters))?;
     let source = Source::read(console, arguments, scene.floors.as_ref(), &wall)?;
@@ -148,8 +150,8 @@ impl Source {
         }
         let damping = arguments.damping.unwrap_or(DAMPING);
         let options = RecordOptions { unit, ..RecordOptions::default() };
-        let motion = |path: &PathBuf| Ok(read_record(console, path, &options)?.motion);
-        let motions = arguments.records.iter().map(motion).collect::<Result<Vec<_>>>()?;
+        let records = read_records(console, &arguments.records, &options)?;
+        let motions: Vec<_> = records.into_iter().map(|record| record.motion).collect();
         let count = motions.len();
         let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
         if let Some(floors) = floors {

@@ -26,7 +26,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments, path: &Path, tex
     if !arguments.json {
         console.report_all(warnings(&verdicts));
     }
-    walls.record_warnings().iter().for_each(|warning| console.warn(warning));
+    walls.warnings.iter().for_each(|warning| console.warn(warning));
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {

@@ -1,23 +1,8 @@
 //! The files of a folder, one row each: `wall record FOLDER`.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context, Result};
-use ground_motion::is_listed;
 
 use super::Row;
-
-/// Lists the files of a folder in the order of their names, but for hidden ones and the times beside records.
-pub(super) fn files(folder: &Path) -> Result<Vec<PathBuf>> {
-    let unread = || format!("{}: cannot be read", folder.display());
-    let entries = std::fs::read_dir(folder).with_context(unread)?;
-    let paths: std::io::Result<Vec<_>> = entries.map(|entry| Ok(entry?.path())).collect();
-    let mut paths = paths.with_context(unread)?;
-    paths.retain(|path| is_listed(path));
-    paths.sort();
-    Ok(paths)
-}
 
 /// Shows a row for each file, and names those that could not be read with the reason.
 pub(super) fn table(rows: &[Row], unread: &[String]) -> String {
