@@ -10,7 +10,6 @@
 
 mod branch;
 mod capacity;
-mod continuation;
 mod damping;
 mod equation;
 pub mod equivalence;
@@ -21,7 +20,6 @@ mod layout;
 mod mechanism;
 mod parameters;
 pub mod restitution;
-mod sides;
 mod supports;
 mod tie;
 mod trigonometric;
@@ -37,9 +35,8 @@ pub use equation::Wall;
 pub use error::{Conflict, ParameterError};
 pub use facts::Fact;
 pub use force_law::Line;
-pub use mechanism::Body;
+pub use mechanism::{Body, Sides};
 pub use parameters::{COMPUTABLE, COMPUTED, Kinematics, Parameters};
-pub use sides::Sides;
 pub use supports::{Ends, Support};
 pub use tie::Tie;
 pub use trigonometric::FullRotations;

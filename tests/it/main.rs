@@ -36,7 +36,6 @@ mod ties;
 mod trigonometric;
 mod unit;
 mod warnings;
-mod wiring;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {

@@ -1,6 +1,6 @@
 //! Motion as a polynomial in time.
 
-use crate::kinematic_state::KinematicState;
+use crate::oscillator::KinematicState;
 
 /// Highest power of time in a [`Polynomial`].
 pub const HIGHEST_ORDER: usize = 26;

@@ -13,8 +13,8 @@ use crate::arrays::samples;
 use crate::errors::{failed, refused};
 use crate::tables::Column::{Counts, Names, Numbers};
 use crate::tables::table;
-use crate::threads::{self, Threads};
 use crate::walls::Wall;
+use crate::watch::{self, Threads};
 
 /// Calibrates damping models of a wall; returns the tables of fits, coefficients and laws, and the charts.
 #[pyfunction]
@@ -40,7 +40,7 @@ pub(crate) fn calibrate_wall<'py>(
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
         None => calibrated_models(parameters),
     };
-    let threads = threads::count(threads);
+    let threads = watch::count(threads);
     let mut found = Vec::with_capacity(models.len());
     for model in models {
         grid.check(model).map_err(of_calibration)?;

@@ -13,8 +13,8 @@ use study::spectrum::{
 
 use crate::arrays::{Given, Numbers, grid, motion, samples};
 use crate::errors::{of_scene, refused};
-use crate::threads::{self, Threads};
 use crate::walls::Wall;
+use crate::watch::{self, Threads};
 
 /// Columns and rows, and of each row and column: u/`u_ins`, whether the wall rocked, the time of overturning.
 type Values<'py> = (
@@ -44,7 +44,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
     check_count(columns.len(), rows.len())?;
-    let threads = threads::count(threads).get();
+    let threads = watch::count(threads).get();
     let mut points = Vec::with_capacity(rows.len());
     // between two rows this thread looks at Ctrl-C
     for row in &rows {
@@ -73,7 +73,7 @@ pub(crate) fn spectrum_over_pulses<'py>(
         .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
-    let (parameters, threads) = (&wall.scene.parameters, threads::count(threads).get());
+    let (parameters, threads) = (&wall.scene.parameters, watch::count(threads).get());
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
         let over = || over_pulses(parameters, form, columns, &rows, threads);

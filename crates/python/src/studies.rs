@@ -22,8 +22,8 @@ use crate::arrays::{Given, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 use crate::tables::{Column, table};
-use crate::threads::{self, Threads};
 use crate::watch::watched;
+use crate::watch::{self, Threads};
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -152,7 +152,7 @@ impl Study {
         progress: &Bound<'py, PyAny>,
     ) -> PyResult<[Bound<'py, PyDict>; 3]> {
         let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = threads::count(threads).get();
+        let threads = watch::count(threads).get();
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();

@@ -39,7 +39,7 @@ pub use checks::{LARGEST_LOSS, check, demands};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use error::CheckError;
 pub use find::{Found, Sought, find};
-pub use floor::{FloorSpectrum, Mode, frame_acceleration};
+pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};

@@ -17,14 +17,13 @@ mod knet_csv;
 mod numbers;
 mod smc;
 mod unam;
-mod unread;
 mod volume_1;
 mod volume_2;
 
 pub use csv::CSV_HEADER;
 
-use crate::error::Fault;
-use crate::fields::untrimmed_lines;
+use crate::error::{Fault, UNEVEN};
+use crate::fields::{find, untrimmed_lines};
 use crate::format::Format;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -40,7 +39,7 @@ impl Format {
     /// is known and not read.
     pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        unread::refuse(&head)?;
+        refuse_unread(&head)?;
         // CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose first lines may have the same words; AT2,
         // known by two words anywhere in its header, comes after tables, whose title may have them too.
         let known: [(Self, Recognises); 13] = [
@@ -85,4 +84,20 @@ impl Format {
         };
         Ok(vec![one(text, options)?])
     }
+}
+
+/// Refuses a text in a format that is known by name and not read, so that it is not taken for another.
+fn refuse_unread(head: &[&str]) -> Result<(), Fault> {
+    let has = |lines: usize, word: &str| head.iter().take(lines).any(|line| find(line, word).is_some());
+    let csmnc = has(20, "EQUALLY SPACED INTERVALS OF") && (has(20, "OBSERVING POINT") || has(20, "COMP."));
+    let by_hand = "this format is not read: write its samples one a line and state their step and unit (on \
+                   the command line --record-step and --unit), or make a table, `t [s],a [cm/s2]`";
+    let (found, remedy) = match () {
+        () if csmnc => ("a record of CSMNC, China", by_hand),
+        () if has(1, "SIMBAD") => ("a record of SIMBAD, Italy", by_hand),
+        // its times are those at which the film was read
+        () if has(1, "OF UNCORRECTED ACCELEROGRAM DATA OF") => ("volume 1 of USC or USGS", UNEVEN),
+        () => return Ok(()),
+    };
+    Err(Fault::new(1, "a record in a format that is read", found, remedy))
 }
