@@ -85,7 +85,8 @@ macro_rules! tables {
                     describe: <$type as $crate::scene::Described>::describe,
                     words: || vec![$($((stringify!($word), $value.into())),+)?],
                 }),+];
-                $crate::scene::describe_table::<Self>(stringify!($table), concat!($($about),+), fields, tables)
+                let about = concat!($($about),+);
+                $crate::scene::describe_table::<Self>(stringify!($table), about, fields, tables)
             }
         }
     )+};
@@ -250,7 +251,9 @@ macro_rules! choices {
 
 /// Describes types by one expression each; `|key, tables|` names what the expression may use.
 macro_rules! describe {
-    (|$key:ident, $tables:ident| $($(@$generic:ident)? $type:ty $(, $optional:literal)? => $schema:expr;)+) => {$(
+    (|$key:ident, $tables:ident| $(
+        $(@$generic:ident)? $type:ty $(, $optional:literal)? => $schema:expr;
+    )+) => {$(
         impl $(<$generic: Described>)? Described for $type {
             $(const OPTIONAL: bool = $optional;)?
 

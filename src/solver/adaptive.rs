@@ -221,9 +221,9 @@ impl Piece for Series<'_> {
     }
 }
 
-/// The paper's own scheme, Newmark linear acceleration without iteration at a fixed step: computes one step of
-/// `duration` \[s\] from `start`, which is in equilibrium, while the forcing grows by
-/// `forcing_change` \[m/s²\].
+/// The paper's own scheme, Newmark linear acceleration without iteration at a fixed step: computes one step
+/// of `duration` \[s\] from `start`, which is in equilibrium, while the forcing grows by `forcing_change`
+/// \[m/s²\].
 ///
 /// Tangent stiffness and damping are those at the start of the step, and the acceleration is reset from
 /// equilibrium at each start (Chopra, Dynamics of Structures, section 15). Corners are not located: this

@@ -120,7 +120,7 @@ tables! {
         bottom: Spanned<String>,
         /// Storey of the top support of a strip wall, or ground.
         top: Option<Spanned<String>>,
-        /// Whether the drift between the supports acts: by default wherever it is a storey's own displacement.
+        /// Whether the drift between the supports acts; by default where it is a storey's own displacement.
         drift: Option<Spanned<bool>>,
     }
 }

@@ -67,7 +67,8 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     }
 }
 
-/// Fowler–Noll–Vo hash FNV-1a, 128 bits: a fingerprint, no protection against intent. The guid of a model description and of a payload are such hashes.
+/// Fowler–Noll–Vo hash FNV-1a, 128 bits: a fingerprint, no protection against intent. The
+/// guid of a model description and of a payload are such hashes.
 pub fn fnv1a_128(bytes: impl Iterator<Item = u8>) -> u128 {
     const OFFSET_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;

@@ -62,41 +62,44 @@ impl Format {
 
     /// Returns the format's short name, such as `at2`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::At2 => "at2",
-            Self::Esm => "esm",
-            Self::Knet => "knet",
-            Self::Cosmos => "cosmos",
-            Self::Csmip => "csmip",
-            Self::Smc => "smc",
-            Self::Geonet => "geonet",
-            Self::Afad => "afad",
-            Self::Cwa => "cwa",
-            Self::Unam => "unam",
-            Self::Volume1 => "volume1",
-            Self::KnetCsv => "knet-csv",
-            Self::Numbers => "numbers",
-            Self::Csv => "csv",
-        }
+        self.facts()[0]
     }
 
     /// Returns what people call the format.
     pub fn description(self) -> &'static str {
+        self.facts()[1]
+    }
+
+    /// Returns by what people know its files: their ending, their origin.
+    pub fn files(self) -> &'static str {
+        self.facts()[2]
+    }
+
+    /// Lists what people call the formats.
+    ///
+    /// ```
+    /// assert!(ground_motion::Format::listed().starts_with("PEER AT2, ESM/ITACA, K-NET/KiK-net"));
+    /// ```
+    pub fn listed() -> String {
+        Self::ALL.map(Self::description).join(", ")
+    }
+
+    fn facts(self) -> [&'static str; 3] {
         match self {
-            Self::At2 => "PEER AT2",
-            Self::Esm => "ESM/ITACA",
-            Self::Knet => "K-NET/KiK-net",
-            Self::Cosmos => "COSMOS V2",
-            Self::Csmip => "CSMIP V2",
-            Self::Smc => "USGS SMC",
-            Self::Geonet => "GeoNet",
-            Self::Afad => "AFAD",
-            Self::Cwa => "CWA",
-            Self::Unam => "UNAM",
-            Self::Volume1 => "RENADIC/BHRC",
-            Self::KnetCsv => "K-NET CSV",
-            Self::Numbers => "numbers",
-            Self::Csv => "CSV",
+            Self::At2 => ["at2", "PEER AT2", "NGA-West and older"],
+            Self::Esm => ["esm", "ESM/ITACA", "`.ASC`; ITACA before DYNA 1.2; AFAD `.asc` (Türkiye)"],
+            Self::Knet => ["knet", "K-NET/KiK-net", "`.EW`, `.NS` …"],
+            Self::KnetCsv => ["knet-csv", "K-NET CSV", "NIED's CSV with `RelativeTime(s)`"],
+            Self::Cosmos => ["cosmos", "COSMOS V2", "`.V2c`"],
+            Self::Csmip => ["csmip", "CSMIP V2", "`.V2`, also of CDMG"],
+            Self::Smc => ["smc", "USGS SMC", "`.smc`; not the unevenly spaced pairs of film"],
+            Self::Geonet => ["geonet", "GeoNet", "`.V1A`, `.V2A` (New Zealand)"],
+            Self::Afad => ["afad", "AFAD", "text with three columns (Türkiye)"],
+            Self::Cwa => ["cwa", "CWA", "`.dat`, `.txt`, formerly of CWB (Taiwan)"],
+            Self::Unam => ["unam", "UNAM", "`ARCHIVO ESTANDAR DE ACELERACION` 2.0 (Mexico)"],
+            Self::Volume1 => ["volume1", "RENADIC/BHRC", "volume 1, `.v1` (Chile, Iran)"],
+            Self::Csv => ["csv", "CSV", "or text: one column, or times and accelerations"],
+            Self::Numbers => ["numbers", "numbers", "several a line, as for OpenSees"],
         }
     }
 

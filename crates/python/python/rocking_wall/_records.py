@@ -291,8 +291,7 @@ def read_record(
     channel: str | None = None,
     format: str | None = None,
 ) -> Record:
-    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA,
-    UNAM, RENADIC/BHRC, CSV or text.
+    """Reads a record in the format of an agency, CSV or text; an unknown `format` is told all of them.
 
     The format is found from the content. State `unit` or `dt` [s] where the file does not, the `column` of
     a table with several, and the `channel` of a file with several. Warns of what a quick check finds.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum};
+use ground_motion::{Check, Format, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum};
 use report::plot::Picture;
 use run::records_figure;
 use serde_json::{Value, json};
@@ -17,11 +17,14 @@ use crate::args::{self, RecordOptionsArguments};
 use crate::output::{self, Console};
 use report::table::quoted;
 
+fn files_help() -> String {
+    let formats = Format::listed();
+    format!("Records: {formats} or text; a folder is listed, one row a file; `-` is standard input")
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA, UNAM,
-    /// RENADIC/BHRC, CSV or text; a folder is listed, one row a file; `-` is standard input
-    #[arg(group = "recorded", required = true, value_name = "FILES")]
+    #[arg(group = "recorded", required = true, value_name = "FILES", help = files_help())]
     files: Vec<PathBuf>,
     #[command(flatten)]
     options: RecordOptionsArguments,

@@ -1,0 +1,72 @@
+//! Parts of documents that are derived stand between marks. `cargo xtask generate` writes them, and its
+//! `--check` runs this test as it is.
+
+use ground_motion::Format;
+
+use crate::{read, root};
+
+/// Makes a table of Markdown.
+fn table(head: &str, rows: impl IntoIterator<Item = [String; 2]>) -> String {
+    let columns = head.split('|').count();
+    let rows = rows.into_iter().map(|cells| format!("| {} |\n", cells.join(" | ")));
+    format!("| {head} |\n{}|\n{}", "|---".repeat(columns), rows.collect::<String>())
+}
+
+/// The commands of `wall` with their purposes, those of a group by both names.
+fn commands() -> String {
+    let row = |name: String, command: &clap::Command| {
+        let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+        // details come after a colon
+        [format!("`{name}`"), about.split(": ").next().unwrap_or_default().to_owned()]
+    };
+    let wall = wall::command();
+    let rows = wall.get_subcommands().flat_map(|command| {
+        let name = command.get_name();
+        let parts = command.get_subcommands().map(|part| row(format!("{name} {}", part.get_name()), part));
+        let parts: Vec<_> = parts.collect();
+        if parts.is_empty() { vec![row(name.to_owned(), command)] } else { parts }
+    });
+    table("command | purpose", rows.collect::<Vec<_>>())
+}
+
+/// The formats of records with their files.
+fn formats() -> String {
+    let row = |format: Format| {
+        [format!("{} | {}", format.description(), format.files()), format!("`{}`", format.name())]
+    };
+    table("format | files | `--format`", Format::ALL.map(row))
+}
+
+/// The names of the formats, as an item of a list.
+fn listed() -> String {
+    let mut lines = vec![String::new()];
+    for name in Format::listed().split(' ') {
+        if lines[lines.len() - 1].len() + name.len() > 105 {
+            lines.push(String::new());
+        }
+        let line = lines.last_mut().unwrap();
+        *line += if line.is_empty() { "  " } else { " " };
+        *line += name;
+    }
+    lines.join("\n") + " or text\n  "
+}
+
+#[test]
+fn derived_parts_are_up_to_date() {
+    for (document, mark, derived) in [
+        ("README.md", "commands", commands()),
+        ("docs/records.md", "formats", formats()),
+        ("crates/ground-motion/README.md", "formats", listed()),
+    ] {
+        let text = read(document);
+        let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end {mark} -->"));
+        let (before, rest) = text.split_once(&begin).unwrap();
+        let (_, after) = rest.split_once(&end).unwrap();
+        let expected = [before, &begin, &derived, &end, after].concat();
+        if std::env::var_os("ROCKING_WALL_GENERATE").is_some() {
+            std::fs::write(root().join(document), expected).unwrap();
+        } else {
+            assert_eq!(text, expected, "{document} is stale: run `cargo xtask generate`");
+        }
+    }
+}
