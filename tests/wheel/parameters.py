@@ -111,6 +111,6 @@ FILES = {FILE: text, GIVEN: given}
 
 if __name__ == "__main__":
     if "--check" in sys.argv:
-        sys.exit("".join(f"{file} is stale: run `cargo xtask generate python`\n" for file in stale()))
+        sys.exit("\n".join(f"{file}: run `cargo xtask generate python`" for file in stale()) or None)
     for file, made in FILES.items():
         file.write_text(made(), encoding="utf-8")

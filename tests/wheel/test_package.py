@@ -59,15 +59,6 @@ def test_every_public_name_is_documented():
         assert getattr(rw, name).__doc__, name
 
 
-def test_stubs_are_those_of_the_module(tmp_path):
-    # the stubs use none of the large packages that other modules import; `test_types` follows them
-    config = tmp_path / "stubtest.ini"
-    large = ",".join(f"{name}.*" for name in "dask distributed matplotlib pandas polars pyarrow".split())
-    config.write_text(f"{CONFIG.read_text()}\n[mypy-{large}]\nfollow_imports = skip\n")
-    stubtest = [sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", config]
-    run(*stubtest, "rocking_wall._native", cwd=tmp_path)
-
-
 def test_types(tmp_path):
     code = tmp_path / "code.py"
     code.write_text(

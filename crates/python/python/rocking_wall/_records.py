@@ -81,9 +81,9 @@ class Record:
                 f"Record(dt, samples): dt must be the time between samples in s, found a value of the type "
                 f"{type(dt).__name__}{swapped}"
             )
-        dt, a = _native.in_si((float(dt), a), unit)
-        a.flags.writeable = False
-        for attribute, value in (("dt", dt), ("a", a), ("name", name), ("warnings", tuple(warnings))):
+        dt, samples = _native.in_si((float(dt), a), unit)
+        samples.flags.writeable = False
+        for attribute, value in (("dt", dt), ("a", samples), ("name", name), ("warnings", tuple(warnings))):
             object.__setattr__(self, attribute, value)
 
     @classmethod
@@ -210,7 +210,8 @@ class Record:
         >>> record.spectrum([0.0]) == record.pga
         array([ True])
         """
-        return _native.spectrum(self._motion, periods, damping, at_samples(maxima))
+        sa: NDArray[np.float64] = _native.spectrum(self._motion, periods, damping, at_samples(maxima))
+        return sa
 
     def average_sa(
         self, periods: ArrayLike = AVERAGE_PERIODS, *, damping: float = 0.05, maxima: Maxima = "everywhere"
