@@ -121,6 +121,7 @@ pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneErr
         Ok(bytes) => bytes,
         Err(error) => return Err(SceneError::File { file, reason: format!("cannot be read: {error}") }),
     };
-    let in_file = |fault: Fault| SceneError::Line { file, line: fault.line(), message: fault.to_string() };
+    let in_file =
+        |fault: Fault| SceneError::Line { file, line: fault.line(), key: None, message: fault.to_string() };
     ground_motion::utf8_text(bytes, what).map_err(in_file)
 }

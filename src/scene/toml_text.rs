@@ -35,7 +35,7 @@ pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneErro
             place.error(span, format!("{name} is given twice; leave one out"))
         } else {
             let (line, message) = explained(place, span.start);
-            SceneError::Line { file: place.name().to_owned(), line, message }
+            place.error_on(line, message)
         }
     })
 }

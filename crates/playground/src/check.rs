@@ -13,7 +13,7 @@ use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
-use crate::request::{Fields, fault_of, field_of};
+use crate::request::{Fields, fault_of};
 
 /// Where a message goes that is about no field.
 const NO_FIELD: &str = "check";
@@ -145,10 +145,8 @@ fn fault(fields: &Fields, error: CheckError) -> (String, String) {
             let below = names().filter(|name| name.starts_with(&path) && name.contains('.')).find(last);
             (below.unwrap_or(NO_FIELD).to_owned(), message)
         }
-        CheckError::Scene(SceneError::Line { line, message, .. }) => {
-            let text = table(fields);
-            let field = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next());
-            (field.filter(|field| fields.contains_key(*field)).unwrap_or(NO_FIELD).to_owned(), message)
+        CheckError::Scene(SceneError::Line { key, message, .. }) => {
+            (key.filter(|key| fields.contains_key(key)).unwrap_or_else(|| NO_FIELD.to_owned()), message)
         }
         CheckError::Improbable { doubts, error } => {
             let (field, message) = fault(fields, *error);
@@ -156,8 +154,9 @@ fn fault(fields: &Fields, error: CheckError) -> (String, String) {
             (field, format!("{}; as given, {message}", doubts.join("; ")))
         }
         other => {
-            let message = other.to_string();
-            (field_of(&message, names(), NO_FIELD), message)
+            let path = other.keys().unwrap_or_default().join(".");
+            let field = names().find(|name| *name == path).unwrap_or(NO_FIELD).to_owned();
+            (field, other.to_string())
         }
     }
 }

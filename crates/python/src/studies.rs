@@ -63,9 +63,9 @@ impl Study {
         let walls = named_walls(&walls, &mut warnings)?;
         let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
-        let made = py.detach(|| LoadedStudy::of_parts(text.clone(), walls, records));
+        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
-            SceneError::Line { line, message, .. } => refused(of_argument(&text, line, &message)),
+            SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),
             other => refused(other),
         })?;
         loaded.warnings.splice(..0, warnings);
@@ -208,8 +208,7 @@ impl Study {
 }
 
 /// Names the argument in a message. The user has not written the text, which has a line for each argument.
-fn of_argument(text: &str, line: usize, message: &str) -> String {
-    let argument = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next()).unwrap_or_default();
+fn of_argument(argument: &str, message: &str) -> String {
     if message.starts_with(argument) { message.to_owned() } else { format!("{argument}: {message}") }
 }
 

@@ -119,6 +119,7 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
         let place = folder.join(pattern);
         let is_named = place.is_file();
         let found = files(&place).map_err(|reason| SceneError::Line {
+            key: None,
             file: study.to_owned(),
             line: *line,
             message: format!("{pattern:?}: {reason}"),

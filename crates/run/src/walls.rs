@@ -285,6 +285,7 @@ pub fn walls(
     (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
+        key: None,
         file: study.to_owned(),
         line,
         message: format!("{what}: {error}"),

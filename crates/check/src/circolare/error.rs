@@ -63,8 +63,8 @@ impl CheckError {
         Self::Value { keys: keys.to_vec(), message: message.into() }
     }
 
-    /// The keys of the table `[check]` that the error is about.
-    pub(super) fn keys(&self) -> Option<Vec<&'static str>> {
+    /// Returns the keys of the table `[check]` that the error is about, from the table on.
+    pub fn keys(&self) -> Option<Vec<&'static str>> {
         match self {
             Self::Value { keys, .. } => Some(keys.clone()),
             Self::LocalInstability { .. } | Self::Order { .. } => Some(vec!["SLC", "displacement"]),
