@@ -12,21 +12,17 @@ fn table(head: &str, rows: impl IntoIterator<Item = [String; 2]>) -> String {
     format!("| {head} |\n{}|\n{}", "|---".repeat(columns), rows.collect::<String>())
 }
 
-/// The commands of `wall` with their purposes, those of a group by both names.
+/// The commands of `wall` with their purposes, and the parts of those that have some.
 fn commands() -> String {
-    let row = |name: String, command: &clap::Command| {
+    let row = |command: &clap::Command| {
         let about = command.get_about().map(ToString::to_string).unwrap_or_default();
         // details come after a colon
-        [format!("`{name}`"), about.split(": ").next().unwrap_or_default().to_owned()]
+        let about = about.split(": ").next().unwrap_or_default();
+        let parts: Vec<_> = command.get_subcommands().map(|part| format!("`{}`", part.get_name())).collect();
+        let parts = if parts.is_empty() { String::new() } else { format!(": {}", parts.join(", ")) };
+        [format!("`{}`", command.get_name()), format!("{about}{parts}")]
     };
-    let wall = wall::command();
-    let rows = wall.get_subcommands().flat_map(|command| {
-        let name = command.get_name();
-        let parts = command.get_subcommands().map(|part| row(format!("{name} {}", part.get_name()), part));
-        let parts: Vec<_> = parts.collect();
-        if parts.is_empty() { vec![row(name.to_owned(), command)] } else { parts }
-    });
-    table("command | purpose", rows.collect::<Vec<_>>())
+    table("command | purpose", wall::command().get_subcommands().map(row))
 }
 
 /// The formats of records with their files.
