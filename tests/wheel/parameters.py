@@ -80,8 +80,8 @@ def text() -> str:
 def given() -> str:
     """Returns the text of the file of the attributes."""
     head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
-    names = [(each["name"], "Name" if each["choices"] else "Number") for each in _native.variables()]
-    lines = [f"    {name} = {kind}()\n" for name, kind in [*names, ("kinematics", "Name")]]
+    names = [(each["name"], "str" if each["choices"] else "float") for each in _native.variables()]
+    lines = [f"    {name} = Parameter[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
     return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
 
 

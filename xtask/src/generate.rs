@@ -4,8 +4,8 @@ use crate::command::{Result, cargo, succeed};
 use crate::python::Environment;
 use crate::{codemeta, fmu, test, wheel};
 
-/// Writes parts of what is derived, or all of it. With `check` they are compared instead, and what is stale is
-/// an error.
+/// Writes parts of what is derived, or all of it. With `check` they are compared instead: a stale one is an
+/// error.
 pub(crate) fn run(parts: &[&str], check: bool) -> Result<()> {
     let parts = if parts.is_empty() { &["metadata", "documents", "python"] } else { parts };
     parts.iter().try_for_each(|part| match *part {

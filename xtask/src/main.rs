@@ -17,16 +17,13 @@ mod fuzz;
 mod generate;
 mod images;
 mod mutants;
-mod package;
 mod platform;
 mod playground;
 mod portable;
 mod python;
 mod release;
 mod test;
-mod universal;
 mod wheel;
-mod workflows;
 
 use std::process::ExitCode;
 
@@ -106,12 +103,12 @@ fn main() -> ExitCode {
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
         ["portable"] => portable::run(),
-        ["package"] => package::run(),
+        ["package"] => release::package(),
         ["release"] => release::run(None, fmu::PORTABLE),
         ["release", "--platforms", names] => release::run(None, names),
         ["release", tag] => release::run(Some(tag), fmu::PORTABLE),
         ["fuzz"] => fuzz::run(),
-        ["workflows"] => workflows::check(),
+        ["workflows"] => release::check_workflows(),
         ["generate", "--check", parts @ ..] => generate::run(parts, true),
         ["generate", parts @ ..] => generate::run(parts, false),
         ["mutants", options @ ..] => mutants::run(options),
