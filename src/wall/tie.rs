@@ -14,8 +14,7 @@ use crate::choices::{Mechanism, TieSide};
 
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
-use super::mechanism::Body;
-use super::mechanism::Sides;
+use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
 
 /// The tie of a parapet.

@@ -46,8 +46,7 @@
 use crate::choices::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
 use super::error::ParameterError;
-use super::mechanism::Body;
-use super::mechanism::Sides;
+use super::mechanism::{Body, Sides};
 use super::parameters::Parameters;
 
 /// A wall in full rotations; the equation and its letters are those of its module.

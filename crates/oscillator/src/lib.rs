@@ -26,5 +26,5 @@ mod oscillator;
 mod polynomial;
 
 pub use green::Green;
-pub use oscillator::{KinematicState, Oscillator, Regime};
-pub use polynomial::{HIGHEST_ORDER, Polynomial};
+pub use oscillator::{Oscillator, Regime};
+pub use polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};

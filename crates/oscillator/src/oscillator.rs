@@ -1,18 +1,7 @@
 //! The oscillator: its Green's functions, series, propagation and bounds.
 
 use crate::green::{Green, Phi, phi1};
-use crate::polynomial::{HIGHEST_ORDER, Polynomial};
-
-/// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KinematicState {
-    /// u \[m\].
-    pub displacement: f64,
-    /// u̇ \[m/s\].
-    pub velocity: f64,
-    /// ü \[m/s²\].
-    pub acceleration: f64,
-}
+use crate::polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};
 
 /// A linear oscillator ü + c u̇ + k u = p₀ + p₁ t.
 #[derive(Clone, Copy, Debug, PartialEq)]
