@@ -2,7 +2,7 @@
 shakes a strip wall and two parapets of wall.fmu, and feels their reactions.
 
     pip install openseespy fmpy matplotlib     # OpenSees needs BLAS and LAPACK of the system
-    wall motion --synthetic --pga 2.2 --csv motion.csv
+    wall record --synthetic --pga 2.2 --samples motion.csv
     python examples/coupling/opensees_building.py motion.csv figure.svg
 
 With `linear` for the figure the storeys stay linear, as in scenes/building/three_storeys.toml. Replace

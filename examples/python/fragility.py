@@ -24,7 +24,7 @@ name = "high"
 geometry = { height = 3, thickness = 0.25 }
 """
 
-# %% A study file, as for `wall ida`: here one that is written on the spot.
+# %% A study file, as for `wall study ida`: here one that is written on the spot.
 if len(sys.argv) > 1:
     study = rw.Study.from_toml(sys.argv[1])
 else:

@@ -706,7 +706,7 @@ def test_a_bare_fmpy_simulate_rocks_to_rest(fmu, tmp_path):
 def test_an_input_file_gives_the_held_answer(fmu, wall, tmp_path):
     record, out = tmp_path / "record.csv", tmp_path / "out.csv"
     subprocess.run(
-        [wall, "motion", "--synthetic", "--pga", "2.5", "--csv", record], check=True, capture_output=True
+        [wall, "record", "--synthetic", "--pga", "2.5", "--samples", record], check=True, capture_output=True
     )
     fmpy_command(
         "simulate",

@@ -32,8 +32,8 @@ def document():
 def record(wall, tmp_path_factory):
     """The first seconds of the record as CSV, and as a function of time."""
     path = tmp_path_factory.mktemp("record") / "record.csv"
-    motion = ["--record", EL_CENTRO] if EL_CENTRO.is_file() else ["--synthetic"]
-    subprocess.run([wall, "motion", *motion, "--scale", str(SCALE), "--csv", path], check=True)
+    motion = [EL_CENTRO] if EL_CENTRO.is_file() else ["--synthetic"]
+    subprocess.run([wall, "record", *motion, "--scale", str(SCALE), "--samples", path], check=True)
     head, *rows = path.read_text().splitlines()
     rows = [row for row in rows if float(row.split(",")[0]) <= END]
     path.write_text("\n".join([head, *rows]) + "\n")

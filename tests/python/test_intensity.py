@@ -27,9 +27,9 @@ LARGEST_STEP = 0.005
 
 
 def motion(wall, folder, *source):
-    """Returns a motion as `wall motion` writes it: the step in s and the samples in g."""
+    """Returns a motion as `wall record --samples` writes it: the step in s and the samples in g."""
     path = folder / "motion.csv"
-    subprocess.run([wall, "motion", *source, "--csv", path], check=True, capture_output=True)
+    subprocess.run([wall, "record", *source, "--samples", path], check=True, capture_output=True)
     times, samples = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
     return (times[-1] - times[0]) / (len(times) - 1), samples / 9.80665
 

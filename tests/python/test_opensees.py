@@ -19,7 +19,7 @@ def has_opensees():
 def test_linear_storeys_are_those_of_wall_building(wall, fmu, tmp_path):
     motion = tmp_path / "motion.csv"
     pga = ["--synthetic", "--pga", "2.2"]
-    subprocess.run([wall, "motion", *pga, "--csv", motion], check=True, capture_output=True)
+    subprocess.run([wall, "record", *pga, "--samples", motion], check=True, capture_output=True)
     example = ROOT / "examples/coupling/opensees_building.py"
     printed = subprocess.run(
         [sys.executable, example, motion, "linear"], check=True, capture_output=True, text=True

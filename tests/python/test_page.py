@@ -211,7 +211,8 @@ walls = [{ name = "3", geometry = { height = 3, thickness = 0.3 }, force_law = {
 def study(wall, tmp_path_factory):
     folder = tmp_path_factory.mktemp("study")
     (folder / "study.toml").write_text(STUDY)
-    subprocess.run([wall, "ida", "study.toml", "-o", "out"], cwd=folder, check=True, capture_output=True)
+    command = [wall, "study", "ida", "study.toml", "-o", "out"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
     return folder / "out/study.html"
 
 
@@ -250,7 +251,8 @@ def test_the_page_of_many_walls_fits_a_phone(browser, wall, tmp_path):
         "records = { synthetic = { count = 2, duration = 10, step = 0.02 } }\n"
         'report = { resamples = 100 }\nwalls = [{ table = "walls.csv" }]\n'
     )
-    subprocess.run([wall, "ida", "study.toml", "-o", "out"], cwd=tmp_path, check=True, capture_output=True)
+    command = [wall, "study", "ida", "study.toml", "-o", "out"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     browser.execute_cdp_cmd(
         "Emulation.setDeviceMetricsOverride",
         {"width": 390, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
@@ -263,7 +265,7 @@ def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tm
     path = tmp_path / "spectrum.html"
     ranges = ["--heights", "1:6:21", "--ratios", "5:20:16"]
     subprocess.run(
-        [wall, "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True
+        [wall, "study", "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True
     )
     browser.get_log("browser")
     browser.get(path.as_uri())

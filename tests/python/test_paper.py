@@ -33,10 +33,10 @@ PAGES = {
     "full rotations": ("simulate --set force_law=rigid_linear --set damping_model=none "
                        "--set impact=restitution --synthetic --html {}", 0),
     "building": (f"building {ROOT / 'scenes/building/three_storeys.toml'} --synthetic --html {{}}", 10),
-    "study": ("ida study.toml -o out", 6),
-    "spectrum": ("spectrum --synthetic --heights 1:6:6 --ratios 5:20:6 --html {}", 1),
+    "study": ("study ida study.toml -o out", 6),
+    "spectrum": ("study spectrum --synthetic --heights 1:6:6 --ratios 5:20:6 --html {}", 1),
     "stability": ("verify stability --columns 2 --html {}", 0),
-    "calibrate": ("calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
+    "calibrate": ("study calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
     "reproduce": ("verify paper -o {}", 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check --spectrum spectrum.csv --unit m/s2 --html {}", 0),

@@ -148,7 +148,7 @@ def test_ties_and_transverse_walls_are_drawn(browser, page):
 
 def test_a_record_of_the_user_gives_the_numbers_of_the_command_line(browser, wall, page, tmp_path):
     record = tmp_path / "quake.csv"
-    subprocess.run([wall, "motion", "--synthetic", "--csv", record], check=True, capture_output=True)
+    subprocess.run([wall, "record", "--synthetic", "--samples", record], check=True, capture_output=True)
     visit(browser, page)
     Select(browser.find_element(By.ID, "field_kind")).select_by_value("record")
     assert "drop a record file here" in wait(browser, lambda: text_of(browser, "fault_record"))

@@ -28,7 +28,7 @@ def test_a_real_record_drives_the_unit(record, fmu, wall, tmp_path, number):
     settings = {"height": height, "thickness": thickness, "a1": a1, "u_start": 0.0}
     motion = tmp_path / "motion.csv"
     subprocess.run(
-        [wall, "motion", "--record", record, "--scale", "0.8", "--csv", motion],
+        [wall, "record", record, "--scale", "0.8", "--samples", motion],
         check=True,
         capture_output=True,
     )

@@ -1,4 +1,4 @@
-"""Tests the pages of `wall verify paper` and `wall calibrate` in a browser.
+"""Tests the pages of `wall verify paper` and `wall study calibrate` in a browser.
 
 They load without errors and fit narrow and wide windows.
 """
@@ -31,7 +31,7 @@ def reproduction(wall, tmp_path_factory):
 @pytest.fixture(scope="module")
 def calibration(wall, tmp_path_factory):
     path = tmp_path_factory.mktemp("calibrate") / "calibration.html"
-    command = [wall, "calibrate", "--restitution", "0.84,0.92", "--a1", "0.02,0.05", "--html", path]
+    command = [wall, "study", "calibrate", "--restitution", "0.84,0.92", "--a1", "0.02,0.05", "--html", path]
     subprocess.run(command, check=True, capture_output=True)
     return path
 

@@ -18,7 +18,10 @@ walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 
 @pytest.mark.parametrize(
     ("arguments", "result"),
-    [(["verify", "paper"], "reproduction.html"), (["ida", "study.toml"], "study_results/levels.csv")],
+    [
+        (["verify", "paper"], "reproduction.html"),
+        (["study", "ida", "study.toml"], "study_results/levels.csv"),
+    ],
 )
 def test_progress_is_shown_and_a_lost_terminal_changes_nothing(wall, tmp_path, arguments, result):
     (tmp_path / "study.toml").write_text(STUDY)

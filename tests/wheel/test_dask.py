@@ -1,4 +1,4 @@
-"""A study on Dask: two worker processes on this machine, one of them killed, the bytes of `wall ida`."""
+"""A study on Dask: two workers on this machine, one of them killed, and the bytes of `wall study ida`."""
 
 import os
 import pickle
@@ -56,7 +56,7 @@ def test_a_study_is_sent_as_it_is(study):
 
 
 def test_two_workers_one_killed(study, program, tmp_path):
-    program("ida", study, "-o", tmp_path / "alone")
+    program("study", "ida", study, "-o", tmp_path / "alone")
     cluster = distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
     )

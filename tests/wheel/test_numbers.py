@@ -95,7 +95,7 @@ def test_a_start_by_name_is_kept(record):
 
 def test_a_record(program, tmp_path, record):
     path = tmp_path / "record.csv"
-    program("motion", "--synthetic", "--csv", path)
+    program("record", "--synthetic", "--samples", path)
     read = rw.read_record(path)
     np.testing.assert_array_equal(read.a, record.a)
     [told] = program("record", path, "--json", "--periods", "0.2,1")["records"]
@@ -111,7 +111,7 @@ def test_a_study(program, tmp_path):
     text = open("examples/python/fragility.py", encoding="utf-8").read().split('"""')[3]
     path = tmp_path / "study.toml"
     path.write_text(text, encoding="utf-8")
-    program("ida", path, "-o", tmp_path / "results")
+    program("study", "ida", path, "-o", tmp_path / "results")
     study = rw.Study.from_toml(path)
     results = study.run(progress=False, threads=1)
     for name in ("levels", "collapses", "fragilities"):
@@ -123,6 +123,8 @@ def test_a_study(program, tmp_path):
                     assert not np.isfinite(value)
                 elif text == "":
                     assert np.isnan(value)
+                elif column == "overturned":
+                    assert value == (text == "true")
                 else:
                     assert value == (text if column in ("wall", "model", "record") else float(text)), column
 

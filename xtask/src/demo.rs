@@ -45,7 +45,8 @@ fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[
         command.arg(first).args(motion);
         command
     };
-    run_quietly(command("motion").arg("--csv").arg(&input))?;
+    let record = motion.strip_prefix(&["--record"]).unwrap_or(motion);
+    run_quietly(crate::command::program(wall).arg("record").args(record).arg("--samples").arg(&input))?;
     let text = std::fs::read_to_string(&input).map_err(|error| format!("{}: {error}", input.display()))?;
     let stop = text.lines().last().and_then(|line| line.split(',').next()).unwrap_or("30").to_owned();
     let mut fmpy = python.program("python");

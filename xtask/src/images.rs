@@ -9,7 +9,7 @@ pub(crate) fn run() -> Result<()> {
     page("wall", &["simulate"])?;
     page("building", &["building", "scenes/building/three_storeys.toml"])?;
     let map = ["--heights", "1:6:21", "--ratios", "5:14:19", "--svg", "docs/images/spectrum.svg"];
-    wall(&[&["spectrum", "--synthetic", "--pga", "2.5"], &map[..]].concat())?;
+    wall(&[&["study", "spectrum", "--synthetic", "--pga", "2.5"], &map[..]].concat())?;
     let plot = ["--plot", "docs/images/work_precision.svg"];
     wall(&[&["verify", "accuracy", "scenes/parapet_on_a_roof.toml"], &plot[..]].concat())?;
     let results = root().join("target/images");
@@ -17,7 +17,7 @@ pub(crate) fn run() -> Result<()> {
         // the folder of a study by another build would be refused
         std::fs::remove_dir_all(&results).map_err(|error| format!("{}: {error}", results.display()))?;
     }
-    wall(&["ida", "studies/stripes.toml", "-o", "target/images"])?;
+    wall(&["study", "ida", "studies/stripes.toml", "-o", "target/images"])?;
     let fragilities = "fragilities.svg";
     std::fs::copy(results.join(fragilities), folder.join(fragilities))
         .map_err(|error| format!("{}: {error}", results.join(fragilities).display()))?;

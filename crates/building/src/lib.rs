@@ -13,6 +13,7 @@
 //! | [`document`] | the file of a building |
 //! | [`parts`] | its units and their connections, and the SSP |
 //! | [`coupled`] | the run under a record |
+//! | [`table`] | its peaks and histories as tables and JSON |
 //! | [`page`] | the page of a run |
 //! | [`mod@trial`] | the step that a master needs for 1 % |
 
@@ -22,6 +23,7 @@ pub mod error;
 pub mod page;
 pub mod parts;
 mod ssd;
+pub mod table;
 pub mod trial;
 mod units;
 mod wiring;

@@ -76,7 +76,7 @@ impl Fragility {
         let summaries = compare(std::slice::from_ref(&states), 0, &ObservationKind::Records, &bootstrap);
         let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
         let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
-            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, Some(2));
+            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, 2);
             let dispersion = summary.fitted.map(|curve| number(curve.dispersion, 2));
             json!({
                 "name": name,
@@ -105,13 +105,13 @@ impl Fragility {
             if let Ok(curve) = summary.fitted {
                 let at = |k: u32| 0.005 * f64::from(k) * right;
                 let point = |x: f64| (x, curve.probability(x * STANDARD_GRAVITY));
-                series.push(Series::line(color, 1.8, (1..=200).map(at).map(point).collect()));
+                series.push(Series::stroke(color, 1.8, (1..=200).map(at).map(point).collect()));
             }
-            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 2.5, marks) });
+            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 2.5, marks) });
         }
         if let Some(peak) = self.peak.map(in_g).filter(|peak| *peak <= right) {
             let look = Look::Dashed;
-            series.push(Series { look, ..Series::line(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
+            series.push(Series { look, ..Series::stroke(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
         }
         let size = [self.width.clamp(280.0, 700.0), 280.0];
         let x = Axis::over("peak ground acceleration (g)", [0.0, right]);

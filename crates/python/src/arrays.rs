@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::errors::of_motion;
 
 /// A motion as Python has it: the time between samples \[s\] and the samples \[m/s²\].
-pub(crate) type Given<'py> = (f64, Bound<'py, PyAny>);
+pub(crate) type MotionValues<'py> = (f64, Bound<'py, PyAny>);
 
 /// An array of numbers for Python.
 pub(crate) type Numbers<'py> = Bound<'py, PyArray1<f64>>;
@@ -49,7 +49,7 @@ pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
 }
 
 /// Makes a motion from its values.
-pub(crate) fn motion((step, given): &Given<'_>) -> PyResult<GroundMotion> {
+pub(crate) fn motion((step, given): &MotionValues<'_>) -> PyResult<GroundMotion> {
     GroundMotion::new(*step, samples(given)?).map_err(of_motion)
 }
 

@@ -11,7 +11,7 @@ use report::palette::{DARK_GREY, SERIES};
 use report::plot::Picture;
 use run::figure::{cut, histories};
 
-use crate::arrays::{Given, motion};
+use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_file, refused};
 use crate::watch::watched;
 
@@ -59,7 +59,7 @@ impl Building {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        ground: Given<'py>,
+        ground: MotionValues<'py>,
         tail: f64,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {

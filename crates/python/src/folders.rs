@@ -50,7 +50,7 @@ impl Folder {
 /// Makes the exception of a folder.
 fn of_folder(error: FolderError) -> PyErr {
     match error {
-        FolderError::File { .. } => PyOSError::new_err(error.to_string()),
+        FolderError::File(_) => PyOSError::new_err(error.to_string()),
         FolderError::Parquet { .. } | FolderError::Part { .. } => failed(error),
         _ => refused(error),
     }

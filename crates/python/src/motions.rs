@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use ground_motion::{
-    GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
-    SyntheticMotion, Unit, Warning,
+    GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, Shape, Spectrum, SyntheticMotion,
+    Unit, Warning,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use run::records_figure;
+use run::record_facts::figure::{self, Drawn};
 
-use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
+use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
 use crate::errors::{of_motion, refused};
 
 /// Reads the channels of a record file.
@@ -94,7 +94,11 @@ pub(crate) fn synthetic(
 
 /// Copies a motion and converts it to m/s².
 #[pyfunction]
-pub(crate) fn in_si<'py>(py: Python<'py>, given: Given<'py>, unit: &str) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn in_si<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    unit: &str,
+) -> PyResult<(f64, Numbers<'py>)> {
     let unit: Unit = unit.parse().map_err(of_motion)?;
     let (step, given) = given;
     let samples = samples(&given)?.into_iter().map(|sample| unit.to_si(sample)).collect();
@@ -103,13 +107,21 @@ pub(crate) fn in_si<'py>(py: Python<'py>, given: Given<'py>, unit: &str) -> PyRe
 
 /// Multiplies a motion by a factor.
 #[pyfunction]
-pub(crate) fn scaled<'py>(py: Python<'py>, given: Given<'py>, factor: f64) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn scaled<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    factor: f64,
+) -> PyResult<(f64, Numbers<'py>)> {
     made(py, motion(&given)?.checked_scaled(factor))
 }
 
 /// Scales a motion to a peak acceleration.
 #[pyfunction]
-pub(crate) fn scaled_to<'py>(py: Python<'py>, given: Given<'py>, pga: f64) -> PyResult<(f64, Numbers<'py>)> {
+pub(crate) fn scaled_to<'py>(
+    py: Python<'py>,
+    given: MotionValues<'py>,
+    pga: f64,
+) -> PyResult<(f64, Numbers<'py>)> {
     made(py, motion(&given)?.scaled_to_peak(pga))
 }
 
@@ -117,7 +129,7 @@ pub(crate) fn scaled_to<'py>(py: Python<'py>, given: Given<'py>, pga: f64) -> Py
 #[pyfunction]
 pub(crate) fn trimmed<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     start: f64,
     end: f64,
 ) -> PyResult<(f64, Numbers<'py>)> {
@@ -132,7 +144,7 @@ fn made(py: Python<'_>, motion: Result<GroundMotion, GroundMotionError>) -> PyRe
 #[pyfunction]
 pub(crate) fn spectrum<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     periods: &Bound<'py, PyAny>,
     damping: f64,
     at_samples: bool,
@@ -147,7 +159,7 @@ pub(crate) fn spectrum<'py>(
 #[pyfunction]
 pub(crate) fn average_sa<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: MotionValues<'py>,
     periods: &Bound<'py, PyAny>,
     damping: f64,
     at_samples: bool,
@@ -162,21 +174,10 @@ fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
     Spectrum::new(damping, maxima).map_err(of_motion)
 }
 
-/// Draws a record above its response spectrum at some periods, as SVG.
+/// Draws a record above its response spectrum, as SVG.
 #[pyfunction]
-pub(crate) fn picture<'py>(
-    py: Python<'py>,
-    given: Given<'py>,
-    periods: &Bound<'py, PyAny>,
-    name: String,
-) -> PyResult<String> {
-    let (motion, periods) = (motion(&given)?, samples(periods)?);
-    let in_g = |a: f64| a / STANDARD_GRAVITY;
-    let of = Spectrum::default();
-    let accelerations = py.detach(|| of.accelerations(&motion, &periods)).map_err(of_motion)?;
-    let times = (0..motion.samples().len()).map(|index| index as f64 * motion.step());
-    let history = times.zip(motion.samples().iter().map(|a| in_g(*a))).collect();
-    let spectrum = periods.into_iter().zip(accelerations.into_iter().map(in_g)).collect();
-    let record = records_figure::Record { name, history, spectrum, is_vertical: false };
-    Ok(records_figure::picture(&[record], ground_motion::spectrum::DAMPING).svg())
+pub(crate) fn picture(py: Python<'_>, given: MotionValues<'_>, name: String) -> PyResult<String> {
+    let motion = motion(&given)?;
+    let drawn = py.detach(|| Drawn::new(name, &motion, &Spectrum::default())).map_err(of_motion)?;
+    Ok(figure::picture(&[drawn], ground_motion::spectrum::DAMPING).svg())
 }

@@ -1,36 +1,32 @@
 //! Rocking spectra.
 
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::simulation::Excitation;
 use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
-    MOST_POINTS, Point, PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
-    over_pulses, over_walls,
+    MOST_POINTS, Point, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError,
+    common_motion, over_pulses, over_walls,
 };
 
-use crate::arrays::{Given, Numbers, grid, motion, samples};
+use crate::arrays::{MotionValues, Numbers, motion, samples};
 use crate::errors::{of_scene, refused};
+use crate::tables;
 use crate::walls::Wall;
 use crate::watch::{self, Threads};
 
-/// Columns and rows, and of each row and column: u/`u_ins`, whether the wall rocked, the time of overturning.
-type Values<'py> = (
-    Numbers<'py>,
-    Numbers<'py>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<bool>>,
-    Bound<'py, PyArray2<f64>>,
-);
+/// Columns, rows, and the table of `wall study spectrum --csv`.
+type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>);
 
 /// Computes the spectrum of a record, or of the motion of the wall's scene, over walls.
 #[pyfunction]
 pub(crate) fn spectrum_over_walls<'py>(
     py: Python<'py>,
     wall: &Wall,
-    record: Option<Given<'py>>,
+    record: Option<MotionValues<'py>>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
     threads: Option<Threads>,
@@ -45,6 +41,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
     check_count(columns.len(), rows.len())?;
     let threads = watch::count(threads).get();
+    let quantities = [size.quantity(), slenderness.quantity()];
     let mut points = Vec::with_capacity(rows.len());
     // between two rows this thread looks at Ctrl-C
     for row in &rows {
@@ -53,7 +50,7 @@ pub(crate) fn spectrum_over_walls<'py>(
         points.extend(py.detach(over).map_err(of_spectrum)?.points);
         py.check_signals()?;
     }
-    values(py, RockingSpectrum { columns, rows, points })
+    values(py, RockingSpectrum { quantities, columns, rows, points })
 }
 
 /// Columns of pulses for each thread between two looks at Ctrl-C.
@@ -74,6 +71,7 @@ pub(crate) fn spectrum_over_pulses<'py>(
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
     let (parameters, threads) = (&wall.scene.parameters, watch::count(threads).get());
+    let quantities = [QUANTITIES[4], QUANTITIES[5]];
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
         let over = || over_pulses(parameters, form, columns, &rows, threads);
@@ -81,34 +79,30 @@ pub(crate) fn spectrum_over_pulses<'py>(
         points.iter_mut().zip(found).for_each(|(row, found)| row.extend(found));
         py.check_signals()?;
     }
-    values(py, RockingSpectrum { columns, rows, points })
+    values(py, RockingSpectrum { quantities, columns, rows, points })
 }
 
-/// Draws a spectrum, as SVG, from its values row by row.
+/// Draws a spectrum, as SVG, from the names and values of its axes, and its values row by row.
 #[pyfunction]
 pub(crate) fn picture_of_spectrum(
+    names: [String; 2],
     columns: Vec<f64>,
     rows: Vec<f64>,
-    points: Vec<Vec<(f64, bool, f64)>>,
+    points: Vec<(f64, bool, f64)>,
     title: String,
-    labels: [String; 2],
-) -> String {
-    let point = |(ratio, rocked, time): (f64, bool, f64)| Point {
+) -> PyResult<String> {
+    let quantity = |name: &String| QUANTITIES.iter().find(|quantity| quantity.name == name).copied();
+    let [Some(column), Some(row)] = names.each_ref().map(quantity) else {
+        return Err(refused(format!("{} and {} are not axes of a spectrum", names[0], names[1])));
+    };
+    let point = |&(ratio, rocked, time): &(f64, bool, f64)| Point {
         ratio,
         rocked,
         overturning: (!time.is_nan()).then_some(time),
     };
-    let points = points.into_iter().map(|row| row.into_iter().map(point).collect()).collect();
-    let spectrum = RockingSpectrum { columns, rows, points };
-    svg(&Shown {
-        spectrum,
-        title,
-        notes: Vec::new(),
-        labels,
-        names: ["", ""],
-        axes: String::new(),
-        own: None,
-    })
+    let points = points.chunks(columns.len().max(1)).map(|row| row.iter().map(point).collect()).collect();
+    let spectrum = RockingSpectrum { quantities: [column, row], columns, rows, points };
+    Ok(svg(&Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None }))
 }
 
 fn check_count(columns: usize, rows: usize) -> PyResult<()> {
@@ -127,12 +121,6 @@ fn of_spectrum(error: SpectrumError) -> PyErr {
 }
 
 fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
-    let RockingSpectrum { columns, rows, points } = spectrum;
-    Ok((
-        PyArray1::from_vec(py, columns),
-        PyArray1::from_vec(py, rows),
-        grid(py, &points, |point| point.ratio)?,
-        grid(py, &points, |point| point.rocked)?,
-        grid(py, &points, |point| point.overturning.unwrap_or(f64::NAN))?,
-    ))
+    let table = tables::table(py, spectrum.table())?;
+    Ok((PyArray1::from_vec(py, spectrum.columns), PyArray1::from_vec(py, spectrum.rows), table))
 }

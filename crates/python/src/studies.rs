@@ -15,13 +15,13 @@ use run::records::NamedRecord;
 use study::folder::{Contents, encode};
 use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
-use study::results::{Fitting, WallResults};
-use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names, Table};
+use study::results::Fitting;
+use study::tables::{KINDS, Kind, Names};
 
-use crate::arrays::{Given, motion};
+use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::{Column, table};
+use crate::tables::Columns;
 use crate::watch::watched;
 use crate::watch::{self, Threads};
 
@@ -57,11 +57,12 @@ impl Study {
         py: Python<'_>,
         text: String,
         walls: Vec<(String, Bound<'_, PyAny>)>,
-        records: Vec<(String, Given<'_>)>,
+        records: Vec<(String, MotionValues<'_>)>,
     ) -> PyResult<Self> {
         let mut warnings = Vec::new();
         let walls = named_walls(&walls, &mut warnings)?;
-        let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+        let record =
+            |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
         let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
@@ -170,8 +171,15 @@ impl Study {
             records: self.records(),
             fractions: &report.fractions,
         };
-        let of = |made: Table| table_of(py, made, &names, &results);
-        Ok([of(LEVELS)?, of(COLLAPSES)?, of(FRAGILITIES)?])
+        let of = |(_, of_wall): Kind| {
+            let mut columns = Columns::default();
+            for (wall, results) in results.iter().enumerate() {
+                columns.add(of_wall(&names, wall, results));
+            }
+            columns.dict(py)
+        };
+        let [levels, collapses, fragilities] = KINDS.map(of);
+        Ok([levels?, collapses?, fragilities?])
     }
 }
 
@@ -210,23 +218,4 @@ impl Study {
 /// Names the argument in a message. The user has not written the text, which has a line for each argument.
 fn of_argument(argument: &str, message: &str) -> String {
     if message.starts_with(argument) { message.to_owned() } else { format!("{argument}: {message}") }
-}
-
-/// Makes a table of the results of all walls.
-fn table_of<'py>(
-    py: Python<'py>,
-    made: Table,
-    names: &Names<'_>,
-    results: &[WallResults],
-) -> PyResult<Bound<'py, PyDict>> {
-    let mut columns: Vec<Column<'_>> = Vec::new();
-    for (wall, results) in results.iter().enumerate() {
-        (made.rows)(names, wall, results, &mut |cells| {
-            if columns.is_empty() {
-                columns.extend(cells.iter().map(Column::of));
-            }
-            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
-        });
-    }
-    table(py, made.columns.split(',').zip(columns))
 }

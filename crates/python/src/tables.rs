@@ -5,31 +5,75 @@ use std::borrow::Cow;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::table::{Cell, Table};
+use report::table::{Cell, Column, Table};
 
-/// A column of a table.
-pub(crate) enum Column<'a> {
-    Names(Vec<Cow<'a, str>>),
+/// Columns that grow table by table.
+#[derive(Default)]
+pub(crate) struct Columns(Vec<Named>);
+
+/// A column with a name: its place in the rows, the name and the values.
+struct Named(usize, Cow<'static, str>, Values);
+
+enum Values {
+    Names(Vec<String>),
     Numbers(Vec<f64>),
-    Counts(Vec<usize>),
+    Counts(Vec<i64>),
     Flags(Vec<bool>),
 }
 
-impl<'a> Column<'a> {
-    /// Makes a column for cells like this one.
-    pub(crate) fn of(cell: &Cell<'a>) -> Self {
-        match cell {
-            Cell::Text(_) => Self::Names(Vec::new()),
-            Cell::Empty | Cell::Number(_) | Cell::Rounded(..) | Cell::Between(_) => Self::Numbers(Vec::new()),
-            Cell::Count(_) => Self::Counts(Vec::new()),
-            Cell::Flag(_) => Self::Flags(Vec::new()),
+/// Makes a table for Python: names as lists, the others as arrays of their type.
+pub(crate) fn table(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
+    let mut columns = Columns::default();
+    columns.add(table);
+    columns.dict(py)
+}
+
+impl Columns {
+    /// Adds the rows of a table with the same columns.
+    pub(crate) fn add(&mut self, table: Table) {
+        let Table { columns, rows } = table;
+        if self.0.is_empty() {
+            let named = |(place, column): (usize, Column)| {
+                let is = |of: fn(&Cell<'_>) -> bool| rows.iter().map(|row| &row[place]).all(of);
+                let values = if column.is_text || !is(|cell| !matches!(cell, Cell::Text(_))) {
+                    Values::Names(Vec::new())
+                } else if !rows.is_empty() && is(|cell| matches!(cell, Cell::Count(_))) {
+                    Values::Counts(Vec::new())
+                } else if !rows.is_empty() && is(|cell| matches!(cell, Cell::Flag(_))) {
+                    Values::Flags(Vec::new())
+                } else {
+                    Values::Numbers(Vec::new())
+                };
+                (!column.name.is_empty()).then_some(Named(place, column.name, values))
+            };
+            self.0 = columns.into_iter().enumerate().filter_map(named).collect();
+        }
+        for row in &rows {
+            self.0.iter_mut().for_each(|Named(place, _, values)| values.push(&row[*place]));
         }
     }
 
+    /// Returns the columns by their names.
+    pub(crate) fn dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let table = PyDict::new(py);
+        for Named(_, name, values) in self.0 {
+            match values {
+                Values::Names(names) => table.set_item(name, names)?,
+                Values::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,
+                Values::Counts(counts) => table.set_item(name, PyArray1::from_vec(py, counts))?,
+                Values::Flags(flags) => table.set_item(name, PyArray1::from_vec(py, flags))?,
+            }
+        }
+        Ok(table)
+    }
+}
+
+impl Values {
     /// Adds a cell: a number that is not known is NaN, and one that is above the levels infinite.
-    pub(crate) fn push(&mut self, cell: &Cell<'a>) {
+    fn push(&mut self, cell: &Cell<'_>) {
         match (self, cell) {
-            (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
+            (Self::Names(names), Cell::Text(name)) => names.push(name.clone().into_owned()),
+            (Self::Names(names), Cell::Empty) => names.push(String::new()),
             (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
                 numbers.push(*number);
             }
@@ -38,41 +82,10 @@ impl<'a> Column<'a> {
                 let is_known = least == most || *most == f64::INFINITY;
                 numbers.push(if is_known { *most } else { f64::NAN });
             }
-            (Self::Counts(counts), Cell::Count(count)) => counts.push(*count),
+            #[allow(clippy::cast_possible_wrap, reason = "nothing is counted up to 2⁶³")]
+            (Self::Counts(counts), Cell::Count(count)) => counts.push(*count as i64),
             (Self::Flags(flags), Cell::Flag(flag)) => flags.push(*flag),
             _ => unreachable!("the cells of a column are alike"),
         }
     }
-}
-
-/// Returns the named columns of a table of at least one row.
-pub(crate) fn columns_of(table: &Table) -> impl Iterator<Item = (&str, Column<'_>)> {
-    let named = table.columns.iter().enumerate().filter(|(_, column)| !column.name.is_empty());
-    named.map(|(index, column)| {
-        let mut cells = Column::of(&table.rows[0][index]);
-        table.rows.iter().for_each(|row| cells.push(&row[index]));
-        (&*column.name, cells)
-    })
-}
-
-/// Makes a table of its columns: names as lists, the others as arrays of their type.
-pub(crate) fn table<'py, 'a>(
-    py: Python<'py>,
-    columns: impl IntoIterator<Item = (impl AsRef<str>, Column<'a>)>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let table = PyDict::new(py);
-    for (name, column) in columns {
-        let name = name.as_ref();
-        match column {
-            Column::Names(names) => table.set_item(name, names)?,
-            Column::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,
-            Column::Counts(counts) => {
-                #[allow(clippy::cast_possible_wrap, reason = "nothing is counted up to 2⁶³")]
-                let counts = counts.into_iter().map(|count| count as i64);
-                table.set_item(name, PyArray1::from_iter(py, counts))?;
-            }
-            Column::Flags(flags) => table.set_item(name, PyArray1::from_vec(py, flags))?,
-        }
-    }
-    Ok(table)
 }

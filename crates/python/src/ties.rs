@@ -6,12 +6,11 @@ use pyo3::types::PyDict;
 use rocking_wall::response::Fate;
 use run::polarity::Polarities;
 use study::tie::figure::picture;
-use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
+use study::tie::{Outcome, Row, TieError, TieStudy, table};
 
-use crate::arrays::{Given, grid, motion, samples};
+use crate::arrays::{MotionValues, grid, motion, samples};
 use crate::errors::{of_scene, refused};
-use crate::tables::Column::{Counts, Numbers};
-use crate::tables::table;
+use crate::tables;
 use crate::walls::Wall;
 use crate::watch::{self, Threads};
 
@@ -24,7 +23,7 @@ const RUNS_AT_ONCE: usize = 4;
 pub(crate) fn tie_of_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
-    records: Vec<Given<'py>>,
+    records: Vec<MotionValues<'py>>,
     stiffness: Option<Bound<'py, PyAny>>,
     both_polarities: bool,
     threads: Option<Threads>,
@@ -41,7 +40,7 @@ pub(crate) fn tie_of_wall<'py>(
         py.check_signals()?;
     }
     let is_alike = study.polarities() == Polarities::Alike;
-    Ok((outcomes(py, &rows)?, medians(py, &rows)?, picture(&rows).svg(), is_alike))
+    Ok((outcomes(py, &rows)?, tables::table(py, table(&rows))?, picture(&rows).svg(), is_alike))
 }
 
 fn of_tie(error: TieError) -> PyErr {
@@ -63,13 +62,4 @@ fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> 
     values.set_item("beyond_u_ins_and_back", grid(py, &of, comes_back)?)?;
     values.set_item("strength_reached", grid(py, &of, |outcome| outcome.reached)?)?;
     Ok(values)
-}
-
-/// The table of `wall tie --csv`.
-fn medians<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
-    let values: Vec<_> = rows.iter().map(Row::values).collect();
-    let mut columns = vec![Numbers(rows.iter().map(|row| row.stiffness).collect())];
-    columns.extend((0..4).map(|part| Numbers(values.iter().map(|(numbers, _)| numbers[part]).collect())));
-    columns.extend((0..4).map(|part| Counts(values.iter().map(|(_, counts)| counts[part]).collect())));
-    table(py, COLUMNS.into_iter().zip(columns))
 }

@@ -21,7 +21,7 @@ use run::capacity::{Curve, plot};
 use run::shaking::Shaking;
 use scene_fmu::General;
 
-use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
+use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
 use crate::errors::{failed, of_file, of_motion, of_scene, refused};
 use crate::responses;
 
@@ -212,8 +212,8 @@ impl Wall {
     fn simulate<'py>(
         &self,
         py: Python<'py>,
-        record: Option<Given<'py>>,
-        top: Option<Given<'py>>,
+        record: Option<MotionValues<'py>>,
+        top: Option<MotionValues<'py>>,
         tail: f64,
         stop_time: Option<f64>,
         output_step: Option<f64>,
@@ -249,7 +249,7 @@ impl Wall {
     fn peaks<'py>(
         &self,
         py: Python<'py>,
-        record: Given<'py>,
+        record: MotionValues<'py>,
         factors: &Bound<'py, PyAny>,
         tail: f64,
     ) -> PyResult<[Numbers<'py>; 3]> {
@@ -271,8 +271,8 @@ impl Wall {
             Some(floors) => {
                 let end = record.duration() + tail;
                 let ground = Excitation::new(record, None);
-                let felt = floors.motion(parameters.mechanism, &ground, end).map_err(of_scene)?;
-                felt.effective(self.equation.body()).map_err(failed)?
+                let supports = floors.motion(parameters.mechanism, &ground, end).map_err(of_scene)?;
+                supports.effective(self.equation.body()).map_err(failed)?
             }
         };
         let solver = RecordSolver::new(&motion, record.step());
@@ -296,8 +296,7 @@ impl Wall {
         py.detach(|| {
             let unit = General::open(&base).and_then(|general| scene_fmu::of_scene(&self.scene, general));
             let unit = unit.map_err(|error| of_file(error, &base))?;
-            study::folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
-                .map_err(refused)?;
+            run::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?).map_err(refused)?;
             Ok(unit.variables)
         })
     }

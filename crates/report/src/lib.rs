@@ -9,8 +9,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`mod@table`] | tables: columns, cells, and the forms they are shown in |
-//! | [`mod@plot`] | lines and marks over two axes |
-//! | [`chart`] | plots with title and legend, in the colours of the damping models |
+//! | [`mod@plot`] | lines and marks over two axes; with title and legend a figure |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
 //! | [`many_lines`] | thousands of lines in few bytes, with their style |
 //! | [`sheet`] | drawings side by side in a file |
@@ -21,7 +20,7 @@
 //! | [`moving`] | pages with a moving picture |
 
 mod axes;
-pub mod chart;
+mod figure;
 mod frame;
 pub mod heat_map;
 pub mod many_lines;

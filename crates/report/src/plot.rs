@@ -10,7 +10,7 @@
 //!     ..Plot::new(
 //!         [460.0, 300.0],
 //!         [Axis::over("time (s)", [0.0, 2.0]), Axis::over("u (m)", [-2.0, 3.0])],
-//!         vec![Series::line(BLUE, 1.2, points)],
+//!         vec![Series::stroke(BLUE, 1.2, points)],
 //!     )
 //! };
 //! assert!(plot.svg().starts_with("<svg"));
@@ -18,11 +18,9 @@
 
 use std::fmt::Write;
 
-pub use crate::chart::Axis;
-
 use crate::escaped;
 use crate::frame::{CHARACTER, Frame, legend};
-use crate::palette::Mark;
+use crate::palette::{Mark, SERIES};
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
 pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
@@ -31,8 +29,41 @@ const NUMBERS: [f64; 2] = [13.0, 12.0];
 /// Space between plots one above the other \[px\].
 const SPACING: f64 = 4.0;
 
+/// An axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Quantity, and its unit in brackets.
+    pub label: String,
+    /// First and last value; the extremes of the data where `None`.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// An axis that takes its range from the data.
+    pub fn new(label: &str) -> Self {
+        Self { label: label.into(), range: None }
+    }
+
+    /// An axis over a range.
+    pub fn over(label: &str, range: [f64; 2]) -> Self {
+        Self { label: label.into(), range: Some(range) }
+    }
+}
+
+impl From<&str> for Axis {
+    fn from(label: &str) -> Self {
+        Self::new(label)
+    }
+}
+
+impl From<(&str, [f64; 2])> for Axis {
+    fn from((label, range): (&str, [f64; 2])) -> Self {
+        Self::over(label, range)
+    }
+}
+
 /// Points that belong together, and how they look.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// x and y.
     pub points: Vec<(f64, f64)>,
@@ -42,14 +73,14 @@ pub struct Series {
     pub look: Look,
     /// Width of a line or size of a mark \[px\].
     pub width: f64,
-    /// Name in the legend of a [picture](Plot::picture); empty for none.
+    /// Name in a legend; empty for none, and for a series that belongs to a named one.
     pub name: String,
     /// For marks: the text shown when each one is pointed at.
     pub titles: Vec<String>,
 }
 
 /// How a series looks.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names say it")]
 pub enum Look {
     Solid,
@@ -59,8 +90,25 @@ pub enum Look {
 }
 
 impl Series {
-    /// A solid line of a width \[px\].
-    pub fn line(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
+    /// A solid line with a name, in a colour of the palette by its number; series that belong together share
+    /// one.
+    pub fn line(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+        Self { name: name.into(), ..Self::stroke(SERIES[color % SERIES.len()].0, 1.4, points) }
+    }
+
+    /// A dashed line, as [`Self::line`].
+    pub fn dashed(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+        Self { look: Look::Dashed, ..Self::line(name, color, points) }
+    }
+
+    /// Marks without a line, as [`Self::line`].
+    pub fn marks(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+        let look = Look::Marks(SERIES[color % SERIES.len()].1);
+        Self { look, width: 3.5, ..Self::line(name, color, points) }
+    }
+
+    /// A solid line of a colour and a width \[px\].
+    pub fn stroke(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
     }
 
@@ -108,11 +156,11 @@ pub enum Scale {
 }
 
 /// A pair of axes and what is on it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     /// Width and height \[px\].
     pub size: [f64; 2],
-    /// Title in a [picture](Plot::picture); empty for none.
+    /// Title in a [picture](Plot::picture) or a [figure](Plot::figure); empty for none.
     pub title: String,
     /// The horizontal and the vertical axis.
     pub axes: [Axis; 2],
@@ -178,7 +226,7 @@ impl Plot {
         for &(limit, color) in &self.limits {
             let [_, y] = frame.place((frame.ranges[0][0], limit));
             let [left, right, ..] = frame.area();
-            let line = Series { look: Look::Dashed, ..Series::line(color, 1.0, Vec::new()) };
+            let line = Series { look: Look::Dashed, ..Series::stroke(color, 1.0, Vec::new()) };
             line.write(&mut inside, &[[left, y], [right, y]]);
         }
         for series in &self.series {

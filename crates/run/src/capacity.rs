@@ -12,7 +12,7 @@
 
 use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
 use report::plot::{Axis, Look, Plot, Series};
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Table};
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
@@ -44,37 +44,23 @@ impl Capacity {
     /// Returns a row for each point; limit states have a secant.
     pub fn table(&self) -> Table {
         let six = Digits::Significant(6);
-        let mut table = Table::new([
-            Column::text("side", "side"),
-            Column::text("point", "point"),
-            Column::number("u_m", "u [m]", six),
-            Column::number("force_n", "F [N]", six),
-            Column::number("u_ratio", "u/u_ins", six),
-            Column::number("force_ratio", "F/F0", six),
-            Column::number("d_star_m", "d* [m]", six),
-            Column::number("a_star_m_s2", "a* [m/s2]", six),
-            Column::number("secant_stiffness_n_m", "", six),
-            Column::number("secant_period_s", "T_sec [s]", six),
-        ]);
-        for side in &self.sides {
-            for (kind, points) in [("corner", &side.corners), ("limit_state", &side.limits)] {
-                for point in points {
-                    table.row([
-                        side.name.into(),
-                        kind.into(),
-                        point.displacement.into(),
-                        point.force.into(),
-                        point.displacement_ratio.into(),
-                        point.force_ratio.into(),
-                        point.spectral_displacement.into(),
-                        point.spectral_acceleration.into(),
-                        point.secant_stiffness.into(),
-                        point.secant_period.into(),
-                    ]);
-                }
-            }
-        }
-        table
+        let rows = self.sides.iter().flat_map(|side| {
+            let kinds = [("corner", &side.corners), ("limit_state", &side.limits)];
+            let points = kinds.into_iter().flat_map(|(kind, points)| points.iter().map(move |p| (kind, p)));
+            points.map(move |(kind, point)| (side.name, kind, point))
+        });
+        Table::over(rows)
+            .text("side", "side", |(side, ..)| *side)
+            .text("point", "point", |(_, kind, _)| *kind)
+            .number("u_m", "u [m]", six, |(.., point)| point.displacement)
+            .number("force_n", "F [N]", six, |(.., point)| point.force)
+            .number("u_ratio", "u/u_ins", six, |(.., point)| point.displacement_ratio)
+            .number("force_ratio", "F/F0", six, |(.., point)| point.force_ratio)
+            .number("d_star_m", "d* [m]", six, |(.., point)| point.spectral_displacement)
+            .number("a_star_m_s2", "a* [m/s2]", six, |(.., point)| point.spectral_acceleration)
+            .value("secant_stiffness_n_m", |(.., point)| point.secant_stiffness)
+            .number("secant_period_s", "T_sec [s]", six, |(.., point)| point.secant_period)
+            .done()
     }
 
     /// Returns the sides with their corners and limit states, in SI units.
@@ -137,11 +123,11 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
     let low = points().map(|point| point.1).fold(0.0, f64::min);
     let mut series = Vec::new();
     for (curve, color) in curves.iter().zip(CURVES) {
-        let line = Series::line(color, 2.0, curve.points.iter().map(shown).collect());
+        let line = Series::stroke(color, 2.0, curve.points.iter().map(shown).collect());
         series.push(Series { name: format!("capacity curve, {}", curve.name), ..line });
     }
     for ((name, point), color) in secants.into_iter().zip(SECANTS.iter().cycle()) {
-        let line = Series::line(color, 1.3, vec![(0.0, 0.0), shown(&point)]);
+        let line = Series::stroke(color, 1.3, vec![(0.0, 0.0), shown(&point)]);
         series.push(Series { name, look: Look::Dashed, ..line });
     }
     let axes = [

@@ -1,7 +1,40 @@
-//! Demands of a run as text, for the summary and the page.
+//! What a run demanded of a wall, as text for the summary and the page.
+
+use std::fmt::Write;
+
+use report::counted;
 
 use rocking_wall::response::{Fate, Response, Summary};
-use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
+use rocking_wall::scene::Scene;
+use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands, Work};
+use rocking_wall::variables::Mechanism;
+
+/// The summary of a run, a name and a value in each line.
+pub fn summary(scene: &Scene, response: &Response) -> String {
+    let summary = &response.summary;
+    let mut text = format!("{}\n", scene.title);
+    let mut line = |name: &str, value: String| {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "{name:<15}{value}");
+    };
+    if !scene.motion_notes.is_empty() {
+        line("motion", scene.motion_notes.join(", "));
+    }
+    line("largest |u|", largest(summary, "m", 6));
+    line("overturned", overturned(summary.fate, 4));
+    line("run", format!("{} s", report::number(summary.end_time, 6)));
+    let Work { pieces, corners, impacts } = summary.work;
+    let [pieces, corners, impacts] = [(pieces, "piece"), (corners, "corner"), (impacts, "impact")]
+        .map(|(count, noun)| counted(count, noun));
+    line("work", format!("{pieces} of motion, {corners}, {impacts}"));
+    if let Some(until) = until(response) {
+        line("demands", until.to_owned());
+    }
+    for (name, value) in lines(response, scene.parameters.mechanism == Mechanism::VerticalSpanning) {
+        line(&name, value);
+    }
+    text
+}
 
 /// The largest |u| of a run in m or mm.
 pub fn largest(summary: &Summary, unit: &str, digits: usize) -> String {

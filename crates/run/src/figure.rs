@@ -64,7 +64,7 @@ pub fn histories(
     let values = lines.iter().flat_map(|(points, _)| points.iter().map(|point| point.1));
     let y_range = padded(values.chain(shown.iter().copied()));
     let axes = [Axis::over("time (s)", times), Axis::over(label, y_range)];
-    let series = lines.iter().map(|(points, color)| Series::line(color, 1.2, decimated(points, times[1])));
+    let series = lines.iter().map(|(points, color)| Series::stroke(color, 1.2, decimated(points, times[1])));
     Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
@@ -78,17 +78,17 @@ pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot
     let within = clipped(backbone, x_range);
     let path = clipped(backbone, [lowest, highest]);
     let y_range = padded(within.iter().map(|point| point.1));
-    let law = Series { look: Look::Dashed, ..Series::line(RED, 1.0, within) };
+    let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, within) };
     let axes = [Axis::over("u / u_ins", x_range), Axis::over("restoring force F (kN)", y_range)];
-    Plot::new([WIDTH, 320.0], axes, vec![law, Series::line(BLUE, 1.6, path)])
+    Plot::new([WIDTH, 320.0], axes, vec![law, Series::stroke(BLUE, 1.6, path)])
 }
 
 /// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.
 pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, height: f64) -> Plot {
     let y_range = padded(full.iter().chain(small).map(|point| point.1));
     let series = vec![
-        Series { look: Look::Dashed, ..Series::line(RED, 1.4, decimated(small, end)) },
-        Series::line(BLUE, 1.4, decimated(full, end)),
+        Series { look: Look::Dashed, ..Series::stroke(RED, 1.4, decimated(small, end)) },
+        Series::stroke(BLUE, 1.4, decimated(full, end)),
     ];
     let axes = [Axis::over("time (s)", [0.0, end]), Axis::over("u / u_ins", y_range)];
     Plot::new([WIDTH, height], axes, series)
@@ -114,16 +114,16 @@ pub fn period_ratios(
     ];
     let mut series = Vec::new();
     if housner.len() > 1 {
-        series.push(Series::line(GREY, 1.4, housner));
+        series.push(Series::stroke(GREY, 1.4, housner));
     }
     let looks = LOOKS.into_iter().skip(LOOKS.len().saturating_sub(curves.len()));
     series.extend(
         curves
             .into_iter()
             .zip(looks)
-            .map(|(points, look)| Series { look, ..Series::line(BLUE, 1.4, points) }),
+            .map(|(points, look)| Series { look, ..Series::stroke(BLUE, 1.4, points) }),
     );
-    let mark = |point| Series { look: Look::Marks(Mark::Circle), ..Series::line(RED, 4.5, vec![point]) };
+    let mark = |point| Series { look: Look::Marks(Mark::Circle), ..Series::stroke(RED, 4.5, vec![point]) };
     series.extend(wall.map(mark));
     Plot::new([WIDTH, height], axes, series)
 }

@@ -1,11 +1,12 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`walls`] and [`records`] open files.
+//! Nothing here prints. Only [`mod@file`], [`walls`] and [`records`] open files.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`parallel`] | work shared by threads |
+//! | [`mod@file`] | files, written completely or not at all |
 //! | [`random`] | random numbers that are the same on every machine |
 //! | [`bisection`] | the first value at which a condition holds |
 //! | [`sample`] | medians and fractiles |
@@ -20,7 +21,8 @@
 //! | [`rotations`] | free rocking of a rigid wall in small and in full rotations |
 //! | [`counterpart`] | a run beside the same run in small or in full rotations |
 //! | [`mod@figure`] | histories, the force path on its backbone |
-//! | [`records_figure`] | accelerograms above their response spectra |
+//! | [`record_facts`] | what record files hold, as tables, JSON and a picture with response spectra |
+//! | [`motions`] | one wall under several motions: a row for each |
 //! | [`page`] | the page of a run |
 
 pub mod bisection;
@@ -28,14 +30,16 @@ pub mod capacity;
 pub mod counterpart;
 pub mod demands;
 pub mod figure;
+pub mod file;
 pub mod free_motion;
 pub mod model;
+pub mod motions;
 pub mod page;
 pub mod parallel;
 pub mod polarity;
 pub mod random;
+pub mod record_facts;
 pub mod records;
-pub mod records_figure;
 pub mod rotations;
 pub mod sample;
 pub mod shaking;

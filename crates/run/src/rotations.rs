@@ -16,7 +16,7 @@ use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, ParameterError, Parameters, Support, Wall, equivalence};
 
-use crate::bisection::begins_at;
+use crate::bisection::first_true;
 use crate::free_motion::advance;
 
 /// Tolerance of full rotations here.
@@ -167,7 +167,7 @@ impl Release {
 
     /// Returns the time from `state` to the first impact, which comes within `longest` \[s\].
     fn time_to_impact(&self, state: State, longest: f64) -> Result<f64, SolverError> {
-        begins_at([0.0, longest], HALVINGS, |time| Ok(self.advance(&mut state.clone(), time)? > 0))
+        first_true([0.0, longest], HALVINGS, |time| Ok(self.advance(&mut state.clone(), time)? > 0))
     }
 
     fn first_impact(&self, start: f64) -> Result<f64, SolverError> {

@@ -14,7 +14,7 @@ use crate::free_motion::peak_is_final;
 /// use record::RecordSolver;
 /// use rocking_wall::solver::Motion;
 /// use rocking_wall::wall::Parameters;
-/// use study::ida::Shaking;
+/// use run::shaking::Shaking;
 ///
 /// let record = SyntheticMotion::default().motion()?;
 /// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };

@@ -1,16 +1,10 @@
-//! The tables of a study, row by row, for CSV files and the Python package.
-//!
-//! ```
-//! use study::tables::{COLLAPSES, FRAGILITIES, LEVELS};
-//!
-//! assert_eq!([LEVELS, COLLAPSES, FRAGILITIES].map(|table| table.columns.split(',').count()), [7, 8, 19]);
-//! ```
+//! The tables of a study, wall by wall, for CSV files and the Python package.
 
 use ground_motion::STANDARD_GRAVITY;
-use report::table::Cell;
+use report::table::{Cell, Growing, Table};
 
-use crate::fragility::Interval;
-use crate::ida::Exceedance;
+use crate::fragility::{FitError, Interval, Lognormal, Summary};
+use crate::ida::{Curve, Exceedance};
 use crate::results::WallResults;
 
 /// Names of the parts of a study, and its limit states.
@@ -26,87 +20,99 @@ pub struct Names<'a> {
     pub fractions: &'a [f64],
 }
 
-/// A table.
-#[derive(Clone, Copy, Debug)]
-pub struct Table {
-    /// Its name.
-    pub name: &'static str,
-    /// Names of its columns, with their units, separated by commas.
-    pub columns: &'static str,
-    /// Makes the rows of a wall, given its number and its results, one after the other.
-    pub rows: for<'a> fn(&Names<'a>, usize, &WallResults, Row<'_, 'a>),
-}
+/// A kind of table: its name, and what makes it of the number and the results of a wall. Thousands of walls
+/// need not be in memory at once.
+pub type Kind = (&'static str, fn(&Names<'_>, usize, &WallResults) -> Table);
 
-/// Takes a row.
-pub type Row<'r, 'a> = &'r mut dyn FnMut(&[Cell<'a>]);
+/// The tables of a study.
+pub const KINDS: [Kind; 3] = [("levels", levels), ("collapses", collapses), ("fragilities", fragilities)];
 
 /// Every run.
-pub const LEVELS: Table = Table {
-    name: "levels",
-    columns: "wall,model,record,intensity_g,u_max_over_u_ins,overturned,overturn_time_s",
-    rows: |names, wall, results, row| {
-        for (index, curve) in results.all_curves().iter().enumerate() {
-            let [wall, model, record] = names.of_curve(wall, index);
-            for run in curve.runs() {
-                let (intensity, demand) = (Cell::Number(in_g(run.intensity)), Cell::Number(run.demand));
-                let overturned = Cell::Flag(run.overturning.is_some());
-                let [wall, model, record] = [&wall, &model, &record].map(Clone::clone);
-                row(&[wall, model, record, intensity, demand, overturned, run.overturning.into()]);
-            }
-        }
-    },
-};
+fn levels(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let curves = results.all_curves().iter().enumerate();
+    let runs = curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
+    names
+        .with_curves(wall, runs, |(index, _)| *index)
+        .value("intensity_g", |(_, run)| in_g(run.intensity))
+        .value("u_max_over_u_ins", |(_, run)| run.demand)
+        .value("overturned", |(_, run)| run.overturning.is_some())
+        .value("overturn_time_s", |(_, run)| run.overturning)
+        .done()
+}
 
 /// The collapse with every model and record.
-pub const COLLAPSES: Table = Table {
-    name: "collapses",
-    columns: "wall,model,record,collapse_g,standing_below_g,highest_level_g,runs,resurrections",
-    rows: |names, wall, results, row| {
-        for (index, curve) in results.all_curves().iter().enumerate() {
-            let [wall, model, record] = names.of_curve(wall, index);
-            let collapse = match curve.collapse() {
-                Exceedance::At(intensity) => Some(in_g(intensity)),
-                Exceedance::Above(_) => None,
-            };
-            let [below, top] = [curve.level_below_collapse(), curve.top()].map(|level| Some(in_g(level)));
-            let [collapse, below, top] = [collapse, below, top].map(Cell::from);
-            let [runs, resurrections] = [curve.runs().len(), curve.resurrections()].map(Cell::Count);
-            row(&[wall, model, record, collapse, below, top, runs, resurrections]);
-        }
-    },
-};
+fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let collapse = |curve: &Curve| match curve.collapse() {
+        Exceedance::At(intensity) => Some(in_g(intensity)),
+        Exceedance::Above(_) => None,
+    };
+    names
+        .with_curves(wall, results.all_curves().iter().enumerate(), |(index, _)| *index)
+        .value("collapse_g", |(_, curve)| collapse(curve))
+        .value("standing_below_g", |(_, curve)| in_g(curve.level_below_collapse()))
+        .value("highest_level_g", |(_, curve)| in_g(curve.top()))
+        .value("runs", |(_, curve)| curve.runs().len())
+        .value("resurrections", |(_, curve)| curve.resurrections())
+        .done()
+}
 
 /// The fragility of every model and limit state.
-pub const FRAGILITIES: Table = Table {
-    name: "fragilities",
-    columns: "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,median_high_g,\
-              theta_g,theta_low_g,theta_high_g,beta,beta_alone,median_ratio,median_ratio_low,\
-              median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high",
-    rows: |names, wall, results, row| {
-        let interval = |interval: &Interval, unit: f64| interval.bounds(unit).map(Cell::Between);
-        for (m, model) in names.models.iter().enumerate() {
-            for (f, fraction) in names.fractions.iter().enumerate() {
-                let summary = &results.summaries(f)[m];
-                let mut cells = vec![Cell::from(names.walls[wall]), Cell::from(*model)];
-                cells.push(Cell::Number(*fraction));
-                cells.extend([summary.records, summary.censored].map(Cell::Count));
-                cells.extend(interval(&summary.median, STANDARD_GRAVITY));
-                cells.extend(interval(&summary.theta, STANDARD_GRAVITY));
-                let betas = [&summary.fitted, &summary.alone];
-                cells.extend(betas.map(|fit| Cell::from(fit.as_ref().ok().map(|fit| fit.dispersion))));
-                cells.extend(interval(&summary.median_ratio, 1.0));
-                cells.extend(interval(&summary.theta_ratio, 1.0));
-                row(&cells);
-            }
-        }
-    },
-};
+fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let states = names.fractions.iter().enumerate();
+    let rows = (0..names.models.len())
+        .flat_map(|model| states.clone().map(move |(state, fraction)| (model, *fraction, state)))
+        .map(|(model, fraction, state)| (model, fraction, &results.summaries(state)[model]));
+    let beta = |fit: &Result<Lognormal, FitError>| fit.as_ref().ok().map(|fit| fit.dispersion);
+    let mut table = Table::over(rows)
+        .text("wall", "", |_| names.walls[wall].to_owned())
+        .text("model", "", |(model, ..)| names.models[*model].to_owned())
+        .value("u_max_over_u_ins", |(_, fraction, _)| *fraction)
+        .value("records", |(.., summary)| summary.records)
+        .value("censored", |(.., summary)| summary.censored);
+    let accelerations: [Estimate; 2] =
+        [("median", "_g", |one| &one.median), ("theta", "_g", |one| &one.theta)];
+    let ratios: [Estimate; 2] =
+        [("median_ratio", "", |one| &one.median_ratio), ("theta_ratio", "", |one| &one.theta_ratio)];
+    for estimate in accelerations {
+        table = with_interval(table, estimate, STANDARD_GRAVITY);
+    }
+    table = table
+        .value("beta", |(.., summary)| beta(&summary.fitted))
+        .value("beta_alone", |(.., summary)| beta(&summary.alone));
+    for estimate in ratios {
+        table = with_interval(table, estimate, 1.0);
+    }
+    table.done()
+}
 
-impl<'a> Names<'a> {
-    /// Returns the first cells of a row: wall, model and record of one of the wall's curves.
-    fn of_curve(&self, wall: usize, curve: usize) -> [Cell<'a>; 3] {
-        let (model, record) = (curve / self.records.len(), curve % self.records.len());
-        [self.walls[wall], self.models[model], self.records[record]].map(Cell::from)
+/// The name of an estimate, its unit as the end of a column's name, and what it is of a summary.
+type Estimate = (&'static str, &'static str, fn(&Summary) -> &Interval);
+
+/// Adds an estimate and the ends of its interval, in a unit.
+fn with_interval(
+    table: Growing<(usize, f64, &Summary)>,
+    (name, ending, of): Estimate,
+    unit: f64,
+) -> Growing<(usize, f64, &Summary)> {
+    ["", "_low", "_high"].into_iter().enumerate().fold(table, |table, (part, end)| {
+        let bounds = |row: &(usize, f64, &Summary)| Cell::Between(of(row.2).bounds(unit)[part]);
+        table.value(format!("{name}{end}{ending}"), bounds)
+    })
+}
+
+impl Names<'_> {
+    /// Begins a table whose items belong to curves of a wall, with the names of wall, model and record.
+    fn with_curves<R>(
+        &self,
+        wall: usize,
+        items: impl IntoIterator<Item = R>,
+        curve: fn(&R) -> usize,
+    ) -> Growing<R> {
+        let records = self.records.len();
+        Table::over(items)
+            .text("wall", "", |_| self.walls[wall].to_owned())
+            .text("model", "", |item| self.models[curve(item) / records].to_owned())
+            .text("record", "", |item| self.records[curve(item) % records].to_owned())
     }
 }
 

@@ -11,6 +11,7 @@ use ground_motion::{
 };
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use run::record_facts;
 use run::records::folder_files;
 
 use crate::output::Console;
@@ -33,8 +34,15 @@ pub(crate) struct RecordArguments {
     #[arg(long, value_name = "FILE", group = "recorded")]
     pub(crate) record: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) options: RecordOptionsArguments,
-    /// Shake with the project's synthetic motion
+    pub(crate) motion: MotionArguments,
+}
+
+/// How to read records, and what replaces or scales them.
+#[derive(Debug, Args)]
+pub(crate) struct MotionArguments {
+    #[command(flatten)]
+    options: RecordOptionsArguments,
+    /// Use the project's synthetic motion
     #[arg(long, conflicts_with = "recorded")]
     pub(crate) synthetic: bool,
     /// Factor on the motion given here
@@ -45,9 +53,9 @@ pub(crate) struct RecordArguments {
     pub(crate) pga: Option<Acceleration>,
 }
 
-/// How to read records; each of these needs an argument of the group `recorded`.
+/// How to read a record; each of these needs an argument of the group `recorded`.
 #[derive(Debug, Args)]
-pub(crate) struct RecordOptionsArguments {
+struct RecordOptionsArguments {
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g; needed where the file does not state its own
     #[arg(long, requires = "recorded")]
     unit: Option<String>,
@@ -67,19 +75,6 @@ pub(crate) struct RecordOptionsArguments {
 fn format_help() -> String {
     let names = Format::ALL.map(Format::name).join(", ");
     format!("Format of the record ({names}), if its content does not tell")
-}
-
-impl RecordOptionsArguments {
-    /// The options that they state.
-    pub(crate) fn options(&self) -> Result<RecordOptions> {
-        Ok(RecordOptions {
-            unit: self.unit.as_deref().map(str::parse).transpose()?,
-            step: self.record_step,
-            column: self.column.clone(),
-            channel: self.channel.clone(),
-            format: self.format.as_deref().map(str::parse).transpose()?,
-        })
-    }
 }
 
 impl SceneArguments {
@@ -218,16 +213,8 @@ pub(crate) fn read_records(
     Ok(records)
 }
 
-/// Reads every channel of a record, or the one that is asked for; `-` is standard input.
-pub(crate) fn read_channels(path: &Path, options: &RecordOptions) -> Result<Vec<Record>> {
-    Ok(match standard_input(path)? {
-        Some(bytes) => parse_channels(STDIN, bytes, options)?,
-        None => ground_motion::read_channels(path, options)?,
-    })
-}
-
 /// Name of standard input in messages.
-const STDIN: &str = "standard input";
+pub(crate) const STDIN: &str = "standard input";
 
 /// Reads standard input, up to the size of the largest record, if `path` is `-`.
 fn standard_input(path: &Path) -> Result<Option<Vec<u8>>> {
@@ -250,20 +237,65 @@ pub(crate) fn short_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
+/// What the project's synthetic motion is called.
+pub(crate) const SYNTHETIC: &str = "synthetic motion";
+
 impl RecordArguments {
     /// The motion given, scaled, and a note on it.
     pub(crate) fn load(&self, console: &Console<'_>) -> Result<Option<(GroundMotion, String)>> {
+        let MotionArguments { synthetic, scale, pga, .. } = &self.motion;
         let (motion, note) = match &self.record {
             Some(path) => self.read(console, path)?,
-            None if self.synthetic => (SyntheticMotion::default().motion()?, "synthetic motion".to_owned()),
-            None if self.scale.is_some() || self.pga.is_some() => {
+            None if *synthetic => (SyntheticMotion::default().motion()?, SYNTHETIC.to_owned()),
+            None if scale.is_some() || pga.is_some() => {
                 bail!(
                     "--scale and --pga act on a motion given with --record or --synthetic; give one of them"
                 );
             }
             None => return Ok(None),
         };
-        Ok(Some((self.scaled(console, motion)?, note)))
+        Ok(Some((self.motion.scaled(console, motion)?, note)))
+    }
+
+    /// Reads a record and describes it.
+    pub(crate) fn read(&self, console: &Console<'_>, path: &Path) -> Result<(GroundMotion, String)> {
+        let record = read_record(console, path, &self.motion.options()?)?;
+        let name = short_name(path);
+        Ok((record.motion, format!("record {name} ({})", record.format.description())))
+    }
+}
+
+impl MotionArguments {
+    /// How records are read.
+    fn options(&self) -> Result<RecordOptions> {
+        let RecordOptionsArguments { unit, record_step, column, channel, format } = &self.options;
+        Ok(RecordOptions {
+            unit: unit.as_deref().map(str::parse).transpose()?,
+            step: *record_step,
+            column: column.clone(),
+            channel: channel.clone(),
+            format: format.as_deref().map(str::parse).transpose()?,
+        })
+    }
+
+    /// Reads every channel of a record, or the one that is asked for, and scales them; without a path the
+    /// channel of the synthetic motion. `-` is standard input.
+    pub(crate) fn channels(&self, console: &Console<'_>, path: Option<&Path>) -> Result<Vec<Record>> {
+        let options = self.options()?;
+        let mut records = match path {
+            None => {
+                let csv = record_facts::samples(&SyntheticMotion::default().motion()?);
+                parse_channels(SYNTHETIC, csv.into_bytes(), &options)?
+            }
+            Some(path) => match standard_input(path)? {
+                Some(bytes) => parse_channels(STDIN, bytes, &options)?,
+                None => ground_motion::read_channels(path, &options)?,
+            },
+        };
+        for record in &mut records {
+            record.motion = self.scaled(console, record.motion.clone())?;
+        }
+        Ok(records)
     }
 
     /// Scales a motion as the arguments say, and warns about accelerations that no record has.
@@ -278,12 +310,5 @@ impl RecordArguments {
             console.warn(&warning.to_string());
         }
         Ok(scaled)
-    }
-
-    /// Reads a record and describes it.
-    pub(crate) fn read(&self, console: &Console<'_>, path: &Path) -> Result<(GroundMotion, String)> {
-        let record = read_record(console, path, &self.options.options()?)?;
-        let name = short_name(path);
-        Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }
 }

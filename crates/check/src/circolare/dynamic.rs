@@ -11,13 +11,13 @@ use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Tie, Wall};
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::error::CheckError;
 use super::records::Records;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
-use run::bisection::begins_at;
+use crate::error::CheckError;
+use run::bisection::first_true;
 use run::shaking::Shaking;
 
 /// Ratio of factors that follow each other. A failure between two factors at which the wall passes is not
@@ -222,7 +222,7 @@ impl Runs<'_> {
             let levels: Vec<f64> = powers.iter().map(|power| RATIO.powi(*power)).collect();
             for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
                 if !thresholds.judge(&maxima).passed() {
-                    return begins_at([below, *level], HALVINGS, fails);
+                    return first_true([below, *level], HALVINGS, fails);
                 }
                 below = *level;
             }

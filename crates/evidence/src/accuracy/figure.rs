@@ -48,7 +48,8 @@ pub fn plot(tools: &[Sign], points: &[Point], rounding: Option<f64>, named: bool
     for (tool, color, mark) in tools {
         let own: Vec<_> = points.iter().filter(|point| point.tool == *tool).collect();
         let places = own.iter().map(|point| (point.seconds * 1e3, exponent(point.error))).collect();
-        let line = Series { name: if named { tool } else { "" }.into(), ..Series::line(color, 1.2, places) };
+        let line =
+            Series { name: if named { tool } else { "" }.into(), ..Series::stroke(color, 1.2, places) };
         let titles = own.iter().map(|point| point.title.clone()).collect();
         let marks = Series { look: Look::Marks(*mark), width: 4.5, titles, ..line.clone() };
         match rounding {

@@ -1,6 +1,6 @@
 //! Figures 4 and 13: force laws, and damping ratios over slenderness.
 
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning, calibration};
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
@@ -24,7 +24,7 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
     let chart = |title: &str, name: &str, points: Vec<(f64, f64)>, at: f64| {
         let secant = at.mul_add(-1.0, a3) / at;
         let [x, y] = ["u / u_ins", "F / F0"].map(|label| Axis::over(label, [0.0, 1.1]));
-        Chart::new(
+        Plot::titled(
             title,
             x,
             y,
@@ -73,7 +73,7 @@ pub(super) fn figure_13() -> Figure {
             Series::line("VSSW, e_an", 1, curve(model, strip, 1.0)),
             Series::dashed("VSSW, 0.90 e_an", 1, curve(model, strip, calibration(strip))),
         ];
-        Chart::new(title, x, y, series)
+        Plot::titled(title, x, y, series)
     });
     Figure {
         number: 13,

@@ -3,8 +3,8 @@
 use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
-use report::chart::{Chart, Series};
 use report::counted;
+use report::plot::{Plot, Series};
 use report::table::{Column, Table};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
@@ -86,7 +86,7 @@ pub fn figure_15(
     Ok(Collapses { figure: figure(count, charts, &walls), table: table(&walls), note, walls })
 }
 
-fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
+fn figure(count: usize, charts: Vec<Plot>, walls: &[Vec<Summary>]) -> Figure {
     let ratios = |model: usize| walls.iter().map(move |models| models[model].median_ratio);
     let extremes = |models: std::ops::Range<usize>| {
         let estimates = models.flat_map(ratios).map(|ratio| ratio.estimate);
@@ -119,7 +119,7 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
 }
 
 /// Draws the empirical fragilities of one wall.
-fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart {
+fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot {
     let series = models.iter().zip(collapses).map(|(model, collapses)| {
         let mut points = vec![(0.0, 0.0)];
         let mut below = 0.0;
@@ -139,11 +139,11 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
     let x = ("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
-    Chart::new(title, x, ("probability of overturning", [0.0, 1.02]), series)
+    Plot::titled(title, x, ("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn interval(value: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = value.texts(unit, Some(3));
+    let [estimate, low, high] = value.texts(unit, 3);
     format!("{estimate} [{low}, {high}]")
 }
 

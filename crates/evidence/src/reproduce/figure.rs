@@ -1,6 +1,6 @@
 //! Figures as data, and what several of them need.
 
-use report::chart::Chart;
+use report::plot::Plot;
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::simulation::Excitation;
@@ -16,7 +16,7 @@ pub struct Figure {
     /// Assumptions, and what does not match print.
     pub notes: Vec<String>,
     /// Panels.
-    pub charts: Vec<Chart>,
+    pub charts: Vec<Plot>,
 }
 
 /// Runs a wall, free or excited, at `step` up to `end` \[s\]; returns a point for each sample.

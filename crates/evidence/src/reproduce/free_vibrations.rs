@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use report::chart::{Chart, Series};
+use report::plot::{Plot, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -88,9 +88,9 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
                 .into(),
         ],
         charts: vec![
-            Chart::new("a) damping coefficient", U, "C (kg/s)", coefficients),
-            Chart::new("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
-            Chart::new("c) damping force in a free vibration from 0.9 u_ins", U, "C u̇ / F0", forces),
+            Plot::titled("a) damping coefficient", U, "C (kg/s)", coefficients),
+            Plot::titled("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
+            Plot::titled("c) damping force in a free vibration from 0.9 u_ins", U, "C u̇ / F0", forces),
         ],
     })
 }
@@ -126,8 +126,8 @@ pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
         title: "Matched free vibrations of CR and CDR",
         notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
         charts: vec![
-            Chart::new("a) history", ("time (s)", [0.0, 10.0]), U, histories),
-            Chart::new("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
+            Plot::titled("a) history", ("time (s)", [0.0, 10.0]), U, histories),
+            Plot::titled("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
         ],
     })
 }
@@ -162,7 +162,7 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
             Series::line("rocking body, CR", color("CR"), rocking),
         ];
-        charts.push(Chart::new(title, ("time (s)", [0.0, end]), U, series));
+        charts.push(Plot::titled(title, ("time (s)", [0.0, end]), U, series));
     }
     Ok(Figure {
         number: 7,

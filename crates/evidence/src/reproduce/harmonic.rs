@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use ground_motion::GroundMotion;
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
@@ -68,7 +68,7 @@ pub(super) fn figure_14() -> Result<Figure, EvidenceError> {
         charts.extend(panels.map(|(panel, times)| {
             let title = format!("{}: {panel}", row.specimen);
             let (x, y) = (Axis::over("time (s)", times), ("u / u_ins", [-0.6, 0.6]));
-            Chart::new(title, x, y, series.clone())
+            Plot::titled(title, x, y, series.clone())
         }));
     }
     Ok(Figure {

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use report::page::Page;
+use report::plot::Plot;
 use report::table::Digits;
-use report::{chart, escaped, wrapped};
+use report::{escaped, wrapped};
 
 use super::collapse::{Collapses, MEDIANS};
 use super::{Figure, PaperTable, Reproduction};
@@ -82,7 +83,7 @@ fn notes(notes: &[String]) -> String {
 fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {
     // two or four panels are laid out in rows of two
     let width = if matches!(charts.len(), 2 | 4) { " style=\"max-width: 900px\"" } else { "" };
-    let charts: String = charts.iter().map(chart::figure).collect();
+    let charts: String = charts.iter().map(Plot::figure).collect();
     format!(
         "<section id=\"figure-{number}\"><h2>Figure {number}: {}</h2>\n{}<div class=\"figures\"{width}>\n\
          {charts}</div></section>",

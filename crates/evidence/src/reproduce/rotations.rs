@@ -4,7 +4,7 @@ use crate::EvidenceError;
 use run::rotations::{FreeMotion, period};
 
 use crate::accuracy::linearisation::{Histories, figure_2, figure_2_wall, figure_3};
-use report::chart::{Chart, Series};
+use report::plot::{Plot, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
 
@@ -28,7 +28,7 @@ pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
     let chart = |title: &str, histories: &Histories| {
         let [small, full] = histories.points();
         let series = vec![Series::line("full rotations", 0, full), Series::dashed("Eq. (1)", 1, small)];
-        Chart::new(title, ("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]), series)
+        Plot::titled(title, ("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]), series)
     };
     Ok(Figure {
         number: 2,
@@ -88,13 +88,13 @@ pub(super) fn periods() -> Result<Figure, EvidenceError> {
             format!("The ratio is √cos α whatever p and θ₀: {} at α = 0.1, 0.2, 0.3.", shown.join(", ")),
         ],
         charts: vec![
-            Chart::new(
+            Plot::titled(
                 format!("a) over the initial rotation, α = {SLENDERNESS}"),
                 ("θ0 / α", [0.0, 1.0]),
                 ("period (s)", [0.0, 10.0]),
                 series,
             ),
-            Chart::new(
+            Plot::titled(
                 "b) Eq. (1) over Eq. (5)",
                 ("α (rad)", [0.0, 0.4]),
                 ("ratio of periods", [0.96, 1.005]),

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use report::chart::{Chart, Series};
+use report::plot::{Plot, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 use run::model::{RATIO_MODELS as MODELS, label};
@@ -143,7 +143,7 @@ impl Section5 {
             let x = self.shape[1][index].coefficients[0].x;
             series.push(Series::line("ξ = −x ln e for h/b = 10", 5, over_e(|e| -x * e.ln())));
             let (x, y) = (("e", [0.78, 1.0]), ("damping ratio", [0.0, 0.16]));
-            Chart::new(label(model).name, x, y, series)
+            Plot::titled(label(model).name, x, y, series)
         });
         Figure {
             number: 9,
@@ -164,8 +164,8 @@ impl Section5 {
         (0..MODELS.len()).flat_map(of).fold(0.0, f64::max)
     }
 
-    /// Draws the calibrations over e at some a₁; the charts are those of `wall calibrate`.
-    fn drawn(&self, is_drawn: impl Fn(f64) -> bool) -> Vec<Chart> {
+    /// Draws the calibrations over e at some a₁; the charts are those of `wall study calibrate`.
+    fn drawn(&self, is_drawn: impl Fn(f64) -> bool) -> Vec<Plot> {
         let some = self.stiffness.each_ref().map(|found| {
             let fits = found.fits.iter().filter(|fit| is_drawn(fit.a1)).copied();
             Calibration::new(found.model, fits.collect())

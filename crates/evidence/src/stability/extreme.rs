@@ -7,7 +7,7 @@ use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
-use run::bisection::begins_at;
+use run::bisection::first_true;
 
 type Value = Result<f64, EvidenceError>;
 /// Name, criterion, limit, and how the value is found.
@@ -263,7 +263,7 @@ fn accumulating() -> Value {
         return Ok(f64::INFINITY);
     }
     // halved down to neighbouring doubles
-    let rests = begins_at([moving, resting], f64::MANTISSA_DIGITS, rests_by)?;
+    let rests = first_true([moving, resting], f64::MANTISSA_DIGITS, rests_by)?;
     Ok((rests / time - 1.0).abs())
 }
 

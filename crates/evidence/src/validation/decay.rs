@@ -7,7 +7,7 @@ use run::model::{RATIO_MODELS, label};
 
 use super::Difference;
 use crate::EvidenceError;
-use run::bisection::begins_at;
+use run::bisection::first_true;
 use run::free_motion::{advance, with_damping, with_restitution};
 
 /// Step of the search for e, and its least value \[-\].
@@ -199,7 +199,7 @@ fn located(
     has_happened: impl Fn(&State) -> bool,
 ) -> Result<(f64, State), EvidenceError> {
     let mut state = before;
-    let time = begins_at([0.0, STEP], HALVINGS, |time| {
+    let time = first_true([0.0, STEP], HALVINGS, |time| {
         state = before;
         advance(motion, &mut state, time, &mut Memo::default()).map(|_| has_happened(&state))
     })?;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use report::chart::{Chart, Series};
+use report::plot::{Plot, Series};
 use report::table::{Cell, Column, Digits, Table};
 use run::model::color;
 
@@ -20,7 +20,7 @@ impl Case {
     ///
     /// # Panics
     /// If it has too few points, which [`Case::read`] refuses.
-    pub fn shown(&self) -> Result<(String, Chart), EvidenceError> {
+    pub fn shown(&self) -> Result<(String, Plot), EvidenceError> {
         let (text, chart) = match &self.test {
             Test::Push(push) => {
                 let comparison = push.compare(&self.parameters)?;
@@ -120,7 +120,7 @@ fn about_decay(comparison: &DecayComparison) -> String {
     text + "* at the measured peaks, whatever e is\n"
 }
 
-fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Chart {
+fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Plot {
     let line = |(k, law): (usize, &PushedLaw)| {
         let name = if k == 0 { law.name.to_owned() } else { format!("{}, a3 = {:.3}", law.name, law.a3) };
         let series = if k == 0 { Series::dashed } else { Series::line };
@@ -131,10 +131,10 @@ fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Chart {
     series.push(Series::marks("measured", MEASURED, points));
     let top = push.points.iter().map(|[_, force]| *force).fold(comparison.strength, f64::max);
     let (x, y) = (("displacement d/t", [-0.02, 1.02]), ("force P/W", [0.0, 1.1 * top]));
-    Chart::new(title, x, y, series)
+    Plot::titled(title, x, y, series)
 }
 
-fn decay_chart(title: &str, comparison: &DecayComparison) -> Chart {
+fn decay_chart(title: &str, comparison: &DecayComparison) -> Plot {
     let numbered = |peaks: &[f64]| peaks.iter().enumerate().map(|(k, peak)| (k as f64, *peak)).collect();
     let mut series = Vec::new();
     for (k, model) in comparison.models.iter().enumerate() {
@@ -156,5 +156,5 @@ fn decay_chart(title: &str, comparison: &DecayComparison) -> Chart {
     let last = comparison.peaks.len() as f64 - 1.0;
     let first = comparison.peaks.first().copied().unwrap_or_default();
     let (x, y) = (("peak after the start", [-0.2, last + 0.2]), ("|d|/t", [0.0, 1.35 * first]));
-    Chart::new(title, x, y, series)
+    Plot::titled(title, x, y, series)
 }

@@ -10,8 +10,8 @@ use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::{circolare, paper};
 use crate::{Comparison, EvidenceError};
-use check::points::{Demand, Fractions, check};
-use run::bisection::begins_at;
+use check::fractions::{Demand, Fractions, check};
+use run::bisection::first_true;
 use serde::Deserialize;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
 use study::spectrum::{PulseForm, over_pulses};
@@ -109,7 +109,7 @@ fn capacity_curve() -> Comparisons {
 /// The spectrum and the walls of docs/model.md, worked by hand there to six digits.
 fn capacity_against_demand() -> Comparisons {
     let points = vec![(0.0, 2.0), (0.1, 5.0), (0.5, 5.0), (1.0, 2.5), (2.0, 1.25), (4.0, 0.3)];
-    let demand = Demand::of_points(points)?;
+    let demand = Demand::of_points(points, |index| format!("point {index}"))?;
     let parapet = Parameters::default();
     let strip = Parameters {
         mechanism: Mechanism::VerticalSpanning,
@@ -225,7 +225,7 @@ fn half_sine() -> Comparisons {
     // the root of the condition for ω_p/p = 2
     let expected = 1.800_723_930_560_746;
     let bracket = [expected * (1.0 - 1e-6), expected * (1.0 + 1e-6)];
-    let falls = begins_at(bracket, HALVINGS, |amplitude| {
+    let falls = first_true(bracket, HALVINGS, |amplitude| {
         let spectrum = over_pulses(&rigid(), PulseForm::HalfSine, &[2.0], &[amplitude], 1);
         spectrum.map(|spectrum| spectrum.points[0][0].overturning.is_some())
     })?;

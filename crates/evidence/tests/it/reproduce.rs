@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use evidence::Comparison;
 use evidence::reproduce::tables::{table_3, table_4, table_5};
 use evidence::reproduce::{Figure, PaperTable, Reproduction, reproduce};
-use report::chart::Chart;
+use report::plot::Plot;
 
 const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 /// The whole reproduction, computed once: it takes seconds.
@@ -104,7 +104,7 @@ fn figure(number: u8) -> &'static Figure {
     ALL.figures.iter().find(|figure| figure.number == number).unwrap()
 }
 
-fn series<'a>(chart: &'a Chart, name: &str) -> &'a [(f64, f64)] {
+fn series<'a>(chart: &'a Plot, name: &str) -> &'a [(f64, f64)] {
     &chart.series.iter().find(|series| series.name.starts_with(name)).unwrap().points
 }
 

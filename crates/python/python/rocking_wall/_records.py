@@ -24,9 +24,6 @@ NUMBERS = (int, float, np.integer, np.floating)
 AVERAGE_PERIODS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4)
 """Usual periods of AvgSA [s]."""
 
-DRAWN_PERIODS = 0.01 + 3.99 * np.linspace(0.0, 1.0, 201) ** 2
-"""Periods of the spectra that are drawn [s]."""
-
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Record:
@@ -230,7 +227,7 @@ class Record:
         return ax
 
     def _repr_svg_(self) -> str:
-        return _native.picture(self._motion, DRAWN_PERIODS, self.name)
+        return _native.picture(self._motion, self.name)
 
 
 def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.float64]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,17 +14,6 @@ from ._tables import Table
 if TYPE_CHECKING:
     import pandas
 
-LABELS = {
-    "height_m": "height h (m)",
-    "semi_diagonal_m": "semi-diagonal R (m)",
-    "slenderness": "slenderness h/b",
-    "angle_rad": "slenderness angle α (rad)",
-    "frequency_ratio": "ω_p / p",
-    "amplitude_ratio": "a_p / a₀",
-}
-"""What stands on an axis of each name."""
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class RockingSpectrum:
     """u_max/u_ins over walls under one motion, or over pulses on one wall.
@@ -32,20 +21,12 @@ class RockingSpectrum:
     Each wall starts upright and at rest, and is followed until its peak has come.
     """
 
-    column_name: str
-    """What the columns are: height_m, semi_diagonal_m or frequency_ratio."""
-    row_name: str
-    """What the rows are: slenderness, angle_rad or amplitude_ratio."""
     columns: NDArray[np.float64]
     """Values along the columns, as many as there are columns."""
     rows: NDArray[np.float64]
     """Values along the rows, as many as there are rows."""
-    u_ratio_max: NDArray[np.float64]
-    """Largest |u|/u_ins [-], rows × columns; 1 where the wall overturned."""
-    rocked: NDArray[np.bool_]
-    """Whether the wall left its elastic branch, rows × columns."""
-    overturn_time: NDArray[np.float64]
-    """Time of overturning [s], rows × columns; NaN for none."""
+    table: Table
+    """A row for each point, as `wall study spectrum --csv` writes them."""
 
     def __repr__(self) -> str:
         rows, columns = self.u_ratio_max.shape
@@ -54,33 +35,45 @@ class RockingSpectrum:
             f"{int(self.overturned.sum())} overturned)"
         )
 
+    def _over(self, name: str) -> NDArray[Any]:
+        return self.table[name].reshape(len(self.rows), len(self.columns))
+
+    @property
+    def column_name(self) -> str:
+        """What the columns are: height_m, semi_diagonal_m or frequency_ratio."""
+        return list(self.table)[0]
+
+    @property
+    def row_name(self) -> str:
+        """What the rows are: slenderness, angle_rad or amplitude_ratio."""
+        return list(self.table)[1]
+
+    @property
+    def u_ratio_max(self) -> NDArray[np.float64]:
+        """Largest |u|/u_ins [-], rows × columns; 1 where the wall overturned."""
+        return self._over("u_ratio_max")
+
+    @property
+    def rocked(self) -> NDArray[np.bool_]:
+        """Whether the wall left its elastic branch, rows × columns."""
+        return self._over("rocked")
+
     @property
     def overturned(self) -> NDArray[np.bool_]:
         """Whether the wall overturned, rows × columns."""
-        return ~np.isnan(self.overturn_time)
+        return self._over("overturned")
 
     @property
-    def table(self) -> Table:
-        """A row for each point, as `wall spectrum --csv` writes them."""
-        rows, columns = self.u_ratio_max.shape
-        return Table(
-            {
-                self.column_name: np.tile(self.columns, rows),
-                self.row_name: np.repeat(self.rows, columns),
-                "u_ratio_max": self.u_ratio_max.ravel(),
-                "rocked": self.rocked.ravel(),
-                "overturned": self.overturned.ravel(),
-                "overturn_time_s": self.overturn_time.ravel(),
-            }
-        )
+    def overturn_time(self) -> NDArray[np.float64]:
+        """Time of overturning [s], rows × columns; NaN for none."""
+        return self._over("overturn_time_s")
 
     def to_pandas(self) -> pandas.DataFrame:
         """Returns the table as a DataFrame of pandas, which has to be installed."""
         return self.table.to_pandas()
 
     def _repr_svg_(self) -> str:
-        values = zip(self.u_ratio_max.tolist(), self.rocked.tolist(), self.overturn_time.tolist())
-        points = [list(zip(*row)) for row in values]
-        labels = (LABELS[self.column_name], LABELS[self.row_name])
+        values = (self.table[name].tolist() for name in ("u_ratio_max", "rocked", "overturn_time_s"))
         axes = (self.columns.tolist(), self.rows.tolist())
-        return _native.picture_of_spectrum(*axes, points, "Rocking spectrum", labels)
+        names = (self.column_name, self.row_name)
+        return _native.picture_of_spectrum(names, *axes, list(zip(*values)), "Rocking spectrum")

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StudyResults:
-    """Results of a study, as the tables that `wall ida` writes."""
+    """Results of a study, as the tables that `wall study ida` writes."""
 
     levels: Table
     """Every run; `overturn_time_s` is NaN for a wall that stood."""
@@ -53,8 +53,8 @@ class StudyResults:
 class Study:
     """An incremental dynamic analysis: walls, records, damping models, intensity measure and levels.
 
-    It is a file, that of `wall ida`, beside which scenes and records are looked up; or its parts by the keys
-    of such a file.
+    It is a file, that of `wall study ida`, beside which scenes and records are looked up; or its parts by the
+    keys of such a file.
 
     >>> from rocking_wall import Wall, synthetic_record
     >>> study = Study(
@@ -170,8 +170,8 @@ class Study:
         """Runs the study on all cores, or on some threads, and fits the fragilities.
 
         Shows a bar where tqdm is installed. Ctrl-C stops it. The results do not depend on the number of
-        threads. They stay in memory: a large study, or one that is stopped and continued, is for `wall ida`
-        or `rocking_wall.dask`.
+        threads. They stay in memory: a large study, or one that is stopped and continued, is for
+        `wall study ida` or `rocking_wall.dask`.
         """
         with bar(len(self), progress) as report:
             tables = self._native.run(threads, report)

@@ -37,7 +37,7 @@ class TieStudy:
     strength_reached: NDArray[np.bool_]
     """Whether the force reached the strength of the tie, stiffnesses × motions."""
     table: Table
-    """Medians, largest values and counts over the motions, as `wall tie --csv` writes them."""
+    """Medians, largest values and counts over the motions, as `wall study tie --csv` writes them."""
     alike_on_both_sides: bool
     """Whether both polarities were asked for and one was run, because the wall is alike on both sides."""
     _picture: str

@@ -40,10 +40,10 @@ def run(
 ) -> Path:
     """Runs a study on the workers of a client and writes its results; returns their folder.
 
-    The folder, by default the study's name and `_results`, is that of `wall ida`, with the same bytes: parts
-    in `runs/` (Parquet), tables and a page. Parts appear as they come. A study that is started again, here
-    or with `wall ida`, continues where it stopped. A worker that is lost costs the parts that it was
-    computing: they are computed again elsewhere. `threads` are those of this process, which fits the
+    The folder, by default the study's name and `_results`, is that of `wall study ida`, with the same bytes:
+    parts in `runs/` (Parquet), tables and a page. Parts appear as they come. A study that is started again,
+    here or with `wall study ida`, continues where it stopped. A worker that is lost costs the parts that it
+    was computing: they are computed again elsewhere. `threads` are those of this process, which fits the
     fragilities.
 
     Raises `ValueError` if the folder holds another study, and what a task has raised.

@@ -19,6 +19,7 @@
 
 mod cell;
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use serde_json::{Map, Value};
@@ -26,6 +27,63 @@ use serde_json::{Map, Value};
 use crate::escaped;
 
 pub use cell::{Cell, Column, Digits, between, quoted, significant};
+
+/// A table that grows by columns, see [`Table::over`].
+#[derive(Clone, Debug)]
+pub struct Growing<R> {
+    items: Vec<R>,
+    table: Table,
+}
+
+impl<R> Growing<R> {
+    /// Adds a column with the cell of each item.
+    #[must_use]
+    pub fn column<C: Into<Cell<'static>>>(mut self, column: Column, cell: impl Fn(&R) -> C) -> Self {
+        self.table.columns.push(column);
+        for (row, item) in self.table.rows.iter_mut().zip(&self.items) {
+            row.push(cell(item).into());
+        }
+        self
+    }
+
+    /// Adds a column of words.
+    #[must_use]
+    pub fn text<C: Into<Cell<'static>>>(
+        self,
+        name: impl Into<Cow<'static, str>>,
+        heading: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> C,
+    ) -> Self {
+        self.column(Column::text(name, heading), cell)
+    }
+
+    /// Adds a column of numbers, counts or flags.
+    #[must_use]
+    pub fn number<C: Into<Cell<'static>>>(
+        self,
+        name: impl Into<Cow<'static, str>>,
+        heading: impl Into<Cow<'static, str>>,
+        digits: Digits,
+        cell: impl Fn(&R) -> C,
+    ) -> Self {
+        self.column(Column::number(name, heading, digits), cell)
+    }
+
+    /// Adds a column of numbers, counts or flags for files and programs, which people do not see.
+    #[must_use]
+    pub fn value<C: Into<Cell<'static>>>(
+        self,
+        name: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> C,
+    ) -> Self {
+        self.column(Column::count(name, ""), cell)
+    }
+
+    /// Returns the table.
+    pub fn done(self) -> Table {
+        self.table
+    }
+}
 
 /// A table: columns, and rows with a cell for each column.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,19 +94,29 @@ pub struct Table {
     pub rows: Vec<Vec<Cell<'static>>>,
 }
 
-/// Returns the line of a CSV file, without its end.
-///
-/// ```
-/// assert_eq!(report::table::line(&["a, b".into(), 0.5.into(), None::<f64>.into()]), "\"a, b\",0.5,");
-/// ```
-pub fn line(cells: &[Cell<'_>]) -> String {
-    cells.iter().map(Cell::field).collect::<Vec<_>>().join(",")
-}
-
 impl Table {
     /// Creates a table without rows.
     pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
         Self { columns: columns.into_iter().collect(), rows: Vec::new() }
+    }
+
+    /// Begins a table with a row for each item, to which columns are added.
+    ///
+    /// ```
+    /// use report::table::{Digits, Table};
+    ///
+    /// let walls = [("gable", 2.5), ("strip", 4.0)];
+    /// let table = Table::over(&walls)
+    ///     .text("wall", "wall", |wall| wall.0)
+    ///     .number("height_m", "height [m]", Digits::Decimals(2), |wall| wall.1)
+    ///     .value("is_high", |wall| wall.1 > 3.0)
+    ///     .done();
+    /// assert_eq!(table.csv(), "wall,height_m,is_high\ngable,2.5,false\nstrip,4.0,true\n");
+    /// ```
+    pub fn over<R>(items: impl IntoIterator<Item = R>) -> Growing<R> {
+        let items: Vec<R> = items.into_iter().collect();
+        let rows = items.iter().map(|_| Vec::new()).collect();
+        Growing { items, table: Self { columns: Vec::new(), rows } }
     }
 
     /// Adds a row.
@@ -111,7 +179,12 @@ impl Table {
     /// Returns the table as CSV: a line of names, then a line for each row.
     pub fn csv(&self) -> String {
         let names: Vec<_> = self.named().map(|(_, column)| quoted(&column.name)).collect();
-        let mut text = names.join(",") + "\n";
+        names.join(",") + "\n" + &self.csv_rows()
+    }
+
+    /// Returns the rows as CSV without the line of names, to add them to a file that has it.
+    pub fn csv_rows(&self) -> String {
+        let mut text = String::new();
         for row in &self.rows {
             let fields: Vec<_> = self.named().map(|(k, _)| row[k].field()).collect();
             text += &fields.join(",");

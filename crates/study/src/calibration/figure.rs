@@ -1,4 +1,4 @@
-//! Calibrations as charts.
+//! Calibrations as plots.
 //!
 //! ```
 //! use study::calibration::figure::charts;
@@ -10,14 +10,14 @@
 //! ```
 
 use crate::calibration::{Calibration, Coefficient, DampingModel, FREE_STANDING, Fit, REGRESSIONS};
-use report::chart::{Axis, Chart, Series};
+use report::plot::{Axis, Plot, Series};
 use run::model::{Label, label};
 
-/// Series that a chart holds without repeating a colour.
+/// Series that a plot holds without repeating a colour.
 const MOST_SERIES: usize = 6;
 
 /// Draws the fits of each calibration over e, their errors and, where there are laws, x over a₁.
-pub fn charts(found: &[Calibration]) -> Vec<Chart> {
+pub fn charts(found: &[Calibration]) -> Vec<Plot> {
     let mut charts: Vec<_> = found.iter().map(over_restitution).collect();
     charts.push(least_errors(found));
     if found.iter().any(|calibration| !calibration.laws.is_empty()) {
@@ -36,7 +36,7 @@ pub fn printed(model: DampingModel, a1: f64) -> Option<f64> {
 }
 
 /// Draws ξ over e for some of the a₁ and u₀.
-fn over_restitution(found: &Calibration) -> Chart {
+fn over_restitution(found: &Calibration) -> Plot {
     let every = found.coefficients.len().div_ceil(MOST_SERIES);
     let mut series = Vec::new();
     for (color, Coefficient { a1, start, x }) in found.coefficients.iter().step_by(every).enumerate() {
@@ -52,16 +52,17 @@ fn over_restitution(found: &Calibration) -> Chart {
         let points = fits.iter().map(|fit| (fit.restitution, fit.damping)).collect();
         series.push(Series::marks(&format!("a₁ = {a1}, u₀ = {start} u_ins"), color, points));
     }
-    Chart {
-        title: format!("{}: best fits and −x ln e", label(found.model).name),
-        x: Axis::new("e"),
-        y: Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c_bar" }),
+    let damping = Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c_bar" });
+    Plot::titled(
+        format!("{}: best fits and −x ln e", label(found.model).name),
+        Axis::new("e"),
+        damping,
         series,
-    }
+    )
 }
 
 /// Draws √Err over e at the middle a₁ and u₀.
-fn least_errors(found: &[Calibration]) -> Chart {
+fn least_errors(found: &[Calibration]) -> Plot {
     let mut title = String::new();
     let mut series = Vec::new();
     for calibration in found {
@@ -72,11 +73,11 @@ fn least_errors(found: &[Calibration]) -> Chart {
         let Label { name, color, .. } = label(calibration.model);
         series.push(Series::marks(name, color, points));
     }
-    Chart { title, x: Axis::new("e"), y: Axis::new("√Err"), series }
+    Plot::titled(title, Axis::new("e"), Axis::new("√Err"), series)
 }
 
 /// Draws x over a₁, fitted and as printed.
-fn over_stiffness(found: &[Calibration]) -> Chart {
+fn over_stiffness(found: &[Calibration]) -> Plot {
     let mut series = Vec::new();
     let with_laws = found.iter().filter(|calibration| !calibration.laws.is_empty());
     for calibration in with_laws {
@@ -96,5 +97,5 @@ fn over_stiffness(found: &[Calibration]) -> Chart {
         let name = format!("{name}: {:.3} a₁^{:.3}", law.q, law.r);
         series.push(Series::marks(&name, color, points));
     }
-    Chart { title: "x over a₁".into(), x: Axis::new("a₁"), y: Axis::new("x"), series }
+    Plot::titled("x over a₁", Axis::new("a₁"), Axis::new("x"), series)
 }

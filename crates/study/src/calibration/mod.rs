@@ -12,7 +12,8 @@
 //!
 //! ```
 //! use rocking_wall::{variables::DampingModel, wall::Parameters};
-//! use study::{calibration::{Grid, calibrate}, parallel::threads};
+//! use run::parallel::threads;
+//! use study::calibration::{Grid, calibrate};
 //!
 //! let grid = Grid { restitution: vec![0.85], a1: vec![0.03], ..Grid::default() };
 //! let found = calibrate(&Parameters::default(), DampingModel::ConstantRatio, &grid, threads(None))?;
@@ -25,6 +26,8 @@ mod error;
 pub mod figure;
 mod matching;
 mod minimum;
+pub mod page;
+pub mod table;
 
 use std::num::NonZeroUsize;
 

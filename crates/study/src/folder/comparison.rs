@@ -69,7 +69,7 @@ fn lane(manifest: &Manifest, model: usize, median: &Interval, end: f64) -> Strin
     }
     let (color, mark) = looks(manifest)[model];
     let place = |intensity: f64| 100.0 * (in_g(intensity) / end).clamp(0.0, 1.0);
-    let [text, low, high] = median.texts(STANDARD_GRAVITY, Some(3)).map(|text| escaped(&text));
+    let [text, low, high] = median.texts(STANDARD_GRAVITY, 3).map(|text| escaped(&text));
     let (from, to) = (place(median.least[1]), place(median.range[1]));
     let mut html = format!(
         "<div style=\"top:{}px\" title=\"{}: {text} ({low} … {high})\">\

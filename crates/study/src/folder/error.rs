@@ -2,15 +2,17 @@
 
 use std::path::PathBuf;
 
+use run::file::FileError;
+
 /// Why a study cannot be kept in a folder, or its results not be written.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum FolderError {
-    /// A file or folder cannot be read, written, made or removed.
-    #[error("{}: cannot be {what}: {source}", path.display())]
-    File { path: PathBuf, what: &'static str, source: std::io::Error },
+    /// A file or folder cannot be written, made or removed.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// There is no study.
-    #[error("{}: cannot be read; expected a folder that `wall ida` has made: {source}", path.display())]
+    #[error("{}: cannot be read; expected a folder that `wall study ida` has made: {source}", path.display())]
     NoStudy { path: PathBuf, source: std::io::Error },
     /// The description of a study is not one.
     #[error(
@@ -19,7 +21,10 @@ pub enum FolderError {
     )]
     Description { path: PathBuf, line: usize },
     /// The description of a study is damaged.
-    #[error("{}: is damaged; remove it, and `wall ida` writes it again and keeps the runs", path.display())]
+    #[error(
+        "{}: is damaged; remove it, and `wall study ida` writes it again and keeps the runs",
+        path.display()
+    )]
     Damaged { path: PathBuf },
     /// The folder holds results of another study.
     #[error(

@@ -9,12 +9,10 @@
 //! | module | holds |
 //! |---|---|
 //! | `error` | errors |
-//! | [`mod@file`] | files, written completely or not at all |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `store` | the folder on disk |
-//! | `work` | computes the parts that are not on disk yet |
-//! | `tables` | the tables |
+//! | `compute` | computes the parts that are not on disk yet |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
@@ -25,9 +23,9 @@
 //! | `report` | all results of a complete folder |
 
 mod comparison;
+mod compute;
 mod contents;
 mod error;
-pub mod file;
 mod legend;
 mod nrml;
 mod page;
@@ -37,12 +35,10 @@ mod population;
 mod report;
 mod risk;
 mod store;
-mod tables;
-mod work;
 
+pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use error::FolderError;
 pub use part::{decode, encode};
 pub use report::{Report, finish};
 pub use store::Folder;
-pub use work::{WorkError, work};

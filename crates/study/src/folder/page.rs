@@ -10,6 +10,7 @@ use report::counted;
 use report::escaped;
 use report::many_lines::STYLE;
 use report::palette::sign;
+use report::table::{Cell, Column, Digits, Table};
 use report::template;
 
 use super::contents::{Contents, Manifest};
@@ -165,23 +166,20 @@ fn collapses(shown: Shown<'_>) -> String {
     if records.len() > MOST_LISTED {
         return String::new();
     }
-    let mut html = format!(
-        "<details><summary>Collapse of each record, {} (g)</summary><table><tr><th>record</th>",
-        escaped(&shown.manifest.contents.measure)
-    );
-    for model in models {
-        let _ = write!(html, "<th>{}</th>", escaped(&model.name));
-    }
+    let columns = models.iter().map(|model| Column::number("", model.name.clone(), Digits::Decimals(3)));
+    let mut table = Table::new([Column::text("", "record")].into_iter().chain(columns));
     for (index, record) in records.iter().enumerate() {
-        let _ = write!(html, "</tr>\n<tr><td>{}</td>", escaped(&record.name));
-        for model in 0..models.len() {
-            let _ = match shown.results.curves(model)[index].collapse() {
-                Exceedance::At(intensity) => write!(html, "<td>{:.3}</td>", in_g(intensity)),
-                Exceedance::Above(top) => write!(html, "<td>open &gt;{:.3}</td>", in_g(top)),
-            };
-        }
+        let collapse = |model| match shown.results.curves(model)[index].collapse() {
+            Exceedance::At(intensity) => Cell::Number(in_g(intensity)),
+            Exceedance::Above(top) => Cell::Between([in_g(top), f64::INFINITY]),
+        };
+        table.row([record.name.clone().into()].into_iter().chain((0..models.len()).map(collapse)));
     }
-    html + "</tr></table></details>"
+    format!(
+        "<details><summary>Collapse of each record, {} (g)</summary>{}</details>",
+        escaped(&shown.manifest.contents.measure),
+        table.html()
+    )
 }
 
 /// Medians, dispersions and ratios.
@@ -226,6 +224,6 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
 
 /// An estimate over its interval.
 fn words(interval: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = interval.texts(unit, Some(3)).map(|text| escaped(&text));
+    let [estimate, low, high] = interval.texts(unit, 3).map(|text| escaped(&text));
     format!("{estimate}<br><small>{low} … {high}</small>")
 }

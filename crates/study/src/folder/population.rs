@@ -6,6 +6,7 @@ use crate::results::WallResults;
 use crate::tables::in_g;
 use report::escaped;
 use report::many_lines::ManyLines;
+use report::table::{Cell, Digits, Table};
 use run::sample::fractile;
 
 use super::contents::Manifest;
@@ -76,79 +77,64 @@ impl Population {
         html
     }
 
-    /// Lists fractiles of the medians, and the weakest walls.
+    /// Lists fractiles of the medians, and the walls with the lowest medians of the last limit state with the
+    /// first model.
     fn tables(&self, manifest: &Manifest) -> String {
-        let mut html = "<section><h2>Fractiles of the medians over the walls (g)</h2><table><thead><tr>\
-                        <th>u<sub>max</sub>/u<sub>ins</sub></th><th>model</th>"
-            .to_owned();
-        for part in FRACTILES {
-            let _ = write!(html, "<th>{:.0} %</th>", 100.0 * part);
-        }
-        html.push_str("<th>above the levels</th></tr></thead><tbody>");
-        for (place, fraction) in manifest.report.fractions.iter().enumerate() {
-            for (model, medians) in manifest.contents.models.iter().zip(&self.medians[place]) {
-                let _ = write!(html, "<tr><td>{fraction}</td><td>{}</td>", escaped(&model.name));
-                let all = sorted(medians, in_g);
-                for value in FRACTILES.map(|part| fractile(&all, part)) {
-                    let _ = write!(html, "<td>{}</td>", shown(value.unwrap_or(f64::INFINITY)));
-                }
-                let open = all.iter().filter(|median| median.is_infinite()).count();
-                let _ = write!(html, "<td>{open}</td></tr>");
-            }
-        }
-        html + "</tbody></table></section>\n" + &self.weakest(manifest)
-    }
-
-    /// Lists the walls with the lowest medians of the last limit state, with the first model.
-    fn weakest(&self, manifest: &Manifest) -> String {
+        let all: Vec<_> = (0..self.medians.len()).collect();
+        let fractiles = self.fractiles(manifest, &all).html();
+        let mut html =
+            format!("<section><h2>Fractiles of the medians over the walls (g)</h2>{fractiles}</section>\n");
         let Some(medians) = self.medians.last().and_then(|medians| medians.first()) else {
-            return String::new();
+            return html;
         };
         let mut order: Vec<usize> = (0..medians.len()).collect();
         order.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
-        let mut html = format!(
+        let weakest = Table::over(order.into_iter().take(WEAKEST))
+            .text("", "wall", |wall| manifest.contents.walls[*wall].name.clone())
+            .number("", "median (g)", Digits::Decimals(3), |wall| known(Some(in_g(medians[*wall]))))
+            .done();
+        let _ = writeln!(
+            html,
             "<section><h2>Walls with the lowest medians of u<sub>max</sub>/u<sub>ins</sub> = {}, {}</h2>\
-             <table><thead><tr><th>wall</th><th>median (g)</th></tr></thead><tbody>",
+             {}</section>",
             manifest.report.fractions.last().copied().unwrap_or(1.0),
-            escaped(&manifest.contents.models[0].name)
+            escaped(&manifest.contents.models[0].name),
+            weakest.html()
         );
-        for &wall in order.iter().take(WEAKEST) {
-            let name = escaped(&manifest.contents.walls[wall].name);
-            let _ = write!(html, "<tr><td>{name}</td><td>{}</td></tr>", shown(in_g(medians[wall])));
-        }
-        html + "</tbody></table></section>\n"
+        html
     }
 
-    /// Writes fractiles of the medians of a limit state as lines of text.
-    pub(crate) fn text(&self, manifest: &Manifest, place: usize) -> String {
-        let names = manifest.contents.models.iter().map(|model| &model.name);
-        let width = names.clone().map(|name| name.chars().count()).max().unwrap_or(0).max("model".len()) + 2;
-        let mut text = format!("{:<width$}", "model");
+    /// Returns the fractiles of the medians over the walls \[g\], by limit states, given by their places, and
+    /// models.
+    pub(crate) fn fractiles(&self, manifest: &Manifest, places: &[usize]) -> Table {
+        let rows = places.iter().flat_map(|&place| {
+            let models = manifest.contents.models.iter().zip(&self.medians[place]);
+            models.map(move |(model, medians)| (place, model, sorted(medians, in_g)))
+        });
+        let mut table = Table::over(rows)
+            .number("", "u_max/u_ins", Digits::AtMost(6), |(place, ..)| manifest.report.fractions[*place])
+            .text("", "model", |(_, model, _)| model.name.clone());
         for part in FRACTILES {
-            let _ = write!(text, "{:>9}", format!("{:.0} %", 100.0 * part));
+            let heading = format!("{:.0} %", 100.0 * part);
+            table = table.number("", heading, Digits::Decimals(3), |(.., all)| known(fractile(all, part)));
         }
-        text.push_str("   of the walls have a lower median\n");
-        for (name, medians) in names.zip(&self.medians[place]) {
-            let all = sorted(medians, in_g);
-            let _ = write!(text, "{name:<width$}");
-            for value in FRACTILES.map(|part| fractile(&all, part)) {
-                let _ = write!(text, "{:>9}", shown(value.unwrap_or(f64::INFINITY)));
-            }
-            text.push('\n');
-        }
-        text
+        table
+            .number("", "above the levels", Digits::AtMost(6), |(.., all)| {
+                all.iter().filter(|median| median.is_infinite()).count()
+            })
+            .done()
     }
+}
+
+/// Returns a median, `open` above the levels.
+fn known(median: Option<f64>) -> Cell<'static> {
+    median.filter(|median| median.is_finite()).map_or("open".into(), Cell::Number)
 }
 
 fn sorted(values: &[f64], convert: fn(f64) -> f64) -> Vec<f64> {
     let mut values: Vec<f64> = values.iter().map(|&value| convert(value)).collect();
     values.sort_by(f64::total_cmp);
     values
-}
-
-/// Formats a median in g.
-fn shown(median: f64) -> String {
-    if median.is_finite() { format!("{median:.3}") } else { "open".to_owned() }
 }
 
 /// Draws sorted values of each model as distributions.

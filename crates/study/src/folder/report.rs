@@ -3,29 +3,34 @@
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::PathBuf;
 
+use crate::fragility::Interval;
 use crate::ida::{Curve, Exceedance};
 use crate::results::{Fitting, WallResults};
-use crate::tables::{Names, Table};
+use crate::tables::{KINDS, Kind, Names};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
+use report::table::{Cell, Digits, Table};
+use run::file::{self, Draft};
 use run::parallel;
 
 use super::comparison::Comparison;
 use super::contents::{Contents, Manifest};
 use super::error::FolderError;
-use super::file::{self, Draft};
 use super::legend;
 use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
 use super::store::Folder;
-use super::tables::{names, tables, write};
 
 /// Most walls that the page and the summary show one by one.
 const MOST_WALLS: usize = 40;
+/// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
+/// in the parts only.
+const MOST_CASES: usize = 10_000;
 /// Walls that each thread fits before their rows are written.
 const WALLS_AT_ONCE: usize = 4;
 /// Most fits that a warning names.
@@ -110,14 +115,14 @@ impl Curves<'_> {
 struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
-    tables: Vec<(Table, Draft)>,
+    tables: Vec<(Kind, Draft)>,
     names: Names<'a>,
     risk: Risk<'a>,
     sections: String,
     comparison: Comparison,
     panels: Vec<(String, String)>,
     population: Population,
-    rows: String,
+    summary: Option<Table>,
     contradictions: Vec<String>,
     contradicted: usize,
     resurrected: usize,
@@ -125,22 +130,28 @@ struct Output<'a> {
 
 impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
-        let draft = |table: Table| {
-            let path = folder.path().join(format!("{}.csv", table.name));
-            let draft = Draft::new(&path, format!("{}\n", table.columns).as_bytes())?;
-            Ok::<_, FolderError>((table, draft))
+        let draft = |kind: Kind| {
+            let path = folder.path().join(format!("{}.csv", kind.0));
+            Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
+        let Contents { walls, models, records, .. } = folder.contents();
+        let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
-            tables: tables(folder.contents()).into_iter().map(draft).collect::<Result<_, _>>()?,
-            names: names(folder.manifest()),
+            tables: kinds.iter().copied().map(draft).collect::<Result<_, _>>()?,
+            names: Names {
+                walls: walls.iter().map(|wall| &*wall.name).collect(),
+                models: models.iter().map(|model| &*model.name).collect(),
+                records: records.iter().map(|record| &*record.name).collect(),
+                fractions: &folder.manifest().report.fractions,
+            },
             risk: Risk::new(folder.path(), folder.manifest())?,
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
             population: Population::new(folder.manifest()),
-            rows: String::new(),
+            summary: None,
             contradictions: Vec::new(),
             contradicted: 0,
             resurrected: 0,
@@ -150,15 +161,17 @@ impl<'a> Output<'a> {
     /// Adds the results of a wall.
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
-        for (table, draft) in &mut self.tables {
-            draft.write(|file| write(file, table, &self.names, wall, results))?;
+        for (kind, draft) in &mut self.tables {
+            let table = (kind.1)(&self.names, wall, results);
+            let text = if wall == 0 { table.csv() } else { table.csv_rows() };
+            draft.write(|file| file.write_all(text.as_bytes()))?;
         }
         self.risk.add(wall, results)?;
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
             self.comparison.add(manifest, results);
             self.panels.extend(panel(manifest, wall, results));
-            self.rows.push_str(&rows(manifest, wall, results));
+            self.add_to_summary(manifest, wall, results);
         } else {
             self.population.add(results);
         }
@@ -215,22 +228,10 @@ impl<'a> Output<'a> {
             counted(contents.records.len(), "record")
         );
         if is_large {
-            text.push_str(&self.population.text(manifest, collapse));
+            text.push_str("fractiles: so many of the walls have a lower median\n");
+            text.push_str(&self.population.fractiles(manifest, &[collapse]).text());
         } else {
-            let [wall_width, model_width] = widths(contents);
-            let _ = writeln!(
-                text,
-                "{:<wall_width$}{:<model_width$}{:>12}{:>26}{:>14}{:>7}{:>10}{:>36}",
-                "wall",
-                "model",
-                "median",
-                "",
-                "theta",
-                "beta",
-                "censored",
-                format!("median/{}", report.reference)
-            );
-            text.push_str(&self.rows);
+            text.extend(self.summary.as_ref().map(Table::text));
         }
         if self.resurrected > 0 {
             let _ = writeln!(
@@ -241,6 +242,36 @@ impl<'a> Output<'a> {
             );
         }
         text
+    }
+
+    /// Adds the collapse of a wall to the summary.
+    fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
+        let Some(collapse) = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0) else {
+            return;
+        };
+        let three = Digits::Decimals(3);
+        let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
+        let ends = |of: &Interval, unit| {
+            let [_, low, high] = of.texts(unit, 3);
+            format!("{low} … {high}")
+        };
+        let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, 3)[0], ends(of, 1.0));
+        let table = Table::over(manifest.contents.models.iter().zip(results.summaries(collapse)))
+            .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
+            .text("", "model", |(model, _)| model.name.clone())
+            .number("", "median", three, |(_, one)| estimate(&one.median))
+            .number("", "interval", three, |(_, one)| ends(&one.median, STANDARD_GRAVITY))
+            .number("", "theta", three, |(_, one)| estimate(&one.theta))
+            .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
+            .number("", "censored", three, |(_, one)| one.censored)
+            .number("", format!("median/{}", manifest.report.reference), three, |(_, one)| {
+                ratio(&one.median_ratio)
+            })
+            .done();
+        match &mut self.summary {
+            Some(summary) => summary.rows.extend(table.rows),
+            None => self.summary = Some(table),
+        }
     }
 
     /// Warns of walls and models whose limit states contradict a common β.
@@ -256,40 +287,6 @@ impl<'a> Output<'a> {
             )
         })
     }
-}
-
-/// Returns the widths of the columns of names.
-fn widths(contents: &Contents) -> [usize; 2] {
-    let width = |names: &mut dyn Iterator<Item = &String>| {
-        names.map(|name| name.chars().count()).max().unwrap_or(0).max("model".len()) + 2
-    };
-    let walls = width(&mut contents.walls.iter().map(|wall| &wall.name));
-    [walls, width(&mut contents.models.iter().map(|model| &model.name))]
-}
-
-/// Writes the rows of a wall in the summary.
-fn rows(manifest: &Manifest, wall: usize, results: &WallResults) -> String {
-    let (contents, mut text) = (&manifest.contents, String::new());
-    let Some(collapse) = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0) else {
-        return text;
-    };
-    let [wall_width, model_width] = widths(contents);
-    for (model, summary) in contents.models.iter().zip(results.summaries(collapse)) {
-        let beta = summary.fitted.map_or("–".to_owned(), |fit| format!("{:.3}", fit.dispersion));
-        let [median, low, high] = summary.median.texts(STANDARD_GRAVITY, Some(3));
-        let [theta, ..] = summary.theta.texts(STANDARD_GRAVITY, Some(3));
-        let [ratio, ratio_low, ratio_high] = summary.median_ratio.texts(1.0, Some(3));
-        let _ = writeln!(
-            text,
-            "{:<wall_width$}{:<model_width$}  {median:>10}  {:>24}  {theta:>12}{beta:>7}{:>10}{:>36}",
-            contents.walls[wall].name,
-            model.name,
-            format!("{low} … {high}"),
-            summary.censored,
-            format!("{ratio} ({ratio_low} … {ratio_high})")
-        );
-    }
-    text
 }
 
 /// Names a wall and model whose limit states contradict a common β, with the β of each.

@@ -11,23 +11,23 @@ use crate::results::WallResults;
 use crate::tables::in_g;
 use ground_motion::STANDARD_GRAVITY;
 
+use run::file::{self, Draft};
+
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::file::{self, Draft};
 use super::nrml;
-use report::table::{Cell, line};
+use report::table::Table;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
-/// Columns of the table; β is the square root of the sum of the squares of those after it.
-const COLUMNS: &str = "wall,geometry,model,measure,unit,limit_state,u_max_over_u_ins,theta,theta_low,\
-                       theta_high,beta,beta_records,beta_walls,beta_modelling";
 
 /// The files under construction.
 pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
     states: Vec<(usize, String)>,
     table: Draft,
+    /// Whether the table has its line of names.
+    is_begun: bool,
     xml: Option<(Draft, nrml::Writer)>,
     /// Numbers of the walls of each class.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
@@ -58,7 +58,8 @@ impl<'a> Risk<'a> {
         Ok(Self {
             manifest,
             states: nrml::limit_states(&manifest.report),
-            table: Draft::new(&table, format!("{COLUMNS}\n").as_bytes())?,
+            table: Draft::new(&table, b"")?,
+            is_begun: false,
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
@@ -121,16 +122,29 @@ impl<'a> Risk<'a> {
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
         let model = &contents.models[model].name;
-        let first = line(&[name, geometry, model, &contents.measure].map(Cell::from));
-        let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
-        let betas = line(&betas.map_or([const { Cell::Empty }; 4], |betas| betas.map(Cell::from)));
-        for (k, (place, state)) in self.states.iter().enumerate() {
-            let [low, high] = intervals.get(k).copied().unwrap_or([f64::NAN; 2]);
-            let theta = [function.map(|function| in_g(function.medians[k])), Some(low), Some(high)];
-            let theta = line(&theta.map(|theta| theta.filter(|theta| theta.is_finite()).into()));
-            let fraction = report.fractions[*place];
-            self.table.write(|file| writeln!(file, "{first},g,{state},{fraction},{theta},{betas}"))?;
-        }
+        let known = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let end = |k: usize, end: usize| known(intervals.get(k).map(|ends| ends[end]));
+        let theta = |k: usize| known(function.map(|function| in_g(function.medians[k])));
+        let table = Table::over(self.states.iter().enumerate())
+            .text("wall", "", |_| name.to_owned())
+            .text("geometry", "", |_| geometry.to_owned())
+            .text("model", "", |_| model.clone())
+            .text("measure", "", |_| contents.measure.clone())
+            .text("unit", "", |_| "g")
+            .text("limit_state", "", |(_, (_, state))| state.clone())
+            .value("u_max_over_u_ins", |(_, (place, _))| report.fractions[*place])
+            .value("theta", |(k, _)| theta(*k))
+            .value("theta_low", |(k, _)| end(*k, 0))
+            .value("theta_high", |(k, _)| end(*k, 1))
+            // the square root of the sum of the squares of those after it
+            .value("beta", |_| function.map(FragilityFunction::dispersion))
+            .value("beta_records", |_| function.map(|function| function.beta_records))
+            .value("beta_walls", |_| function.map(|function| function.beta_walls))
+            .value("beta_modelling", |_| function.map(|function| function.beta_modelling))
+            .done();
+        let text = if self.is_begun { table.csv_rows() } else { table.csv() };
+        self.is_begun = true;
+        self.table.write(|file| file.write_all(text.as_bytes()))?;
         let Some(function) = function else {
             self.left_out[0] += 1;
             return Ok(());

@@ -11,9 +11,10 @@ use std::path::{Path, PathBuf};
 use crate::ida::Curve;
 use crate::loaded::LoadedStudy;
 
+use run::file::{self, Draft};
+
 use super::contents::{Contents, Manifest};
 use super::error::FolderError;
-use super::file::{self, Draft};
 use super::part;
 
 const STUDY: &str = "study.json";
@@ -63,7 +64,7 @@ impl Folder {
     }
 
     fn create(path: &Path, manifest: Manifest) -> Result<Self, FolderError> {
-        make(&path.join(RUNS))?;
+        file::make_folder(&path.join(RUNS))?;
         let mut draft = Draft::new(&path.join(STUDY), b"")?;
         draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
         draft.write(|file| file.write_all(b"\n"))?;
@@ -144,9 +145,10 @@ impl Folder {
 
     fn keep_bytes(&self, part: usize, bytes: &[u8]) -> Result<(), FolderError> {
         let file = self.file(part);
-        make(file::folder(&file))?;
+        file::make_folder(file::folder(&file))?;
         // no need to wait for the disk: a part that a power failure damages is computed again
-        Draft::new(&file, bytes)?.commit(false).map(drop)
+        Draft::new(&file, bytes)?.commit(false)?;
+        Ok(())
     }
 
     /// Returns those of the parts given that are missing.
@@ -210,12 +212,6 @@ impl Folder {
             }
         }
     }
-}
-
-/// Makes a folder, and those that it lies in.
-fn make(path: &Path) -> Result<(), FolderError> {
-    let failed = |source| FolderError::File { path: path.to_owned(), what: "made", source };
-    std::fs::create_dir_all(path).map_err(failed)
 }
 
 /// Reads the description of the study in a folder.

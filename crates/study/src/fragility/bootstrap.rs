@@ -1,11 +1,10 @@
 //! Uncertainty of medians and their ratios due to the choice of records.
 
 use super::fit::{FitError, Lognormal, fit_from, open_bounds};
-use super::observation::{Observation, ObservationKind};
+use super::observation::{Observation, ObservationKind, median};
 use report::table::between;
 use run::sample::{fractile, sample_median};
 
-use super::sample::median;
 use crate::ida::Exceedance;
 use run::random::Pcg;
 
@@ -158,11 +157,7 @@ impl Interval {
     }
 
     /// Formats the estimate and the ends of its interval in a unit, see [`between`].
-    pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
-        let number = |value: f64| match decimals {
-            Some(decimals) => format!("{value:.decimals$}"),
-            None => value.to_string(),
-        };
-        self.bounds(unit).map(|bounds| between(bounds, number))
+    pub fn texts(&self, unit: f64, decimals: usize) -> [String; 3] {
+        self.bounds(unit).map(|bounds| between(bounds, |value| format!("{value:.decimals$}")))
     }
 }

@@ -25,12 +25,10 @@ mod compare;
 mod fit;
 mod normal;
 mod observation;
-mod sample;
 
 pub use bootstrap::{Bootstrap, Interval, Resampled};
 pub use class::FragilityFunction;
 pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;
-pub use observation::{Observation, ObservationKind};
-pub use sample::{median, steps};
+pub use observation::{Observation, ObservationKind, median, steps};

@@ -27,7 +27,7 @@ pub enum IdaError {
     /// The free vibration after a record is outside its limits.
     #[error("the tail is {value} s; it must be from 0 to {limit} s", limit = super::LONGEST_TAIL)]
     Tail { value: f64 },
-    /// A wall does not go with its floors.
+    /// The floors do not fit the wall (a strip wall needs two).
     #[error("wall {wall:?}, record {record:?}: {source}")]
     Floors { wall: String, record: String, source: Box<SceneError> },
     /// A run failed.

@@ -199,9 +199,9 @@ impl Study {
     /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
         let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record]);
-        let felt = self.felt(case)?;
-        let solver = RecordSolver::new(&motion, felt.step());
-        let shaking = Shaking::new(&motion, &solver, &felt, self.tail);
+        let support = self.support_motion(case)?;
+        let solver = RecordSolver::new(&motion, support.step());
+        let shaking = Shaking::new(&motion, &solver, &support, self.tail);
         let runs = self.levels.trace(|levels| {
             self.runs(case, &motion, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
@@ -214,9 +214,9 @@ impl Study {
         Ok(Curve::new(runs))
     }
 
-    /// Returns the motion that a wall feels under a record: that of the ground, or that of its floors until
-    /// the tail ends.
-    fn felt(&self, case: Case) -> Result<Cow<'_, GroundMotion>, IdaError> {
+    /// Returns the motion of the supports of a wall under a record: that of the ground, or that of its floors
+    /// until the tail ends.
+    fn support_motion(&self, case: Case) -> Result<Cow<'_, GroundMotion>, IdaError> {
         let (wall, record) = (&self.walls[case.wall], &self.records[case.record]);
         let Some(floors) = &wall.floors else { return Ok(Cow::Borrowed(&record.motion)) };
         let ground = Excitation::new(record.motion.clone(), None);
@@ -226,9 +226,9 @@ impl Study {
             record: record.name.clone(),
             source: Box::new(source),
         };
-        let felt = floors.motion(wall.parameters.mechanism, &ground, end).map_err(failed)?;
-        let felt = felt.effective(self.wall(case.wall, case.model).body());
-        felt.map(Cow::Owned).map_err(|error| failed(SceneError::Value { message: error.to_string() }))
+        let supports = floors.motion(wall.parameters.mechanism, &ground, end).map_err(failed)?;
+        let common = supports.effective(self.wall(case.wall, case.model).body());
+        common.map(Cow::Owned).map_err(|error| failed(SceneError::Value { message: error.to_string() }))
     }
 
     /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend

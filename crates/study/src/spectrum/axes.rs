@@ -11,6 +11,25 @@ pub const MOST_POINTS: usize = 250_000;
 /// Steps of a pulse in one period.
 const STEPS_PER_PERIOD: f64 = 2000.0;
 
+/// What an axis counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Name in tables, with its unit.
+    pub name: &'static str,
+    /// Label for people, with its unit.
+    pub label: &'static str,
+}
+
+/// What the axes of rocking spectra can count.
+pub const QUANTITIES: [Quantity; 6] = [
+    Quantity { name: "height_m", label: "height h (m)" },
+    Quantity { name: "semi_diagonal_m", label: "semi-diagonal R (m)" },
+    Quantity { name: "slenderness", label: "slenderness h/b" },
+    Quantity { name: "angle_rad", label: "slenderness angle α (rad)" },
+    Quantity { name: "frequency_ratio", label: "ω_p / p" },
+    Quantity { name: "amplitude_ratio", label: "a_p / a₀" },
+];
+
 /// Measure of the size of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
@@ -74,12 +93,9 @@ impl Size {
         }
     }
 
-    /// Returns name and unit, for axes and messages.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Height => "height h (m)",
-            Self::SemiDiagonal => "semi-diagonal R (m)",
-        }
+    /// Returns what an axis of sizes counts.
+    pub fn quantity(self) -> Quantity {
+        QUANTITIES[usize::from(self == Self::SemiDiagonal)]
     }
 }
 
@@ -93,12 +109,9 @@ impl Slenderness {
         }
     }
 
-    /// Returns name and unit, for axes and messages.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Ratio => "slenderness h/b",
-            Self::Angle => "slenderness angle α (rad)",
-        }
+    /// Returns what an axis of slendernesses counts.
+    pub fn quantity(self) -> Quantity {
+        QUANTITIES[2 + usize::from(self == Self::Angle)]
     }
 }
 

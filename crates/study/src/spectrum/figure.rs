@@ -2,18 +2,17 @@
 //!
 //! ```
 //! use study::spectrum::figure::{Shown, svg};
-//! use study::spectrum::{Point, RockingSpectrum};
+//! use study::spectrum::{Point, QUANTITIES, RockingSpectrum};
 //!
 //! let still = Point { ratio: 0.01, rocked: false, overturning: None };
 //! let fallen = Point { ratio: 1.0, rocked: true, overturning: Some(2.5) };
 //! let points = vec![vec![still; 2], vec![still, fallen]];
-//! let spectrum = RockingSpectrum { columns: vec![2.0, 4.0], rows: vec![0.5, 5.0], points };
+//! let quantities = [QUANTITIES[4], QUANTITIES[5]];
+//! let spectrum = RockingSpectrum { quantities, columns: vec![2.0, 4.0], rows: vec![0.5, 5.0], points };
 //! let shown = Shown {
 //!     spectrum,
 //!     title: "Rocking spectrum".into(),
 //!     notes: Vec::new(),
-//!     labels: ["ω_p / p".into(), "a_p / a₀".into()],
-//!     names: ["frequency_ratio", "amplitude_ratio"],
 //!     axes: String::new(),
 //!     own: None,
 //! };
@@ -36,10 +35,6 @@ pub struct Shown {
     pub title: String,
     /// Facts about the spectrum. A file has no room for the last one.
     pub notes: Vec<String>,
-    /// Labels of the columns and the rows.
-    pub labels: [String; 2],
-    /// Their names in tables.
-    pub names: [&'static str; 2],
     /// Explains the axes.
     pub axes: String,
     /// The scene's own wall: its place on the axes, and its result.
@@ -58,7 +53,7 @@ const ROCKING: [[f64; 3]; 4] =
 
 /// The scene's own wall and its result.
 pub fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
-    let [size, slenderness] = &shown.labels;
+    let [size, slenderness] = shown.spectrum.quantities.map(|quantity| quantity.label);
     let outside = if place(&shown.spectrum.columns, *x).and(place(&shown.spectrum.rows, *y)).is_none() {
         ", outside the map"
     } else {
@@ -79,7 +74,8 @@ fn words_of(point: Point) -> String {
 /// Draws the map over an area \[px\], with its width and height. If `named`, cells show their results when
 /// pointed at.
 pub fn map(shown: &Shown, area: [f64; 2], named: bool) -> (String, [f64; 2]) {
-    let RockingSpectrum { columns, rows, points } = &shown.spectrum;
+    let RockingSpectrum { quantities, columns, rows, points } = &shown.spectrum;
+    let [x, y] = quantities.map(|quantity| quantity.label);
     let paint = |row: usize, column: usize| {
         let point = points[row][column];
         let fill = match point {
@@ -87,7 +83,6 @@ pub fn map(shown: &Shown, area: [f64; 2], named: bool) -> (String, [f64; 2]) {
             Point { rocked: false, .. } => STILL.into(),
             Point { ratio, .. } => mixed(&ROCKING, ratio),
         };
-        let [x, y] = &shown.labels;
         let title = if named {
             format!("{x} = {}, {y} = {}: {}", columns[column], rows[row], words_of(point))
         } else {
@@ -98,8 +93,8 @@ pub fn map(shown: &Shown, area: [f64; 2], named: bool) -> (String, [f64; 2]) {
     let side = |area: f64, count: usize| (area / count as f64).floor().max(2.0);
     let map = HeatMap {
         label: "u_max/u_ins of rocking walls".into(),
-        columns: Axis::even(&shown.labels[0], columns),
-        rows: Axis::even(&shown.labels[1], rows),
+        columns: Axis::even(x, columns),
+        rows: Axis::even(y, rows),
         size: [side(area[0], columns.len()), side(area[1], rows.len())],
         own: shown
             .own

@@ -33,6 +33,7 @@ use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
+use report::table::Table;
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
@@ -41,7 +42,7 @@ use rocking_wall::wall::{Parameters, Wall};
 use run::free_motion::{advance, peak_is_final};
 use run::parallel;
 
-pub use axes::{MOST_POINTS, PulseForm, Size, Slenderness, SpectrumError};
+pub use axes::{MOST_POINTS, PulseForm, QUANTITIES, Quantity, Size, Slenderness, SpectrumError};
 
 /// Step of the free motion after the record, over 1/p.
 const FREE_STEP: f64 = 0.25;
@@ -63,12 +64,33 @@ pub struct Point {
 /// A rocking spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockingSpectrum {
+    /// What the columns and the rows count.
+    pub quantities: [Quantity; 2],
     /// Values along the columns.
     pub columns: Vec<f64>,
     /// Values along the rows.
     pub rows: Vec<f64>,
     /// Results: `points[row][column]`.
     pub points: Vec<Vec<Point>>,
+}
+
+impl RockingSpectrum {
+    /// Returns a row for each point, row by row.
+    pub fn table(&self) -> Table {
+        let [column, row] = self.quantities.map(|quantity| quantity.name);
+        let points =
+            self.rows.iter().zip(&self.points).flat_map(|(y, points)| {
+                self.columns.iter().zip(points).map(move |(x, point)| (*x, *y, *point))
+            });
+        Table::over(points)
+            .value(column, |(x, ..)| *x)
+            .value(row, |(_, y, _)| *y)
+            .value("u_ratio_max", |(.., point)| point.ratio)
+            .value("rocked", |(.., point)| point.rocked)
+            .value("overturned", |(.., point)| point.overturning.is_some())
+            .value("overturn_time_s", |(.., point)| point.overturning)
+            .done()
+    }
 }
 
 /// Computes the rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness. The
@@ -86,8 +108,8 @@ pub fn over_walls(
     check_count(sizes.len() * rows.len())?;
     if parameters.mechanism != Mechanism::Parapet {
         let names = [
-            (size.label(), size == Size::SemiDiagonal),
-            (slenderness.label(), slenderness == Slenderness::Angle),
+            (size.quantity().label, size == Size::SemiDiagonal),
+            (slenderness.quantity().label, slenderness == Slenderness::Angle),
         ];
         if let Some(&(name, _)) = names.iter().find(|(_, parapet_only)| *parapet_only) {
             return Err(SpectrumError::ParapetOnly { name });
@@ -104,7 +126,8 @@ pub fn over_walls(
     };
     let points = parallel::map(walls.len(), threads, run)?;
     let points = points.chunks(sizes.len().max(1)).map(<[Point]>::to_vec).collect();
-    Ok(RockingSpectrum { columns: sizes.to_vec(), rows: rows.to_vec(), points })
+    let quantities = [size.quantity(), slenderness.quantity()];
+    Ok(RockingSpectrum { quantities, columns: sizes.to_vec(), rows: rows.to_vec(), points })
 }
 
 /// Runs the wall itself, with its size and slenderness; `None` for one that such axes cannot have.
@@ -149,7 +172,8 @@ pub fn over_pulses(
     };
     let found = parallel::map(columns.len(), threads, run)?;
     let points = (0..rows.len()).map(|row| found.iter().map(|column| column[row]).collect()).collect();
-    Ok(RockingSpectrum { columns: columns.to_vec(), rows: rows.to_vec(), points })
+    let quantities = [QUANTITIES[4], QUANTITIES[5]];
+    Ok(RockingSpectrum { quantities, columns: columns.to_vec(), rows: rows.to_vec(), points })
 }
 
 /// Returns the motion that both supports of a scene have.
@@ -194,12 +218,12 @@ fn shaped(
         }
         Err(SpectrumError::Value { name, value, limit: format!("above 0 and at most {highest:.4}") })
     };
-    positive(size.label(), value, 1e6)?;
+    positive(size.quantity().label, value, 1e6)?;
     let (highest, ratio) = match slenderness {
         Slenderness::Ratio => (1e6, row),
         Slenderness::Angle => (FRAC_PI_4, 1.0 / libm::tan(row)),
     };
-    positive(slenderness.label(), row, highest)?;
+    positive(slenderness.quantity().label, row, highest)?;
     let height = match size {
         Size::Height => value,
         // 2R = √(h² + b²) = h √(1 + (b/h)²)

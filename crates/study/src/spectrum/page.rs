@@ -1,4 +1,4 @@
-//! The page of `wall spectrum`.
+//! The page of `wall study spectrum`.
 
 use super::figure::{FALLEN, STILL, Shown, legend, map, own_words};
 use report::{escaped, template};

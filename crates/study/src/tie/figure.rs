@@ -21,8 +21,8 @@ pub fn picture(rows: &[Row]) -> Picture {
         };
         let largest = points(1);
         let top = 1.08 * largest.iter().map(|point| point.1).fold(0.0, f64::max);
-        let marks = Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 3.0, largest) };
-        let series = vec![Series::line(color, 1.6, points(0)), marks];
+        let marks = Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 3.0, largest) };
+        let series = vec![Series::stroke(color, 1.6, points(0)), marks];
         let x = [points(0).first().map_or(0.0, |p| p.0 - 0.1), points(0).last().map_or(1.0, |p| p.0 + 0.1)];
         let axes = [Axis::over("log10 of the stiffness (N/m)", x), Axis::over(label, [-0.02 * top, top])];
         Plot::new([820.0, 320.0], axes, series)

@@ -14,6 +14,7 @@
 //! ```
 
 pub mod figure;
+mod table;
 
 use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
@@ -27,6 +28,8 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 use run::parallel;
 use run::polarity::Polarities;
 use run::sample::sample_median;
+
+pub use table::table;
 
 /// Why a tie cannot be studied.
 #[derive(Debug, thiserror::Error)]
@@ -83,19 +86,6 @@ pub struct Row {
     /// One for each motion and sign.
     pub outcomes: Vec<Outcome>,
 }
-
-/// Names of the stiffness and the values of a row, in tables.
-pub const COLUMNS: [&str; 9] = [
-    "stiffness_n_m",
-    "force_median_n",
-    "force_max_n",
-    "u_ratio_median",
-    "u_ratio_max",
-    "falls",
-    "falls_away_from_tie",
-    "beyond_u_ins_and_back",
-    "strength_reached",
-];
 
 impl TieStudy {
     /// Prepares the study of a scene under records, each from rest and with a tail, or under its own motion;
@@ -211,19 +201,5 @@ impl Row {
         let mut values: Vec<f64> = self.outcomes.iter().map(pick).collect();
         let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         [sample_median(&mut values), largest]
-    }
-
-    /// Returns the median and the largest force \[N\] and u/`u_ins`. Four counts follow: walls that fall,
-    /// those of them that fall away from the tie, walls that return from beyond `u_ins`, strengths reached.
-    pub fn values(&self) -> ([f64; 4], [usize; 4]) {
-        let ([force, most], [ratio, largest]) = (self.of(|o| o.force), self.of(|o| o.u_ratio));
-        let counts: [fn(&Outcome) -> bool; 4] = [
-            |outcome| outcome.fate.falls(),
-            |outcome| outcome.away,
-            |outcome| matches!(outcome.fate, Fate::ComesBack { .. }),
-            |outcome| outcome.reached,
-        ];
-        let count = |pick: fn(&Outcome) -> bool| self.outcomes.iter().filter(|outcome| pick(outcome)).count();
-        ([force, most, ratio, largest], counts.map(count))
     }
 }

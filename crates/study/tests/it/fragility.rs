@@ -299,7 +299,7 @@ fn open_numbers_have_their_bounds() {
     let bootstrap = Bootstrap::new(5, 200, 1);
     let models = [known, open, never].map(|model| vec![model]);
     let summaries = compare(&models, 0, &ObservationKind::Records, &bootstrap).remove(0);
-    let texts = |interval: &Interval| interval.texts(1.0, Some(2));
+    let texts = |interval: &Interval| interval.texts(1.0, 2);
     assert_eq!(texts(&summaries[0].median)[0], "3.00");
     assert_eq!(texts(&summaries[1].median), ["open >5.00", "2.00", "open >5.00"]);
     // 5 over the median 3 of the reference

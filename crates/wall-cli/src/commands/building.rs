@@ -8,7 +8,8 @@ mod run;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use ::run::file::make_folder;
+use anyhow::{Result, bail};
 use building::trial::{Trial, trial};
 use building::{Building, Parts};
 use clap::Args;
@@ -62,8 +63,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         let archive = parts.archive(&building, step, &arguments.wall_fmu, &arguments.floor_fmu)?;
         let bytes = archive.to_bytes()?;
         if let (None, Some(folder)) = (&arguments.output, path.parent()) {
-            let unmade = || format!("{}: cannot be made", folder.display());
-            std::fs::create_dir_all(folder).with_context(unmade)?;
+            make_folder(folder)?;
         }
         console.write(path, &bytes)?;
         let (units, connections) = parts.counts();

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
+use report::table::significant;
 use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, Wall};
 
 use crate::args::SceneArguments;
-use crate::output::significant;
 use crate::output::{self, Console};
 use run::capacity::Capacity;
 
@@ -78,7 +78,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     text.push('\n');
     for Fact { name, symbol, value, unit } in facts {
-        let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
+        let _ = writeln!(text, "{name:<22}{symbol:<8}{:>13} {unit}", significant(value, 6));
     }
     text.push('\n');
     text.push_str(&capacity.table().text());

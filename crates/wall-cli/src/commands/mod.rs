@@ -1,17 +1,13 @@
 //! The commands of `wall`: each reads its arguments, calls the library and reports.
 
 mod building;
-mod calibrate;
 mod check;
 mod describe;
-mod ida;
-mod motion;
 mod package;
 mod record;
 mod schema;
 mod simulate;
-mod spectrum;
-mod tie;
+mod study;
 mod verify;
 
 use anyhow::Result;
@@ -32,34 +28,24 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a scene, or the default wall, and write its history and its page
+    /// Run a scene, or the default wall, under a motion
     #[command(allow_negative_numbers = true)]
     Simulate(simulate::Arguments),
-    /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
+    /// Make an FMU of a scene
     Package(package::Arguments),
-    /// Run storeys and walls as one system under a record, or make it an SSP of connected FMUs
+    /// Run a building of storeys and walls, or make it an SSP
     Building(building::Arguments),
-    /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
+    /// Print what follows from a wall's parameters
     Describe(describe::Arguments),
-    /// Check a wall by Circolare 7/2019, or its capacity curve over a spectrum
+    /// Check a wall by Circolare 7/2019, or over a spectrum
     Check(check::Arguments),
-    /// Compute the force of a parapet's tie and the displacement of the wall over the tie's stiffness
-    Tie(tie::Arguments),
-    /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    /// Print what record files hold, or write a motion as CSV
     #[command(allow_negative_numbers = true)]
-    Motion(motion::Arguments),
-    /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
     Record(record::Arguments),
-    /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
-    Ida(ida::Arguments),
-    /// Merge the shards of an incremental dynamic analysis and write its results
-    Merge(ida::MergeArguments),
-    /// Compute rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
-    #[command(allow_negative_numbers = true)]
-    Spectrum(spectrum::Arguments),
-    /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
-    Calibrate(calibrate::Arguments),
-    /// Ask whether the program is right: formulas, published tests, the paper, accuracy, stability
+    /// Run a study: ida, merge, spectrum, tie or calibrate
+    #[command(subcommand)]
+    Study(study::Command),
+    /// Is the program right? formulas, tests, paper, accuracy, stability
     #[command(subcommand)]
     Verify(verify::Subject),
     /// Print the JSON schema of scenes, studies or buildings
@@ -80,13 +66,8 @@ impl Arguments {
             Command::Building(arguments) => building::run(console, arguments),
             Command::Describe(arguments) => describe::run(console, arguments),
             Command::Check(arguments) => check::run(console, arguments),
-            Command::Tie(arguments) => tie::run(console, arguments),
-            Command::Motion(arguments) => motion::run(console, arguments),
             Command::Record(arguments) => record::run(console, arguments),
-            Command::Ida(arguments) => ida::run(console, arguments),
-            Command::Merge(arguments) => ida::merge(console, arguments),
-            Command::Spectrum(arguments) => spectrum::run(console, arguments),
-            Command::Calibrate(arguments) => calibrate::run(console, arguments),
+            Command::Study(command) => study::run(console, command),
             Command::Verify(subject) => return verify::run(console, subject),
             Command::Schema(arguments) => schema::run(console, arguments),
             Command::Completions { shell } => {

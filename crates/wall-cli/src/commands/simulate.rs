@@ -3,14 +3,8 @@
 mod arguments;
 mod records;
 
-use std::fmt::Write;
-
 use anyhow::Result;
-use report::counted;
 use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
-use rocking_wall::solver::Work;
-use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use run::demands;
@@ -20,7 +14,7 @@ use crate::output::{self, Console};
 pub(crate) use arguments::Arguments;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
-    if !arguments.table().is_empty() {
+    if !arguments.listed().is_empty() {
         return records::run(console, arguments);
     }
     let scene = arguments.scene(console)?;
@@ -42,41 +36,12 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         console.write(path, page.as_bytes())?;
     }
     let text = if arguments.json {
-        json(&scene, &response)?
+        let mut value = serde_json::to_value(&response)?;
+        value["title"] = scene.title.clone().into();
+        serde_json::to_string_pretty(&value)? + "\n"
     } else {
-        table(&scene, &response) + &output::written("written        ", outputs.into_iter().flatten())
+        demands::summary(&scene, &response)
+            + &output::written("written        ", outputs.into_iter().flatten())
     };
     console.print(&text)
-}
-
-fn json(scene: &Scene, response: &Response) -> Result<String> {
-    let mut value = serde_json::to_value(response)?;
-    value["title"] = scene.title.clone().into();
-    Ok(serde_json::to_string_pretty(&value)? + "\n")
-}
-
-fn table(scene: &Scene, response: &Response) -> String {
-    let summary = &response.summary;
-    let mut text = format!("{}\n", scene.title);
-    let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<15}{value}");
-    };
-    if !scene.motion_notes.is_empty() {
-        line("motion", scene.motion_notes.join(", "));
-    }
-    line("largest |u|", demands::largest(summary, "m", 6));
-    line("overturned", demands::overturned(summary.fate, 4));
-    line("run", format!("{} s", report::number(summary.end_time, 6)));
-    let Work { pieces, corners, impacts } = summary.work;
-    let [pieces, corners, impacts] = [(pieces, "piece"), (corners, "corner"), (impacts, "impact")]
-        .map(|(count, noun)| counted(count, noun));
-    line("work", format!("{pieces} of motion, {corners}, {impacts}"));
-    if let Some(until) = demands::until(response) {
-        line("demands", until.to_owned());
-    }
-    let has_top = scene.parameters.mechanism == Mechanism::VerticalSpanning;
-    for (name, value) in demands::lines(response, has_top) {
-        let _ = writeln!(text, "{name:<15}{value}");
-    }
-    text
 }

@@ -1,10 +1,10 @@
-//! Inputs and outputs that are different files.
+//! Refuses an output that would overwrite an input or another output.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use study::folder::file::{behind_links, folder};
+use run::file::{behind_links, folder};
 
 use super::Console;
 

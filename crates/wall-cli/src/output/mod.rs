@@ -11,23 +11,18 @@ use report::plot::Picture;
 
 pub(crate) use terminal::{Console, message};
 
-/// Six significant figures, right-aligned.
-pub(crate) fn significant(value: f64) -> String {
-    format!("{:>13}", report::table::significant(value, 6))
-}
-
-/// Writes a number with all its digits, or nothing.
-pub(crate) fn optional(number: Option<f64>) -> String {
-    number.map_or_else(String::new, |number| format!("{number:?}"))
-}
-
 impl Console<'_> {
-    /// Writes a file completely or not at all, see [`study::folder::file::to_file`]; `-` is standard output.
+    /// Writes a file completely or not at all, see [`run::file::to_file`]; `-` is standard output.
     pub(crate) fn write(&self, path: &Path, content: &[u8]) -> Result<()> {
         if path.as_os_str() == distinct::STDOUT {
             return self.bytes(content);
         }
-        Ok(study::folder::file::to_file(path, content)?)
+        Ok(run::file::to_file(path, content)?)
+    }
+
+    /// Prints a value as JSON.
+    pub(crate) fn json(&self, value: &serde_json::Value) -> Result<()> {
+        self.print(&(serde_json::to_string_pretty(value)? + "\n"))
     }
 
     /// Writes a text to the file that an option names, if it is given.

@@ -20,7 +20,7 @@ struct State {
     written: Instant,
 }
 
-/// Does work that tells its progress, and ends the line.
+/// Runs `work`, shows its progress on one line, then ends that line.
 pub(crate) fn shown<T>(work: impl FnOnce(&Progress) -> T) -> T {
     let now = Instant::now();
     let state = Mutex::new(State { done: 0, runs: 0, written: now });

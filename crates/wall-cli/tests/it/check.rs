@@ -1,4 +1,4 @@
-//! `wall check` and `wall tie`.
+//! `wall check` and `wall study tie`.
 
 use std::f64::consts::TAU;
 
@@ -34,7 +34,7 @@ fn a_check_is_that_by_hand() {
             assert_eq!(value, row[2 + column], "{}: {text}", row[0]);
         }
     }
-    let value = json(&folder, &[&["check", "--json", "--html", "check.html"], &spectrum[..]].concat());
+    let value = json(&folder, &[&["check", "--json", "--report", "check.html"], &spectrum[..]].concat());
     assert_eq!(value["secant_fraction"], 0.4);
     assert!(content(&folder, "check.html").contains("<svg"));
 }
@@ -64,7 +64,7 @@ fn a_spectrum_states_its_unit() {
     // and so is its damping
     let two = [&check[..], &["--column", "Sa 2%"]].concat();
     assert_has(&printed(&folder, &two), &["2 % damping"]);
-    let words = ["s.csv: expected the damping ratio", "0.02, found --damping 0.05"];
+    let words = ["s.csv: expected the damping ratio", "0.02, found 0.05"];
     refused(&folder, &[&two[..], &["--damping", "0.05"]].concat(), &words);
 }
 
@@ -90,7 +90,7 @@ fn a_check_refuses_what_it_cannot_use() {
 fn a_check_reads_the_records_of_a_folder() {
     let folder = folder("check_folder");
     std::fs::create_dir(folder.join("records")).unwrap();
-    succeed(&folder, &["motion", "--synthetic", "--csv", "records/a.csv"]);
+    succeed(&folder, &["record", "--synthetic", "--samples", "records/a.csv"]);
     let record = content(&folder, "records/a.csv");
     std::fs::write(folder.join("records/b.csv"), &record).unwrap();
     let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
@@ -98,7 +98,7 @@ fn a_check_reads_the_records_of_a_folder() {
     let output = succeed(&folder, &["check", "--records", "records", "--json"]);
     assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
     assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
-    let over = ["check", "--records", "records", "--html", "records/a.csv"];
+    let over = ["check", "--records", "records", "--report", "records/a.csv"];
     refused(&folder, &over, &["the input records/a.csv"]);
     std::fs::create_dir(folder.join("empty")).unwrap();
     refused(&folder, &["check", "--records", "empty"], &["empty: a folder without horizontal records"]);
@@ -110,7 +110,7 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     let folder = folder("check_storeys");
     let scene = crate::root().join("scenes/parapet_on_a_roof.toml");
     let ground = SyntheticMotion::default().motion().unwrap();
-    succeed(&folder, &["motion", "--synthetic", "--csv", "record.csv"]);
+    succeed(&folder, &["record", "--synthetic", "--samples", "record.csv"]);
     let value = json(&folder, &["check", scene.to_str().unwrap(), "--records", "record.csv", "--json"]);
     assert_eq!(value["demand"], "median of 1 record felt on 3 storeys, T = 0.510, 0.211, 0.144 s");
     let side = &value["sides"][0];
@@ -126,7 +126,7 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n4,0.3\n").unwrap();
     let output =
         wall(&folder, &["check", scene.to_str().unwrap(), "--spectrum", "spectrum.csv", "--unit", "m/s2"]);
-    assert!(text(&output.stderr).contains("storeys are not applied to --spectrum"));
+    assert!(text(&output.stderr).contains("storeys are not applied to the spectrum"));
 }
 
 /// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.
@@ -135,7 +135,7 @@ fn ties_of_several_stiffnesses() {
     let (folder, scene) = (folder("ties"), crate::root().join("scenes/shaken_parapet.toml"));
     let scene = scene.to_str().unwrap();
     let stiffness = ["--stiffness", "1e7,0,1e5", "--set", "tie_height=3", "--set", "tie_side=both"];
-    let value = json(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat());
+    let value = json(&folder, &[&["study", "tie", scene, "--json"], &stiffness[..]].concat());
     let column = |name: &str| -> Vec<f64> {
         value["rows"].as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
     };
@@ -143,7 +143,7 @@ fn ties_of_several_stiffnesses() {
     let (force, u) = (column("force_max_n"), column("u_ratio_max"));
     assert!(force[0] == 0.0 && force[1] > 0.0 && force[2] > 0.0, "{force:?}");
     assert!(u[0] > u[1] && u[1] > u[2], "{u:?}");
-    refused(&folder, &["tie", scene], &["tie_height"]);
+    refused(&folder, &["study", "tie", scene], &["tie_height"]);
 }
 
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.

@@ -146,7 +146,7 @@ fn pipes_in_place_of_files_are_refused() {
     for arguments in [
         &["package", "scene.toml", "-o", "scene.fmu", "--base", "base.fmu"][..],
         &["building", "building.toml", "-o", "building.ssp"],
-        &["merge", "results", "-o", "merged"],
+        &["study", "merge", "results", "-o", "merged"],
     ] {
         let mut program = program(&folder, arguments).stderr(Stdio::null()).spawn().unwrap();
         let ended = (0..200).find_map(|_| {
@@ -208,11 +208,11 @@ fn wrong_types_are_told_in_the_words_of_toml() {
         ("simulate", "[[storeys]]\nmass = \"heavy\"\n", "expected a number"),
         ("simulate", "[motion]\nsynthetic = { seed = \"a\" }\n", "expected a whole number from 0 on"),
         ("simulate", "[motion]\nrecord = 3\n", "expected a path in quotes"),
-        ("ida", "intensity = \"PGA\"\n", "expected a table"),
+        ("study ida", "intensity = \"PGA\"\n", "expected a table"),
         ("building", "floor = 3\n", "floor = 3: expected a list"),
     ] {
         std::fs::write(folder.join("wrong.toml"), text).unwrap();
-        refused(&folder, &[command, "wrong.toml"], &["line", words]);
+        refused(&folder, &[&args(command)[..], &["wrong.toml"]].concat(), &["line", words]);
     }
 }
 
@@ -275,7 +275,11 @@ fn bad_arguments() {
     // what Rust says of numbers
     let decimal = "expected a number with a decimal point, such as 0.3";
     fails(&folder, &["simulate", "--synthetic", "--scale", "0,3"], &["--scale", "0,3", decimal]);
-    fails(&folder, &["ida", "s.toml", "--threads", "0"], &["--threads", "expected a number from 1 on"]);
+    fails(
+        &folder,
+        &["study", "ida", "s.toml", "--threads", "0"],
+        &["--threads", "expected a number from 1 on"],
+    );
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
     refused(&folder, &["verify", "accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
     refused(&folder, &["verify", "accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);

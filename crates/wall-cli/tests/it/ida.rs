@@ -1,5 +1,5 @@
-//! Tests `wall ida` and `wall merge`: the same bytes for any threads, shards and interruptions, and what they
-//! refuse.
+//! Tests `wall study ida` and `merge`: the same bytes for any threads, shards and interruptions, and what
+//! they refuse.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -84,28 +84,32 @@ pub(crate) fn part_files(results: &Path) -> Vec<PathBuf> {
 fn threads_shards_and_interruptions_change_no_byte() {
     let folder = study("ida_bytes");
     let at = |name: &str| folder.join(name);
-    let told = printed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "one", "--threads", "1"]);
     assert_has(&told, &["runs/s a core", "CDR 5 %"]);
     let whole = bytes(&at("one"));
     assert_eq!(part_files(&at("one")).len(), PARTS);
     for name in ["levels.csv", "collapses.csv", "fragilities.csv", "study.html", "study.json"] {
         assert!(whole.contains_key(Path::new(name)), "{name}");
     }
-    succeed(&folder, &["ida", "study.toml", "-o", "two", "--threads", "2"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "two", "--threads", "2"]);
     assert!(bytes(&at("two")) == whole, "two threads");
 
     // shards in folders of their own, and in one
     for shard in ["1/3", "2/3", "3/3"] {
         let own = format!("shard{}", &shard[..1]);
-        let told = printed(&folder, &["ida", "study.toml", "--shard", shard, "-o", &own]);
-        assert_has(&told, &["wall merge"]);
+        let told = printed(&folder, &["study", "ida", "study.toml", "--shard", shard, "-o", &own]);
+        assert_has(&told, &["wall study merge"]);
         assert!(!at(&own).join("levels.csv").exists());
-        succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", "shared"]);
+        succeed(&folder, &["study", "ida", "study.toml", "--shard", shard, "-o", "shared"]);
     }
-    fails(&folder, &["merge", "shard1", "shard3", "-o", "part"], &["8 of 24", "missing", "parapet, low"]);
-    succeed(&folder, &["merge", "shard1", "shard2", "shard3", "-o", "merged"]);
+    fails(
+        &folder,
+        &["study", "merge", "shard1", "shard3", "-o", "part"],
+        &["8 of 24", "missing", "parapet, low"],
+    );
+    succeed(&folder, &["study", "merge", "shard1", "shard2", "shard3", "-o", "merged"]);
     assert!(bytes(&at("merged")) == whole, "merged shards");
-    succeed(&folder, &["merge", "shared"]);
+    succeed(&folder, &["study", "merge", "shared"]);
     assert!(bytes(&at("shared")) == whole, "a shared folder");
 
     // lost parts, truncated parts, a part of another number, a half-written file, no results
@@ -117,13 +121,13 @@ fn threads_shards_and_interruptions_change_no_byte() {
     fs::write(&runs[11], "").unwrap();
     fs::write(runs[3].with_file_name(".0000003.parquet.1.part"), "half").unwrap();
     fs::remove_file(at("two").join("fragilities.csv")).unwrap();
-    let output = succeed(&folder, &["ida", "study.toml", "-o", "two"]);
+    let output = succeed(&folder, &["study", "ida", "study.toml", "-o", "two"]);
     assert_has(&text(&output.stderr), &["16 of 24 combinations are done already"]);
     assert!(bytes(&at("two")) == whole, "after losses");
 
     // another report of the same runs computes nothing again
     fs::write(at("study.toml"), STUDY.replace("resamples = 200", "resamples = 300")).unwrap();
-    let output = succeed(&folder, &["ida", "study.toml", "-o", "two"]);
+    let output = succeed(&folder, &["study", "ida", "study.toml", "-o", "two"]);
     assert_has(&text(&output.stderr), &["24 of 24"]);
     let again = bytes(&at("two"));
     assert_eq!(again[Path::new("levels.csv")], whole[Path::new("levels.csv")]);
@@ -134,7 +138,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
 #[test]
 fn damaged_files_are_computed_again() {
     let folder = study("ida_damage");
-    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     let (out, whole) = (folder.join("out"), bytes(&folder.join("out")));
     let runs = part_files(&out);
     // the lowest bit of a byte, of each file another one
@@ -160,8 +164,8 @@ fn damaged_files_are_computed_again() {
         fs::write(file, content).unwrap();
     }
     drop(parts);
-    fails(&folder, &["merge", "out"], &["11 of 12 parts are damaged", "22 of 24 combinations"]);
-    let again = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    fails(&folder, &["study", "merge", "out"], &["11 of 12 parts are damaged", "22 of 24 combinations"]);
+    let again = succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     assert_has(&text(&again.stderr), &["11 of 12 parts are damaged"]);
     assert!(bytes(&out) == whole, "a damaged file went into the results");
 
@@ -169,9 +173,9 @@ fn damaged_files_are_computed_again() {
     let content = fs::read_to_string(&description).unwrap();
     assert!(content.contains(&format!("\"sources\": \"{}\"", study::SOURCES)) && study::SOURCES.len() == 32);
     fs::write(&description, content.replace("A small study", "A smaml study")).unwrap();
-    fails(&folder, &["merge", "out"], &["study.json", "damaged", "remove it"]);
+    fails(&folder, &["study", "merge", "out"], &["study.json", "damaged", "remove it"]);
     fs::remove_file(&description).unwrap();
-    let again = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let again = succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     assert_has(&text(&again.stderr), &["24 of 24 combinations are done already"]);
     assert!(bytes(&out) == whole);
 }
@@ -181,16 +185,16 @@ fn damaged_files_are_computed_again() {
 #[test]
 fn processes_share_a_folder() {
     let folder = study("ida_two_processes");
-    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     // another process works on the folder, and is writing this file
     let other = fs::File::open(folder.join("out/runs")).unwrap();
     other.lock_shared().unwrap();
     let part = folder.join("out/runs/0000/.0123456789abcdef.part");
     fs::write(&part, "half").unwrap();
-    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     assert!(part.exists(), "the part of another process was removed");
     drop(other);
-    succeed(&folder, &["merge", "out"]);
+    succeed(&folder, &["study", "merge", "out"]);
     assert!(!part.exists(), "the part of a killed process is left");
 }
 
@@ -198,14 +202,14 @@ fn processes_share_a_folder() {
 #[test]
 fn a_killed_study_goes_on() {
     let folder = study("ida_killed");
-    succeed(&folder, &["ida", "study.toml", "-o", "whole"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "whole"]);
     let (mut killed, mut complete) = (0, 0);
     for attempt in 0..40_u64 {
         // on a slow machine it takes longer until there are parts
         if attempt >= 12 && complete > 0 {
             break;
         }
-        let mut child = program(&folder, &["ida", "study.toml", "-o", "broken", "--threads", "2"])
+        let mut child = program(&folder, &["study", "ida", "study.toml", "-o", "broken", "--threads", "2"])
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
@@ -229,14 +233,14 @@ fn a_killed_study_goes_on() {
     }
     assert!(killed > 0, "the study was over before it could be killed");
     assert!(complete > 0, "it was always killed before its first part");
-    succeed(&folder, &["ida", "study.toml", "-o", "broken"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "broken"]);
     assert!(bytes(&folder.join("broken")) == bytes(&folder.join("whole")));
 }
 
 #[test]
 fn tables_and_page_hold_the_runs() {
     let folder = study("ida_tables");
-    succeed(&folder, &["ida", "study.toml"]);
+    succeed(&folder, &["study", "ida", "study.toml"]);
     let results = folder.join("study_results");
     let read = |name: &str| content(&results, name);
     let collapses = read("collapses.csv");
@@ -272,26 +276,22 @@ fn tables_and_page_hold_the_runs() {
 #[test]
 fn other_studies_and_bad_ones_are_refused() {
     let folder = study("ida_refused");
-    succeed(&folder, &["ida", "study.toml", "-o", "out", "--shard", "1/8"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "out", "--shard", "1/8"]);
     let change = |name: &str, from: &str, to: &str| {
         assert!(STUDY.contains(from), "{from}");
         fs::write(folder.join(name), STUDY.replace(from, to)).unwrap();
     };
     change("wall.toml", "height = 3,", "height = 3.1,");
     let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder with -o"];
-    refused(&folder, &["ida", "wall.toml", "-o", "out"], &other);
+    refused(&folder, &["study", "ida", "wall.toml", "-o", "out"], &other);
     fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
-    refused(&folder, &["ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
-    for command in [["ida", "study.toml"], ["merge", "out"]] {
-        refused(
-            &folder,
-            &[&command[..], &["-o", "-"]].concat(),
-            &["-o -", "a folder of files", "give a folder"],
-        );
+    refused(&folder, &["study", "ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
+    for command in [&["study", "ida", "study.toml"][..], &["study", "merge", "out"]] {
+        refused(&folder, &[command, &["-o", "-"]].concat(), &["-o -", "a folder of files", "give a folder"]);
     }
-    refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
-    refused(&folder, &["ida", "none.toml"], &["none.toml"]);
-    fails(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
+    refused(&folder, &["study", "merge", "records"], &["study.json", "`wall study ida`"]);
+    refused(&folder, &["study", "ida", "none.toml"], &["none.toml"]);
+    fails(&folder, &["study", "ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
     let cases: [(&str, &str, &[&str]); 22] = [
         ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
         ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
@@ -318,7 +318,7 @@ fn other_studies_and_bad_ones_are_refused() {
     ];
     for (from, to, words) in cases {
         change("bad.toml", from, to);
-        refused(&folder, &["ida", "bad.toml", "-o", "new"], words);
+        refused(&folder, &["study", "ida", "bad.toml", "-o", "new"], words);
     }
 }
 
@@ -329,7 +329,7 @@ fn the_example_is_a_study() {
     let file = crate::root().join("studies/table_5.toml");
     // one of its 900 combinations; all of them take seconds in a release build
     let file = file.to_str().unwrap();
-    let told = printed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
+    let told = printed(&folder, &["study", "ida", file, "-o", "out", "--shard", "7/900"]);
     assert_has(&told, &["shard 7 of 900 is done"]);
     assert_eq!(part_files(&folder.join("out")).len(), 1);
 }
@@ -343,7 +343,7 @@ fn open_medians_have_their_bound() {
     let grid = "method = \"grid\"\nvalues = [0.05, 0.1, 0.15, 0.2]\n\n";
     let text_of = format!("{}{grid}{}", &STUDY[..from], &STUDY[to..]);
     fs::write(folder.join("study.toml"), text_of).unwrap();
-    let told = printed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     let table = content(&folder, "out/fragilities.csv");
     let page = content(&folder, "out/study.html");
     assert!(told.contains("  open >0.200  "), "{told}");
@@ -354,5 +354,5 @@ fn open_medians_have_their_bound() {
     // stripes are points: of runs, and of the fractions that exceed a limit state
     assert!(page.contains("class=\"runs\"") && page.contains("class=\"mark\""));
     assert!(!page.contains("class=\"record\"") && !page.contains("class=\"steps\""));
-    assert!(page.contains("<td>open &gt;0.200</td>"), "records that never collapsed");
+    assert!(page.contains("<td class=\"number\">open &gt;0.200</td>"), "records that never collapsed");
 }

@@ -30,7 +30,7 @@ fn fate(scale: f64, tie_stiffness: f64) -> Fate {
 fn every_output_says_the_same_of_a_fall() {
     let folder = folder("overturning_rule");
     let run = |arguments: &[&str]| printed(&folder, arguments);
-    run(&["motion", "--synthetic", "--scale", "3", "--csv", "strong.csv"]);
+    run(&["record", "--synthetic", "--scale", "3", "--samples", "strong.csv"]);
     let record = ["--record", "strong.csv"];
     let told = run(&[&["simulate", "--html", "p.html"], &record[..]].concat());
     assert_has(&told, &["0.200000 m, 1.0000 u_ins, where the wall falls\n"]);
@@ -48,7 +48,7 @@ fn every_output_says_the_same_of_a_fall() {
                  intensity = { measure = \"PGA\" }\nrecords = { files = [\"strong.csv\"] }\n\
                  report = { resamples = 100 }\n[[walls]]\nname = \"p\"\n";
     fs::write(folder.join("study.toml"), study).unwrap();
-    run(&["ida", "study.toml", "-o", "r"]);
+    run(&["study", "ida", "study.toml", "-o", "r"]);
     let levels = content(&folder, "r/levels.csv");
     let fallen: Vec<_> = levels.lines().filter(|line| line.contains(",1.0,true,")).collect();
     assert_eq!(fallen.len(), 1, "u/u_ins = 1 and overturned: {levels}");
@@ -59,7 +59,7 @@ fn every_output_says_the_same_of_a_fall() {
 fn both_polarities_of_one_record_and_of_a_tie() {
     let folder = folder("polarities");
     let run = |arguments: &[&str]| printed(&folder, arguments);
-    run(&["motion", "--synthetic", "--csv", "r.csv"]);
+    run(&["record", "--synthetic", "--samples", "r.csv"]);
     let both = ["simulate", "--record", "r.csv", "--both-polarities"];
     let alike = run(&both);
     assert_has(&alike, &["both sides of the wall are alike", "   ±  "]);
@@ -73,7 +73,8 @@ fn both_polarities_of_one_record_and_of_a_tie() {
     fails(&folder, &["simulate", "--synthetic", "--both-polarities"], &["--record <FILE>"]);
 
     let tie = |more: &[&str]| {
-        let tie = ["tie", "--records", "r.csv", "--set", "tie_height=3", "--stiffness", "1e5", "--json"];
+        let tie =
+            ["study", "tie", "--records", "r.csv", "--set", "tie_height=3", "--stiffness", "1e5", "--json"];
         json(&folder, &[&tie[..], more].concat())
     };
     let (one, two) = (tie(&[]), tie(&["--both-polarities"]));
@@ -89,16 +90,16 @@ fn both_polarities_of_one_record_and_of_a_tie() {
     assert!(both_sides["motions"] == 1 && both_sides["alike_on_both_sides"] == true, "{both_sides}");
 }
 
-/// `wall tie` states its side, gives forces in kN, and tells falls from walls that come back. Before, both
-/// counted as overturned.
+/// The table of ties states its side, gives forces in kN, and tells falls from walls that come back. Before,
+/// both counted as overturned.
 #[test]
 fn a_tie_that_holds_a_wall_beyond_u_ins() {
     let folder = folder("tie_back");
     let (scales, names) = ([1.5, 2.0, 2.5, 3.0], ["a.csv", "b.csv", "c.csv", "d.csv"]);
     for (scale, name) in scales.iter().zip(names) {
-        succeed(&folder, &["motion", "--synthetic", "--scale", &scale.to_string(), "--csv", name]);
+        succeed(&folder, &["record", "--synthetic", "--scale", &scale.to_string(), "--samples", name]);
     }
-    let tie = setting("tie --stiffness 0,1e4,1e7 --csv t.csv", "tie_height=3 tie_side=both");
+    let tie = setting("study tie --stiffness 0,1e4,1e7 --csv t.csv", "tie_height=3 tie_side=both");
     let told = printed(&folder, &[&tie[..], &["--records"], &names].concat());
     assert_has(&told, &["tie at 3 m against both sides, 4 motions", "[kN]"]);
     let csv = content(&folder, "t.csv");

@@ -1,4 +1,4 @@
-//! `wall calibrate` and `wall verify paper`.
+//! `wall study calibrate` and `wall verify paper`.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -13,8 +13,17 @@ fn calibrate_writes_a_table_a_csv_and_a_page() {
         "title = \"A <strip>\"\n[geometry]\nmechanism = \"vertical_spanning\"\n",
     )
     .unwrap();
-    let arguments =
-        ["calibrate", "strip.toml", "--set", "thickness=0.3", "--models", "constant_ratio", "--threads", "1"];
+    let arguments = [
+        "study",
+        "calibrate",
+        "strip.toml",
+        "--set",
+        "thickness=0.3",
+        "--models",
+        "constant_ratio",
+        "--threads",
+        "1",
+    ];
     let lists = ["--restitution", "0.85,0.9", "--a1", "0.02,0.05", "--csv", "c.csv", "--html", "c.html"];
     let table = printed(&folder, &[&arguments[..], &lists[..]].concat());
     assert_has(&table, &["constant_ratio (CDR)", "(paper: 0.35 a1^0.074)"]);
@@ -33,19 +42,23 @@ fn calibrate_writes_a_table_a_csv_and_a_page() {
 #[test]
 fn a_rigid_wall_is_calibrated_for_c_bar() {
     let folder = folder("calibrate_rigid");
-    let arguments = ["calibrate", "--set", "force_law=rigid_linear", "--restitution", "0.9"];
+    let arguments = ["study", "calibrate", "--set", "force_law=rigid_linear", "--restitution", "0.9"];
     assert_has(&printed(&folder, &arguments), &["free_standing_block"]);
 }
 
 #[test]
 fn calibrate_refuses_what_it_cannot_use() {
     let folder = folder("calibrate_refused");
-    refused(&folder, &["calibrate", "none.toml"], &["none.toml"]);
-    refused(&folder, &["calibrate", "--models", "cdr"], &["cdr", "constant_ratio"]);
-    refused(&folder, &["calibrate", "--models", "none"], &["none", "constant_ratio"]);
-    refused(&folder, &["calibrate", "--restitution", "1.2", "--html", "c.html"], &["e = 1.2", "below 1"]);
-    refused(&folder, &["calibrate", "--a1", "0.95", "--set", "a3=0.9"], &["a1"]);
-    let rigid = ["calibrate", "--set", "force_law=rigid_linear", "--models", "constant_ratio"];
+    refused(&folder, &["study", "calibrate", "none.toml"], &["none.toml"]);
+    refused(&folder, &["study", "calibrate", "--models", "cdr"], &["cdr", "constant_ratio"]);
+    refused(&folder, &["study", "calibrate", "--models", "none"], &["none", "constant_ratio"]);
+    refused(
+        &folder,
+        &["study", "calibrate", "--restitution", "1.2", "--html", "c.html"],
+        &["e = 1.2", "below 1"],
+    );
+    refused(&folder, &["study", "calibrate", "--a1", "0.95", "--set", "a3=0.9"], &["a1"]);
+    let rigid = ["study", "calibrate", "--set", "force_law=rigid_linear", "--models", "constant_ratio"];
     refused(&folder, &rigid, &["rigid", "free_standing_block"]);
 }
 

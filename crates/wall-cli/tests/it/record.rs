@@ -112,7 +112,10 @@ fn bad_requests_are_refused() {
         (&["record", "one.AT2", "--periods", "0.2,1000"], &["1000", "0.001 to 100 s"]),
         (&["record", "one.AT2", "--damping", "5"], &["damping ratio", "5", "below 1"]),
         (&["record", "one.AT2", "--plot", "plot.jpg"], &["plot.jpg", "ends in .svg"]),
-        (&["motion", "--record", "two.V2", "--csv", "out.csv"], &["expected one channel", "`2: Up`"]),
+        (
+            &["record", "two.V2", "--samples", "out.csv"],
+            &["--samples writes one motion", "two.V2 [2: Up]", "--channel"],
+        ),
     ];
     for (arguments, words) in cases {
         refused(&folder, arguments, words);

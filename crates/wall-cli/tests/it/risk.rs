@@ -1,4 +1,4 @@
-//! Fragilities for risk engines: `fragilities.xml` and `fragility_curves.csv` of `wall ida`.
+//! Fragilities for risk engines: `fragilities.xml` and `fragility_curves.csv` of `wall study ida`.
 //!
 //! The reader of `openquake.engine` imports some 25 other packages, which are not installed for tests. The
 //! tests therefore check the file by the rules of that reader: the order of elements, their attributes, the
@@ -42,7 +42,7 @@ type Function = (String, Vec<(String, [f64; 2])>);
 fn run(name: &str, study: &str) -> [String; 3] {
     let folder = folder(name);
     fs::write(folder.join("study.toml"), study).unwrap();
-    let told = printed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     let read = |file: &str| fs::read_to_string(folder.join("out").join(file)).unwrap_or_default();
     [read("fragilities.xml"), read("fragility_curves.csv"), told]
 }
@@ -200,7 +200,7 @@ fn no_file_of_an_earlier_report_stays() {
     let folder = folder("risk_earlier");
     for (study, is_drawn) in [(STUDY.to_owned(), true), (STUDY.replace("0.1, 1]", "0.1]"), false)] {
         fs::write(folder.join("study.toml"), study).unwrap();
-        succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+        succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
         assert_eq!(folder.join("out/fragilities.svg").exists(), is_drawn);
     }
 }
@@ -223,6 +223,6 @@ fn classes_that_cannot_be_made_are_refused() {
         ("resamples = 100", "modelling_uncertainty = -1", &["modelling_uncertainty = -1", "from 0 to 2"]),
     ] {
         fs::write(folder.join("study.toml"), STUDY.replace(from, to)).unwrap();
-        refused(&folder, &["ida", "study.toml", "-o", "out"], words);
+        refused(&folder, &["study", "ida", "study.toml", "-o", "out"], words);
     }
 }

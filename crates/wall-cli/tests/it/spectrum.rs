@@ -1,4 +1,4 @@
-//! Tests `wall spectrum`.
+//! Tests `wall study spectrum`.
 
 use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
@@ -9,7 +9,8 @@ use crate::command_line::{args, assert_has, content, folder, printed, refused, r
 #[test]
 fn the_program_writes_a_table_and_a_page() {
     let folder = folder("spectrum");
-    let arguments = ["spectrum", "--synthetic", "--heights", "1:3:3", "--ratios", "5:15:2", "--csv", "s.csv"];
+    let arguments =
+        ["study", "spectrum", "--synthetic", "--heights", "1:3:3", "--ratios", "5:15:2", "--csv", "s.csv"];
     let words = printed(&folder, &[&arguments[..], &["--html", "s.html", "--threads", "2"]].concat());
     // two axes, ratio, rocked, overturned, time
     let found = rows(&folder, "s.csv");
@@ -40,7 +41,8 @@ fn the_program_writes_a_table_and_a_page() {
     // the default parapet is beyond these axes, and on wider ones
     let own = "height h (m) = 4, slenderness h/b = 10: overturns at ";
     assert!(words.contains(own) && words.contains(", outside the map") && !page.contains(">your wall<"));
-    let wider = ["spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
+    let wider =
+        ["study", "spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
     succeed(&folder, &[&wider[..], &["--svg", "w.svg"]].concat());
     let svg = content(&folder, "w.svg");
     assert!(svg.starts_with("<svg xmlns") && svg.contains(">your wall</text>") && !svg.contains("<title>"));
@@ -48,35 +50,38 @@ fn the_program_writes_a_table_and_a_page() {
     assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 
     let rigid = "force_law=rigid_linear damping_model=none impact=restitution";
-    let pulse = "spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2 --csv p.csv";
+    let pulse = "study spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2 \
+                 --csv p.csv";
     succeed(&folder, &setting(pulse, rigid));
     let outcomes: Vec<_> =
         rows(&folder, "p.csv").iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
     assert_eq!(outcomes, [["false", "false"], ["false", "false"], ["true", "true"], ["true", "true"]]);
     // a pulse with its frequency and amplitude is a motion like any other
-    let pulse = args("spectrum --pulse ricker --frequency 1 --amplitude 3 --radii 1:2:2 --angles 0.1:0.2:2");
+    let pulse =
+        args("study spectrum --pulse ricker --frequency 1 --amplitude 3 --radii 1:2:2 --angles 0.1:0.2:2");
     assert_has(&printed(&folder, &pulse), &["semi-diagonal R (m)"]);
 }
 
 #[test]
 fn bad_requests_are_refused() {
     let folder = folder("spectrum_refused");
-    let strip = ["spectrum", "--synthetic", "--set", "mechanism=vertical_spanning", "--radii", "1:2:2"];
+    let strip =
+        ["study", "spectrum", "--synthetic", "--set", "mechanism=vertical_spanning", "--radii", "1:2:2"];
     let cases: [(&[&str], &[&str]); 11] = [
-        (&["spectrum"], &["--record", "--pulse", "scene"]),
-        (&["spectrum", "--pulse", "cosine"], &["cosine", "ricker, sine_cycle or half_sine"]),
+        (&["study", "spectrum"], &["--record", "--pulse", "scene"]),
+        (&["study", "spectrum", "--pulse", "cosine"], &["cosine", "ricker, sine_cycle or half_sine"]),
         (
-            &["spectrum", "--pulse", "ricker", "--heights", "1:2:2"],
+            &["study", "spectrum", "--pulse", "ricker", "--heights", "1:2:2"],
             &["--heights", "--frequency", "--amplitude"],
         ),
-        (&["spectrum", "--pulse", "ricker", "--scale", "2"], &["--scale", "--record"]),
-        (&["spectrum", "--synthetic", "--heights", "1:2"], &["--heights 1:2", "FROM:TO:COUNT"]),
-        (&["spectrum", "--synthetic", "--heights", "2:1:5"], &["2:1:5", "FROM < TO"]),
-        (&["spectrum", "--synthetic", "--angles", "0.1:2:3"], &["angle", "1.05", "0.7854"]),
-        (&["spectrum", "--synthetic", "--ratios", "5:9:501"], &["COUNT from 2 to 500"]),
-        (&["spectrum", "--record", "none.AT2"], &["none.AT2", "cannot be read"]),
+        (&["study", "spectrum", "--pulse", "ricker", "--scale", "2"], &["--scale", "--record"]),
+        (&["study", "spectrum", "--synthetic", "--heights", "1:2"], &["--heights 1:2", "FROM:TO:COUNT"]),
+        (&["study", "spectrum", "--synthetic", "--heights", "2:1:5"], &["2:1:5", "FROM < TO"]),
+        (&["study", "spectrum", "--synthetic", "--angles", "0.1:2:3"], &["angle", "1.05", "0.7854"]),
+        (&["study", "spectrum", "--synthetic", "--ratios", "5:9:501"], &["COUNT from 2 to 500"]),
+        (&["study", "spectrum", "--record", "none.AT2"], &["none.AT2", "cannot be read"]),
         (
-            &["spectrum", "--synthetic", "--set", "force_law=rigid_linear"],
+            &["study", "spectrum", "--synthetic", "--set", "force_law=rigid_linear"],
             &["constant_ratio", "free_standing_block"],
         ),
         (&strip, &["semi-diagonal", "vertical spanning", "heights"]),

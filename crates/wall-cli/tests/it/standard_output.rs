@@ -11,9 +11,9 @@ fn a_dash_is_standard_output() {
     for command in [
         &["simulate", "--synthetic"][..],
         &["simulate", "--synthetic", "--json"],
-        &["motion", "--synthetic"],
+        &["record", "--synthetic"],
         &["describe", "--thresholds", "0.4"],
-        &["calibrate", "--a1", "0.05", "--restitution", "0.9", "--models", "constant_ratio"],
+        &["study", "calibrate", "--a1", "0.05", "--restitution", "0.9", "--models", "constant_ratio"],
     ] {
         let run = |csv: &str| succeed(&folder, &[command, &["--csv", csv]].concat());
         let (to_file, to_stdout) = (run("file.csv"), run("-"));
@@ -33,7 +33,7 @@ fn a_dash_is_standard_output() {
 #[test]
 fn a_map_is_svg() {
     let folder = folder("svg_ending");
-    refused(&folder, &["spectrum", "--synthetic", "--svg", "x.png"], &["x.png", "ends in .svg"]);
+    refused(&folder, &["study", "spectrum", "--synthetic", "--svg", "x.png"], &["x.png", "ends in .svg"]);
     assert!(!folder.join("x.png").exists());
 }
 
@@ -72,14 +72,14 @@ fn columns_state_their_units() {
     ];
     const UNITS: [&str; 7] = ["_s", "_m", "_m_s", "_m_s2", "_n", "_n_m", "_rad"];
     let folder = folder("units");
-    succeed(&folder, &["motion", "--synthetic", "--csv", "r.csv"]);
+    succeed(&folder, &["record", "--synthetic", "--samples", "r.csv"]);
     let tied = setting("simulate --synthetic", "tie_height=3 tie_stiffness=1e5");
     let commands: [&[&str]; 5] = [
         &["simulate", "--synthetic"],
         &tied,
         &["simulate", "--records", "r.csv"],
         &["describe", "--thresholds", "0.4"],
-        &["spectrum", "--synthetic", "--heights", "2:3:2", "--ratios", "8:9:2"],
+        &["study", "spectrum", "--synthetic", "--heights", "2:3:2", "--ratios", "8:9:2"],
     ];
     for command in commands {
         let csv = printed(&folder, &[command, &["--csv", "-"]].concat());
@@ -116,14 +116,14 @@ fn an_interrupted_study_says_that_it_resumes() {
     use crate::ida::{bytes, part_files, study};
 
     let folder = study("ida_interrupted");
-    succeed(&folder, &["ida", "study.toml", "-o", "whole", "--threads", "1"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "whole", "--threads", "1"]);
     let parts = part_files(&folder.join("whole")).len();
     // as soon as the first part is there; other tests run at the same time, and may hold up the signal until
     // the study is done
     let interrupted = (0..20).any(|_| {
         // what an attempt has run to its end cannot be interrupted again
         let _ = fs::remove_dir_all(folder.join("broken"));
-        let mut child = program(&folder, &["ida", "study.toml", "-o", "broken", "--threads", "1"])
+        let mut child = program(&folder, &["study", "ida", "study.toml", "-o", "broken", "--threads", "1"])
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()
@@ -140,7 +140,7 @@ fn an_interrupted_study_says_that_it_resumes() {
         is_told && (1..parts).contains(&part_files(&folder.join("broken")).len())
     });
     assert!(interrupted, "the study was never interrupted between its parts");
-    succeed(&folder, &["ida", "study.toml", "-o", "broken"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "broken"]);
     assert!(bytes(&folder.join("broken")) == bytes(&folder.join("whole")));
     // the folder tells the study in words, not in those of the source
     let manifest = content(&folder, "whole/study.json");
@@ -152,9 +152,16 @@ fn an_interrupted_study_says_that_it_resumes() {
     let other = content(&folder, "study.toml").replace("gap = 0.3", "gap = 0.2");
     fs::write(folder.join("other.toml"), other).unwrap();
     let words = ["found levels: hunt from ", "gap 0.2)"];
-    fails(&folder, &["ida", "other.toml", "-o", "whole"], &words);
+    fails(&folder, &["study", "ida", "other.toml", "-o", "whole"], &words);
     // short names are spelled out once
     let page = content(&folder, "whole/study.html");
     assert_eq!(page.matches("CDR: constant damping ratio").count(), 1);
     assert_eq!(page.matches("CR: coefficient of restitution").count(), 1);
+}
+
+/// A terminal has 24 lines of 80 characters.
+#[test]
+fn the_first_screen_of_help_fits_a_terminal() {
+    let help = printed(&folder("help"), &["--help"]);
+    assert!(help.lines().count() < 24 && help.lines().all(|line| line.chars().count() <= 80), "{help}");
 }

@@ -12,7 +12,7 @@ use crate::ida::{bytes, part_files, study};
 #[test]
 fn parts_hold_what_the_csv_holds() {
     let folder = study("ida_parquet");
-    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     let csv = content(&folder, "out/levels.csv");
     let mut lines = csv.lines().skip(1);
     let word = |(name, field): (&String, &Field)| match field {
@@ -48,9 +48,9 @@ fn a_large_study_shows_distributions() {
     let wall_row = |k: u32| format!("wall {k},{},0.3\n", 2.0 + 0.05 * f64::from(k));
     let rows: String = (0..41).map(wall_row).collect();
     fs::write(folder.join("walls.csv"), format!("name,height,thickness\n{rows}")).unwrap();
-    let told = printed(&folder, &["ida", "study.toml", "-o", "out", "--threads", "2"]);
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out", "--threads", "2"]);
     assert!(told.contains("of the walls have a lower median") && !told.contains("wall 7"), "{told}");
-    succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "one", "--threads", "1"]);
     assert!(bytes(&folder.join("out")) == bytes(&folder.join("one")));
     let page = content(&folder, "out/study.html");
     // one for each limit state, and the dispersions
@@ -59,5 +59,5 @@ fn a_large_study_shows_distributions() {
     assert!(page.contains("<td>wall 2</td>"));
     assert!(!page.contains("NaN") && !page.contains("inf"));
     // the table is an input, and no place for results
-    refused(&folder, &["ida", "study.toml", "-o", "walls.csv"], &["walls.csv"]);
+    refused(&folder, &["study", "ida", "study.toml", "-o", "walls.csv"], &["walls.csv"]);
 }

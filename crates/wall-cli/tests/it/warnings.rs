@@ -51,15 +51,15 @@ fn motions_stronger_than_any_record_are_warned_of() {
         &["simulate", "s.toml", "--stop-time", "1"],
         &["simulate", "top.toml", "--stop-time", "0.3"],
         &["simulate", "pulse.toml"],
-        &["spectrum", "s.toml", "--heights", "1:2:2", "--ratios", "5:6:2"],
-        &["motion", "--synthetic", "--pga", "3000", "--csv", "m.csv"],
-        &[&["tie", "--records", "r.csv", "--scale", "1000"][..], &tied].concat(),
-        &["ida", "grid.toml", "--output", "grid"],
-        &["ida", "hunt.toml", "--output", "hunt"],
-        &["ida", "step.toml", "--output", "step"],
+        &["study", "spectrum", "s.toml", "--heights", "1:2:2", "--ratios", "5:6:2"],
+        &["record", "--synthetic", "--pga", "3000", "--samples", "m.csv"],
+        &[&["study", "tie", "--records", "r.csv", "--scale", "1000"][..], &tied].concat(),
+        &["study", "ida", "grid.toml", "--output", "grid"],
+        &["study", "ida", "hunt.toml", "--output", "hunt"],
+        &["study", "ida", "step.toml", "--output", "step"],
         // usual ones
         &["simulate", "--synthetic", "--pga", "29"],
-        &["ida", "usual.toml", "--output", "usual"],
+        &["study", "ida", "usual.toml", "--output", "usual"],
     ];
     for (index, arguments) in cases.into_iter().enumerate() {
         let message = text(&succeed(&folder, arguments).stderr);
@@ -195,11 +195,11 @@ fn two_motions_are_both_shown() {
     }
 }
 
-/// Writes a study into a folder of its own and returns what `wall ida` warns of.
+/// Writes a study into a folder of its own and returns what `wall study ida` warns of.
 fn warned_of_study(name: &str, study: &str) -> String {
     let folder = folder(name);
     std::fs::write(folder.join("study.toml"), study).unwrap();
-    text(&succeed(&folder, &["ida", "study.toml"]).stderr)
+    text(&succeed(&folder, &["study", "ida", "study.toml"]).stderr)
 }
 
 /// The PGA at which a rigid wall starts to rock hardly depends on the record; that of its collapse does.
@@ -272,7 +272,7 @@ fn a_study_says_that_it_ignores_a_motion() {
                  [[walls]]\nscene = \"shaken.toml\"\n\
                  [[walls]]\nname = \"light\"\ngeometry = { density = 1.8 }\n";
     std::fs::write(folder.join("study.toml"), study).unwrap();
-    let message = text(&succeed(&folder, &["ida", "study.toml"]).stderr);
+    let message = text(&succeed(&folder, &["study", "ida", "study.toml"]).stderr);
     let shaken = "wall \"shaken\": the study ignores the motion of its scene";
     assert_has(&message, &[shaken, "wall \"light\": density = 1.8 kg/m3 is unusual"]);
 }

@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// The records to run as a table; none for a single run.
-    pub(super) fn table(&self) -> &[PathBuf] {
+    pub(super) fn listed(&self) -> &[PathBuf] {
         match &self.record.record {
             Some(record) if self.both_polarities => std::slice::from_ref(record),
             _ => &self.records,

@@ -1,23 +1,19 @@
 //! `wall simulate --records` and `--both-polarities`: one wall under several motions, as a table.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
-use report::counted;
-use rocking_wall::response::{Response, Summary};
+use rocking_wall::response::Response;
 use rocking_wall::wall::Wall;
+use run::motions::{self, Row};
 use run::parallel;
 use serde_json::json;
 
 use super::arguments::Arguments;
 use crate::args::short_name;
-use crate::output::optional;
 use crate::output::progress::{self, Progress};
 use crate::output::{self, Console};
-use report::table::quoted;
-use run::demands;
 use run::polarity::Polarities;
 
 /// A record, scaled.
@@ -27,22 +23,14 @@ struct Shaking {
     motion: GroundMotion,
 }
 
-/// A record and what the wall did under it.
-struct Row {
-    name: String,
-    sign: &'static str,
-    peak_acceleration: f64,
-    summary: Summary,
-}
-
 pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if arguments.html.is_some() {
         bail!("--html shows one run; give its record with --record, without --both-polarities");
     }
     let scene = arguments.scene.load(console)?;
-    let inputs = arguments.scene.inputs(&scene).chain(arguments.table());
+    let inputs = arguments.scene.inputs(&scene).chain(arguments.listed());
     console.check_distinct(inputs, &arguments.csv)?;
-    let motions = motions(console, arguments)?;
+    let motions = read(console, arguments)?;
     let first = motions.first().map(|first| (first.motion.clone(), first.note.clone()));
     let first = arguments.shaken(scene.clone(), first)?;
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
@@ -67,86 +55,28 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     };
     let threads = parallel::threads(None).get();
     let rows = progress::shown(|progress| parallel::map(runs, threads, |index| row(index, progress)))?;
-    console.save(arguments.csv.as_ref(), || csv(&rows))?;
+    let table = motions::table(&rows);
+    console.save(arguments.csv.as_ref(), || table.csv())?;
     if arguments.json {
-        let rows: Vec<_> = rows.iter().map(Row::json).collect();
         let value = json!({
             "title": first.title,
             "alike_on_both_sides": polarities == Polarities::Alike,
-            "runs": rows,
+            "runs": motions::json(&rows),
         });
         return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
-    let text = format!("{}\n{}{}", first.title, table(&rows), polarities.note());
+    let counts = motions::overturned(&rows);
+    let text = format!("{}\n{}{counts}{}", first.title, table.text(), polarities.note());
     console.print(&(text + &output::written("written  ", &arguments.csv)))
 }
 
 /// Reads the records and scales them.
-fn motions(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
+fn read(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
         let (motion, note) = arguments.record.read(console, path)?;
-        let motion = arguments.record.scaled(console, motion)?;
+        let motion = arguments.record.motion.scaled(console, motion)?;
         let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };
-    arguments.table().iter().map(shaking).collect()
-}
-
-impl Row {
-    fn json(&self) -> serde_json::Value {
-        json!({
-            "record": self.name,
-            "sign": self.sign,
-            "pga": self.peak_acceleration,
-            "u_max": self.summary.u_max,
-            "u_ratio_max": self.summary.u_ratio_max,
-            "overturned": self.summary.overturned,
-            "overturn_time": self.summary.overturn_time,
-            "falls": self.summary.fate.falls(),
-        })
-    }
-}
-
-fn table(rows: &[Row]) -> String {
-    let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max("record".len());
-    let mut text = format!(
-        "{:width$}  sign  {:>10}  {:>10}  {:>7}  overturned\n",
-        "record", "PGA [m/s²]", "|u| [mm]", "|u|/u_ins"
-    );
-    for Row { name, sign, peak_acceleration, summary } in rows {
-        let _ = writeln!(
-            text,
-            "{name:width$}  {sign:>4}  {peak_acceleration:>10.4}  {:>10.2}  {:>9.4}  {}",
-            1000.0 * summary.u_max,
-            summary.u_ratio_max,
-            demands::overturned(summary.fate, 3)
-        );
-    }
-    let count = |is: fn(&Summary) -> bool| rows.iter().filter(|row| is(&row.summary)).count();
-    let overturned = count(|summary| summary.overturned);
-    let _ = write!(text, "overturned: {overturned} of {}", counted(rows.len(), "run"));
-    let back = overturned - count(|summary| summary.fate.falls());
-    if back > 0 {
-        let _ = write!(text, ", of which {back} came back");
-    }
-    text.push('\n');
-    text
-}
-
-fn csv(rows: &[Row]) -> String {
-    let mut text =
-        String::from("record,sign,pga_m_s2,u_max_m,u_ratio_max,overturned,overturn_time_s,falls\n");
-    for Row { name, sign, peak_acceleration, summary } in rows {
-        let (u_max, ratio, overturned) = (summary.u_max, summary.u_ratio_max, summary.overturned);
-        let time = optional(summary.overturn_time);
-        // one run stands for both signs
-        let sign = sign.replace('±', "+");
-        let name = quoted(name);
-        let _ = writeln!(
-            text,
-            "{name},{sign}1,{peak_acceleration:?},{u_max:?},{ratio:?},{overturned},{time},{}",
-            summary.fate.falls()
-        );
-    }
-    text
+    arguments.listed().iter().map(shaking).collect()
 }

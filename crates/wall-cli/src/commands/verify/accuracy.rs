@@ -44,7 +44,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if !(0.0..=3600.0).contains(&arguments.budget) {
         bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
     }
-    if !arguments.scenes.is_empty() && (arguments.record.record.is_some() || arguments.record.synthetic) {
+    if !arguments.scenes.is_empty()
+        && (arguments.record.record.is_some() || arguments.record.motion.synthetic)
+    {
         bail!(
             "--record and --synthetic replace the motion of the built-in scenes; a scene file states its own \
              in [motion]"

@@ -11,7 +11,6 @@ use evidence::stability::page as maps_page;
 use evidence::stability::{RowQuantity, extremes, map, maps};
 use evidence::validation::Case;
 use evidence::verification::{page as manual, verify};
-use report::chart::picture;
 
 use crate::output::{self, Console};
 
@@ -102,7 +101,7 @@ fn tests(console: &Console<'_>, arguments: &Tests) -> Result<()> {
     console.check_distinct(&case.inputs, &arguments.plot)?;
     let (text, chart) = case.shown()?;
     console.print(&text)?;
-    console.picture(arguments.plot.as_ref(), || Ok(picture(&chart)))
+    console.picture(arguments.plot.as_ref(), || Ok(chart.figure_file()))
 }
 
 fn stability(console: &Console<'_>, arguments: &Stability) -> Result<()> {

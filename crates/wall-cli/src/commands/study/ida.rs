@@ -1,6 +1,5 @@
-//! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+//! `wall study ida` and `merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
 
-use std::fmt::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -9,6 +8,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use report::counted;
+use report::table::{Column, Digits, Table};
 use run::parallel;
 use study::folder::Folder;
 use study::ida::Study;
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Number of threads [default: one for each core]
     #[arg(long, value_name = "COUNT")]
     threads: Option<NonZeroUsize>,
-    /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall merge` merges them
+    /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall study merge` merges them
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
 }
@@ -97,14 +97,16 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         console.report(&format!("{found} of {} combinations are done already", cases(&mine)));
     }
     tell_of_resuming()?;
-    let words = work(&loaded.study, &folder, &missing, cases(&missing), threads)?;
+    let told_of_runs = compute(&loaded.study, &folder, &missing, cases(&missing), threads)?;
     drop(loaded);
     // a summary that cannot be printed must not prevent the results from being written
-    let told = console.print(&words);
+    let told = console.print(&told_of_runs);
     if shards > 1 {
         let name = path.display();
-        return console
-            .print(&format!("shard {} of {shards} is done; when all are: wall merge {name}\n", shard + 1));
+        return console.print(&format!(
+            "shard {} of {shards} is done; when all are: wall study merge {name}\n",
+            shard + 1
+        ));
     }
     finish(console, &folder, threads).and(told)
 }
@@ -177,14 +179,20 @@ struct Share {
 }
 
 /// Runs the missing parts, which hold `cases` combinations; returns the throughput of each model.
-fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads: usize) -> Result<String> {
+fn compute(
+    study: &Study,
+    folder: &Folder,
+    missing: &[usize],
+    cases: usize,
+    threads: usize,
+) -> Result<String> {
     if missing.is_empty() {
         return Ok(String::new());
     }
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
     progress::shown(|progress| {
-        study::folder::work(study, folder, missing, threads, |case, curve, time| {
+        study::folder::compute(study, folder, missing, threads, |case, curve, time| {
             let runs = curve.runs().len();
             if let Ok(mut shares) = shares.lock() {
                 let share = &mut shares[case.model];
@@ -198,14 +206,17 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
     let shares = shares.into_inner().unwrap_or_default();
     let runs: usize = shares.iter().map(|share| share.runs).sum();
     let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
-    let mut text = format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread"));
-    let _ =
-        writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
+    let mut table = Table::new([
+        Column::text("", "model"),
+        Column::count("", "runs"),
+        Column::number("", "runs/s a core", Digits::Decimals(0)),
+        Column::number("", "ns a sample and run", Digits::Decimals(1)),
+    ]);
     for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
         let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
-        let _ = writeln!(text, "{:<16}{:>10}{rate:>18.0}{each:>22.1}", model.name, share.runs);
+        table.row([model.name.clone().into(), share.runs.into(), rate.into(), each.into()]);
     }
-    Ok(text)
+    Ok(format!("{runs} in {seconds:.1} s on {}\n{}", counted(threads, "thread"), table.text()))
 }
 
 /// Makes the final results of a folder whose parts are complete.

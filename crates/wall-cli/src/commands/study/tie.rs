@@ -1,6 +1,5 @@
-//! `wall tie`: force of a parapet's tie and displacement of the wall against the stiffness of the tie.
+//! `wall study tie`: force of a parapet's tie and displacement of the wall against the stiffness of the tie.
 
-use std::fmt::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -8,17 +7,15 @@ use anyhow::Result;
 use clap::Args;
 use ground_motion::{GroundMotion, RecordOptions, Unit};
 use report::counted;
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use run::parallel;
 use run::polarity::Polarities;
 use serde_json::{Value, json};
 use study::tie::figure::picture;
-use study::tie::{COLUMNS, Row, TieStudy};
+use study::tie::{TieStudy, table};
 
 use crate::args::{SceneArguments, read_record};
-use crate::output::significant;
 use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
@@ -65,12 +62,13 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let stiffnesses = study.stiffnesses(&arguments.stiffness)?;
     let rows = study.rows(&stiffnesses, parallel::threads(arguments.threads).get())?;
     console.picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
-    console.save(arguments.csv.as_ref(), || csv(&rows))?;
+    let table = table(&rows);
+    console.save(arguments.csv.as_ref(), || table.csv())?;
     let text = if arguments.json {
-        serde_json::to_string_pretty(&json(&study, &rows))? + "\n"
+        serde_json::to_string_pretty(&value(&study, &table.json()))? + "\n"
     } else {
         let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
-        table(study.scene(), &rows) + study.polarities().note() + &written
+        title(&study) + &table.text() + study.polarities().note() + &written
     };
     console.print(&text)
 }
@@ -91,58 +89,26 @@ fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<GroundMot
     Ok(motions)
 }
 
-/// The columns of [`table`]: two lines of heads, so that a row fits on a screen, and widths.
-const HEADS: [[&str; 9]; 2] = [
-    ["", "N median", "N max", "u/u_ins", "u/u_ins", "", "away", "beyond u_ins", "strength"],
-    ["K [N/m]", "[kN]", "[kN]", "median", "max", "falls", "from tie", "and back", "reached"],
-];
-const WIDTHS: [usize; 9] = [13, 13, 13, 13, 13, 6, 9, 13, 9];
-
-fn table(scene: &Scene, rows: &[Row]) -> String {
-    let Parameters { tie_height, tie_side, .. } = scene.parameters;
+/// What was studied, in a line.
+fn title(study: &TieStudy) -> String {
+    let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
     let side = match tie_side {
         TieSide::Positive => "u > 0",
         TieSide::Negative => "u < 0",
         TieSide::Both => "both sides",
     };
-    let motions = counted(rows[0].outcomes.len(), "motion");
-    let mut text = format!("{}, tie at {tie_height} m against {side}, {motions}\n\n", scene.title);
-    for heads in HEADS {
-        let cells = heads.iter().zip(WIDTHS).map(|(head, width)| format!("{head:>width$}"));
-        text += &(cells.collect::<Vec<_>>().join(" ") + "\n");
-    }
-    for row in rows {
-        let ([force, most, ratio, largest], [falls, away, back, reached]) = row.values();
-        let numbers = [row.stiffness, 1e-3 * force, 1e-3 * most, ratio, largest].map(significant).join(" ");
-        let _ = writeln!(text, "{numbers} {falls:>6} {away:>9} {back:>13} {reached:>9}");
-    }
-    text
+    let motions = counted(study.motions(), "motion");
+    format!("{}, tie at {tie_height} m against {side}, {motions}\n\n", study.scene().title)
 }
 
-fn csv(rows: &[Row]) -> String {
-    let mut text = COLUMNS.join(",") + "\n";
-    for row in rows {
-        let (numbers, counts) = row.values();
-        let (numbers, counts) = (numbers.map(|number| format!("{number:?}")), counts.map(|n| n.to_string()));
-        let _ = writeln!(text, "{:?},{},{}", row.stiffness, numbers.join(","), counts.join(","));
-    }
-    text
-}
-
-fn json(study: &TieStudy, rows: &[Row]) -> Value {
+fn value(study: &TieStudy, rows: &Value) -> Value {
     let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
-    let object = |row: &Row| {
-        let (numbers, counts) = row.values();
-        let values = [json!(row.stiffness)].into_iter().chain(numbers.map(|number| json!(number)));
-        let values = values.chain(counts.map(|count| json!(count)));
-        COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect::<serde_json::Map<_, _>>()
-    };
     json!({
         "title": study.scene().title,
         "tie_height": tie_height,
         "tie_side": tie_side.name(),
-        "motions": rows[0].outcomes.len(),
+        "motions": study.motions(),
         "alike_on_both_sides": study.polarities() == Polarities::Alike,
-        "rows": rows.iter().map(|row| Value::Object(object(row))).collect::<Vec<_>>(),
+        "rows": rows,
     })
 }

@@ -1,6 +1,5 @@
-//! `wall spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
+//! `wall study spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail};
@@ -13,11 +12,10 @@ use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
 use run::parallel;
 use study::spectrum::figure::{Shown, own_words, svg};
 use study::spectrum::{
-    Point, PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
+    PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
 use crate::args::{RecordArguments, SceneArguments, refuse};
-use crate::output::optional;
 use crate::output::{self, Console};
 use study::spectrum::page::page;
 
@@ -95,7 +93,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         }
     };
     shown.notes.push(law(&scene.parameters));
-    console.save(arguments.csv.as_ref(), || table(&shown))?;
+    console.save(arguments.csv.as_ref(), || shown.spectrum.table().csv())?;
     console.save(arguments.html.as_ref(), || page(&shown))?;
     console.save(arguments.svg.as_ref(), || svg(&shown))?;
     console.print(&(summary(&shown) + &output::written("written    ", outputs.into_iter().flatten())))
@@ -130,8 +128,6 @@ fn pulses(
             wall.rocking_rate(),
             onset(&wall)
         )],
-        labels: ["ω_p / p", "a_p / a₀"].map(str::to_owned),
-        names: ["frequency_ratio", "amplitude_ratio"],
         axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ \
                m_eff), which is g tan α for a parapet without overburden; walls of any size with the same \
                damping and restitution have this spectrum."
@@ -161,15 +157,11 @@ fn walls(
         Some(angles) => (Slenderness::Angle, values("--angles", Some(angles), [0.0; 2], 2)?),
         None => (Slenderness::Ratio, values("--ratios", arguments.ratios.as_deref(), [4.0, 20.0], 33)?),
     };
-    let column = if size == Size::Height { "height_m" } else { "semi_diagonal_m" };
-    let row = if slenderness == Slenderness::Ratio { "slenderness" } else { "angle_rad" };
     Ok(Shown {
         spectrum: over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?,
         own: own_point(parameters, motion, size, slenderness),
         title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
         notes,
-        labels: [size.label(), slenderness.label()].map(str::to_owned),
-        names: [column, row],
         axes: "Each cell is one wall under the whole motion, followed until its peak has come.".into(),
     })
 }
@@ -263,6 +255,7 @@ fn summary(shown: &Shown) -> String {
         [first, .., last] => format!("{first} to {last}, {} values", values.len()),
         _ => String::new(),
     };
+    let [across, up] = shown.spectrum.quantities.map(|quantity| quantity.label);
     let own =
         shown.own.as_ref().map_or_else(String::new, |own| format!("your wall  {}\n", own_words(shown, own)));
     format!(
@@ -270,24 +263,11 @@ fn summary(shown: &Shown) -> String {
          rock up to {largest:.3} u_ins, {overturned} overturn\n{own}",
         shown.title,
         shown.notes.join("; "),
-        shown.labels[0],
+        across,
         range(&shown.spectrum.columns),
-        shown.labels[1],
+        up,
         range(&shown.spectrum.rows),
         points().count(),
         points().count() - rocked - overturned,
     )
-}
-
-fn table(shown: &Shown) -> String {
-    let [column, row] = shown.names;
-    let mut text = format!("{column},{row},u_ratio_max,rocked,overturned,overturn_time_s\n");
-    for (y, points) in shown.spectrum.rows.iter().zip(&shown.spectrum.points) {
-        for (x, point) in shown.spectrum.columns.iter().zip(points) {
-            let Point { ratio, rocked, overturning } = point;
-            let (overturned, time) = (overturning.is_some(), optional(*overturning));
-            let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{overturned},{time}");
-        }
-    }
-    text
 }

@@ -1,4 +1,4 @@
-//! Runs what is missing.
+//! Computes the parts that are not on disk yet.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -10,29 +10,29 @@ use run::parallel;
 use super::error::FolderError;
 use super::store::Folder;
 
-/// Why parts could not be made.
+/// Why a part could not be computed or written.
 #[derive(Debug, thiserror::Error)]
-pub enum WorkError {
+pub enum ComputeError {
     /// A run failed.
     #[error(transparent)]
     Run(#[from] IdaError),
-    /// A part could not be kept.
+    /// A part could not be written.
     #[error(transparent)]
     Folder(#[from] FolderError),
 }
 
-/// Computes some parts of a study, in rising order, and keeps them. Threads share the combinations of a part.
-/// `done` is called with each combination, its curve and the time that it took.
+/// Computes some parts of a study, in rising order, and writes each once it is complete. Threads share the
+/// combinations of a part. `done` is called with each combination, its curve and the time that it took.
 ///
 /// # Errors
-/// [`WorkError`] of the first combination that fails.
-pub fn work(
+/// [`ComputeError`] of the first combination that fails.
+pub fn compute(
     study: &Study,
     folder: &Folder,
     parts: &[usize],
     threads: usize,
     done: impl Fn(Case, &Curve, Duration) + Sync,
-) -> Result<(), WorkError> {
+) -> Result<(), ComputeError> {
     let size = study.part_size();
     // only the last part may have fewer combinations, and it comes last
     let short = parts.last().map_or(0, |&last| size - study.part(last).len());

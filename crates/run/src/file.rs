@@ -5,7 +5,17 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use super::error::FolderError;
+/// A file or folder that cannot be read, written, made or removed.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be {what}: {source}", path.display())]
+pub struct FileError {
+    /// Its path.
+    pub path: PathBuf,
+    /// What cannot be done: `read`, `written` …
+    pub what: &'static str,
+    /// Why.
+    pub source: io::Error,
+}
 
 /// Most links that lead from one to the next.
 const MOST_LINKS: usize = 40;
@@ -14,26 +24,35 @@ const MOST_LINKS: usize = 40;
 /// written. An existing file keeps its permissions. A pipe or a device gets the bytes directly.
 ///
 /// # Errors
-/// [`FolderError::File`].
-pub fn to_file(path: &Path, content: &[u8]) -> Result<(), FolderError> {
+/// [`FileError`].
+pub fn to_file(path: &Path, content: &[u8]) -> Result<(), FileError> {
     Draft::new(path, content)?.commit(true).map(drop)
+}
+
+/// Makes a folder, and those that it lies in.
+///
+/// # Errors
+/// [`FileError`].
+pub fn make_folder(path: &Path) -> Result<(), FileError> {
+    let failed = |source| FileError { path: path.to_owned(), what: "made", source };
+    std::fs::create_dir_all(path).map_err(failed)
 }
 
 /// Removes a file, if there is one.
 ///
 /// # Errors
-/// [`FolderError::File`].
-pub(crate) fn remove(path: &Path) -> Result<(), FolderError> {
+/// [`FileError`].
+pub fn remove(path: &Path) -> Result<(), FileError> {
     match std::fs::remove_file(path) {
         Err(source) if source.kind() != ErrorKind::NotFound => {
-            Err(FolderError::File { path: path.to_owned(), what: "removed", source })
+            Err(FileError { path: path.to_owned(), what: "removed", source })
         }
         _ => Ok(()),
     }
 }
 
 /// A file that is renamed to its final name once it is complete.
-pub(crate) struct Draft {
+pub struct Draft {
     path: PathBuf,
     file: BufWriter<File>,
     /// The incomplete file, and its later name; `None` for a pipe or a device.
@@ -43,22 +62,31 @@ pub(crate) struct Draft {
 
 impl Draft {
     /// Begins a file with some content.
-    pub(crate) fn new(path: &Path, content: &[u8]) -> Result<Self, FolderError> {
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn new(path: &Path, content: &[u8]) -> Result<Self, FileError> {
         let mut draft = Self::open(path).map_err(|source| unwritten(path, source))?;
         draft.write(|file| file.write_all(content))?;
         Ok(draft)
     }
 
     /// Writes what `fill` writes.
-    pub(crate) fn write<T>(
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn write<T>(
         &mut self,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
-    ) -> Result<T, FolderError> {
+    ) -> Result<T, FileError> {
         fill(&mut self.file).map_err(|source| unwritten(&self.path, source))
     }
 
     /// Gives the file its name, and returns the path; waits for the disk where `sync` is set.
-    pub(crate) fn commit(mut self, sync: bool) -> Result<PathBuf, FolderError> {
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn commit(mut self, sync: bool) -> Result<PathBuf, FileError> {
         let completed = self.complete(sync);
         completed.map_err(|source| unwritten(&self.path, source))?;
         Ok(std::mem::take(&mut self.path))
@@ -120,8 +148,8 @@ impl Drop for Draft {
     }
 }
 
-fn unwritten(path: &Path, source: io::Error) -> FolderError {
-    FolderError::File { path: path.to_owned(), what: "written", source }
+fn unwritten(path: &Path, source: io::Error) -> FileError {
+    FileError { path: path.to_owned(), what: "written", source }
 }
 
 /// Returns the folder of a file.
