@@ -90,7 +90,7 @@ pub struct Found {
 /// Finds the smallest value, or the largest height, with which a wall passes its check.
 ///
 /// ```
-/// use check::code::{MotionValues, Subject, read};
+/// use check::code::{Given, Subject, read};
 /// use check::find::{Sought, find};
 /// use rocking_wall::scene::Place;
 /// use rocking_wall::wall::Parameters;
@@ -102,7 +102,7 @@ pub struct Found {
 /// soil = "B"
 /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
 /// "#;
-/// let code = read(&Place::new("scene.toml", text), MotionValues::default())?.expect("there is a table [check]");
+/// let code = read(&Place::new("scene.toml", text), Given::default())?.expect("there is a table [check]");
 /// let parameters = Parameters::default();
 /// let subject = Subject { title: "", parameters: &parameters, floors: None, is_tried: true };
 /// let found = find(&*code, &subject, Sought::Thickness)?;

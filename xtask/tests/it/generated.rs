@@ -16,10 +16,15 @@ fn table(head: &str, rows: impl IntoIterator<Item = [String; 2]>) -> String {
 fn commands() -> String {
     let row = |command: &clap::Command| {
         let about = command.get_about().map(ToString::to_string).unwrap_or_default();
-        // details come after a colon
-        let about = about.split(": ").next().unwrap_or_default();
+        // details come after a colon or a question
+        let about = about.split_inclusive('?').next().and_then(|about| about.split(": ").next());
+        let about = about.unwrap_or_default();
         let parts: Vec<_> = command.get_subcommands().map(|part| format!("`{}`", part.get_name())).collect();
-        let parts = if parts.is_empty() { String::new() } else { format!(": {}", parts.join(", ")) };
+        let parts = if parts.is_empty() {
+            String::new()
+        } else {
+            format!("{} {}", if about.ends_with('?') { "" } else { ":" }, parts.join(", "))
+        };
         [format!("`{}`", command.get_name()), format!("{about}{parts}")]
     };
     table("command | purpose", wall::command().get_subcommands().map(row))

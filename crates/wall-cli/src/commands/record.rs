@@ -22,7 +22,8 @@ fn files_help() -> String {
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    #[arg(group = "recorded", required_unless_present = "synthetic", value_name = "FILES", help = files_help())]
+    #[arg(group = "recorded", required_unless_present = "synthetic")]
+    #[arg(value_name = "FILES", help = files_help())]
     files: Vec<PathBuf>,
     #[command(flatten)]
     motion: MotionArguments,
