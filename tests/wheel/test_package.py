@@ -21,7 +21,9 @@ PARTS = (
 )
 MODULES = ["rocking_wall"] + [f"rocking_wall._{part}" for part in PARTS.split()]
 CONFIG = ROOT / "tests/wheel/mypy.ini"
-EXAMPLES = sorted(path.name for path in (ROOT / "examples/python").glob("*.py"))
+EXAMPLES = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / "examples/python").glob("*.py")}
+# they skip a part where numpy is alone; FMPy is in another environment
+LARGER = [name for name, text in EXAMPLES.items() if "skipped" in text and "fmpy" not in text]
 
 
 def run(*command, **options):
@@ -84,10 +86,9 @@ def test_types(tmp_path):
     run(*mypy, code, cwd=tmp_path)
 
 
-@pytest.mark.parametrize("example", EXAMPLES)
+@pytest.mark.parametrize("example", LARGER)
 def test_examples(example, tmp_path):
-    told = run(sys.executable, ROOT / "examples/python" / example, cwd=tmp_path)
-    assert "skipped" not in told or example in ("fmu.py", "restart.py")
+    assert "skipped" not in run(sys.executable, ROOT / "examples/python" / example, cwd=tmp_path)
 
 
 def other_python(variable):
