@@ -124,7 +124,8 @@ proptest! {
 
 #[test]
 fn a_tied_wall_moves_alike_in_batches() {
-    batches_agree(tied());
+    // stiff ties take small steps; the other walls have 200 batches each
+    batches_agree(50, tied());
 }
 
 fn tied_parapet() -> Parameters {
