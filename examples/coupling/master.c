@@ -6,7 +6,7 @@
  *            FLOOR.so GUID a_g reaction_1 reaction_2 mass stiffness acceleration_absolute reaction_bottom
  *            WALLS SECONDS STEP
  *
- * Each name stands for its value reference in modelDescription.xml; xtask/coupling/compiled.py looks them up.
+ * Each name stands for its value reference in modelDescription.xml; tests/coupling/compiled.py looks them up.
  * A floor has eight inputs for reactions. Forces on the same floor may be added and sent to one input.
  */
 #include <dlfcn.h>

@@ -102,10 +102,8 @@ impl Document {
 /// [`SceneError::File`], and [`SceneError::Line`] where the file is not UTF-8.
 pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneError> {
     let file = path.display().to_string();
-    let bytes = match ground_motion::read_file(path, what, limit) {
-        Ok(bytes) => bytes,
-        Err(error) => return Err(SceneError::File { file, reason: format!("cannot be read: {error}") }),
-    };
+    let unread = |error| SceneError::File { file: file.clone(), reason: format!("cannot be read: {error}") };
+    let bytes = ground_motion::read_file(path, what, limit).map_err(unread)?;
     let in_file = |fault: Fault| SceneError::Line { file, line: fault.line(), message: fault.to_string() };
     ground_motion::utf8_text(bytes, what).map_err(in_file)
 }

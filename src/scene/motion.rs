@@ -136,13 +136,6 @@ pub(super) struct Loaded {
     pub(super) records: Vec<PathBuf>,
 }
 
-/// A record file, and how to read it.
-struct RecordFile<'a> {
-    path: &'a Path,
-    options: RecordOptions,
-    fingerprint: Option<&'a str>,
-}
-
 pub(super) fn load(
     table: &Spanned<MotionTable>,
     place: &Place<'_>,
@@ -196,8 +189,9 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
         let TopTable { unit, step, format, .. } = *top;
         let (column, channel) = (top.column.clone(), top.channel.clone());
         let options = RecordOptions { unit, step, column, channel, format };
-        let file = RecordFile { path: &top.record, options, fingerprint: top.fingerprint.as_deref() };
-        scale(trim(read_record(&file, folder, &mut notes)?, spec)?, top.scale, top.pga)
+        let fingerprint = top.fingerprint.as_deref();
+        let record = read_record(&top.record, &options, fingerprint, folder, &mut notes)?;
+        scale(trim(record, spec)?, top.scale, top.pga)
     });
     let top = top.transpose()?;
     let peak = match &top {
@@ -215,35 +209,35 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {
-    let pulse = |shape, amplitude, frequency| Pulse { shape, amplitude, frequency }.motion(None);
     let mut found: Vec<(&str, Result<GroundMotion, Problem>)> = Vec::new();
     let MotionTable { unit, step, format, .. } = *spec;
     let (column, channel) = (spec.column.clone(), spec.channel.clone());
     let options = RecordOptions { unit, step, column, channel, format };
     if let Some(path) = &spec.record {
-        let file = RecordFile { path, options, fingerprint: spec.fingerprint.as_deref() };
-        found.push(("record", read_record(&file, folder, notes)));
+        let fingerprint = spec.fingerprint.as_deref();
+        found.push(("record", read_record(path, &options, fingerprint, folder, notes)));
     } else if options != RecordOptions::default() {
         let message = "unit, step, column, channel and format belong to a record; \
                        add record = \"FILE\" or leave them out";
         return Err(Problem::Table(message.into()));
     }
+    let mut pulse = |name, words: &str, shape, amplitude, frequency| {
+        notes.push(format!("{words}, {amplitude} m/s² at {frequency} Hz"));
+        let motion = Pulse { shape, amplitude, frequency }.motion(None);
+        found.push((name, motion.map_err(Problem::from)));
+    };
     if let Some(&RickerTable { amplitude, frequency, centre }) = spec.ricker.as_ref() {
-        notes.push(format!("Ricker pulse, {amplitude} m/s² at {frequency} Hz"));
-        found.push(("ricker", pulse(Shape::Ricker { centre }, amplitude, frequency).map_err(Into::into)));
+        pulse("ricker", "Ricker pulse", Shape::Ricker { centre }, amplitude, frequency);
     }
     if let Some(&HarmonicTable { amplitude, frequency, phase, duration }) = spec.harmonic.as_ref() {
-        notes.push(format!("harmonic, {amplitude} m/s² at {frequency} Hz"));
         let shape = Shape::Harmonic { phase, end: Some(duration) };
-        found.push(("harmonic", pulse(shape, amplitude, frequency).map_err(Into::into)));
+        pulse("harmonic", "harmonic", shape, amplitude, frequency);
     }
-    for (name, table, shape) in
-        [("sine_cycle", &spec.sine_cycle, Shape::SineCycle), ("half_sine", &spec.half_sine, Shape::HalfSine)]
-    {
-        if let Some(&SineTable { amplitude, frequency }) = table.as_ref() {
-            notes.push(format!("{}, {amplitude} m/s² at {frequency} Hz", name.replace('_', " ")));
-            found.push((name, pulse(shape, amplitude, frequency).map_err(Into::into)));
-        }
+    if let Some(&SineTable { amplitude, frequency }) = spec.sine_cycle.as_ref() {
+        pulse("sine_cycle", "sine cycle", Shape::SineCycle, amplitude, frequency);
+    }
+    if let Some(&SineTable { amplitude, frequency }) = spec.half_sine.as_ref() {
+        pulse("half_sine", "half sine", Shape::HalfSine, amplitude, frequency);
     }
     if let Some(table) = &spec.synthetic {
         let default = SyntheticMotion::default();
@@ -269,13 +263,15 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
 }
 
 fn read_record(
-    file: &RecordFile<'_>,
+    file: &Path,
+    options: &RecordOptions,
+    expected: Option<&str>,
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<GroundMotion, Problem> {
-    let path = folder.join(file.path);
-    let record = read(&path, &file.options)?;
-    if let Some(expected) = file.fingerprint {
+    let path = folder.join(file);
+    let record = read(&path, options)?;
+    if let Some(expected) = expected {
         let bytes =
             std::fs::read(&path).map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
         let found = fingerprint(&bytes);
@@ -287,7 +283,7 @@ fn read_record(
             )));
         }
     }
-    let name = file.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let name = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     notes.push(format!("record {name} ({})", record.format.description()));
     notes.extend(record.check().warnings.iter().map(ToString::to_string));
     Ok(record.motion)

@@ -4,7 +4,6 @@
 //! their floors.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
 use serde::Deserialize;
@@ -199,26 +198,14 @@ impl Floors {
     /// Writes the tables that read as these storeys.
     pub(super) fn to_toml(&self) -> String {
         let mut text = String::from("\n[supports]\n");
-        for (name, floor) in [("bottom", self.bottom), ("top", self.top)] {
-            if let Some(floor) = floor {
-                // writing to a String cannot fail
-                let _ = writeln!(text, "{name} = {floor}");
-            }
-        }
-        let _ = writeln!(text, "drift = {}", self.drift);
+        let floors = [("bottom", self.bottom), ("top", self.top)];
+        text.extend(floors.iter().filter_map(|(name, floor)| Some(format!("{name} = {}\n", (*floor)?))));
+        text.extend([format!("drift = {}\n", self.drift)]);
         for StoreyTable { mass, stiffness, period, damping_ratio } in &self.tables {
             text.push_str("\n[[storeys]]\n");
-            let keys = [
-                ("mass", mass),
-                ("stiffness", stiffness),
-                ("period", period),
-                ("damping_ratio", damping_ratio),
-            ];
-            for (name, value) in keys {
-                if let Some(value) = value {
-                    let _ = writeln!(text, "{name} = {value:?}");
-                }
-            }
+            let elastic = [("mass", mass), ("stiffness", stiffness), ("period", period)];
+            let values = elastic.into_iter().chain([("damping_ratio", damping_ratio)]);
+            text.extend(values.filter_map(|(name, value)| Some(format!("{name} = {:?}\n", (*value)?))));
         }
         text
     }

@@ -2,41 +2,25 @@
 
 use fmu_export::VariableId;
 
-use crate::variables::{
-    BooleanVariable, IntegerVariable, RealVariable, integer_parameter, real_calculated, real_output,
-    real_parameter,
-};
+use crate::variables::{BooleanVariable, RealVariable};
 use crate::wall::usage;
 
 use super::Scene;
 
 impl Scene {
-    /// Returns whether this scene's FMU lists the variable called `name`.
+    /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the
+    /// library reads them from the scene.
     pub fn uses(&self, name: &str) -> bool {
-        let boolean = |variable| match variable {
-            BooleanVariable::Overturned => true,
-        };
-        // enumerations are frozen: the library reads them from the scene
-        let integer = |variable| match variable {
-            integer_parameter!() => false,
-        };
-        RealVariable::from_name(name).is_some_and(|variable| self.uses_real(variable))
-            || IntegerVariable::from_name(name).is_some_and(integer)
-            || BooleanVariable::from_name(name).is_some_and(boolean)
-    }
-
-    /// Returns whether a Real variable is used with the scene's choices.
-    fn uses_real(&self, variable: RealVariable) -> bool {
         use RealVariable as V;
         let p = &self.parameters;
-        let matters = || usage(p).any(|usage| usage.name == variable.variable().name && usage.matters);
-        match variable {
-            V::AG | V::ABottom | V::ATop | V::Drift => self.inputs.contains(&variable),
+        match V::from_name(name) {
+            None => BooleanVariable::from_name(name).is_some(),
+            Some(input @ (V::AG | V::ABottom | V::ATop | V::Drift)) => self.inputs.contains(&input),
             // 0 stands for "none"
-            V::Overburden if p.overburden == 0.0 => false,
-            V::TieStiffness if p.tie_stiffness == 0.0 => false,
-            V::TieStrength if p.tie_strength == 0.0 => false,
-            real_parameter!() | real_output!() | real_calculated!() => matters(),
+            Some(V::Overburden) if p.overburden == 0.0 => false,
+            Some(V::TieStiffness) if p.tie_stiffness == 0.0 => false,
+            Some(V::TieStrength) if p.tie_strength == 0.0 => false,
+            Some(_) => usage(p).any(|usage| usage.name == name && usage.matters),
         }
     }
 }

@@ -47,6 +47,7 @@ impl Model for Unit {
         Ok(unit)
     }
 
+    #[allow(unreachable_patterns, reason = "the outputs that are not computed from the state are above")]
     fn real(&self, variable: RealVariable) -> f64 {
         use RealVariable as V;
         let progress = self.simulation.progress();
@@ -56,19 +57,10 @@ impl Model for Unit {
             V::ABottom => self.inputs.bottom.value,
             V::ATop => self.inputs.top.value,
             V::Drift => self.inputs.drift.value,
-            V::U => self.outputs().displacement,
-            V::UDot => self.outputs().velocity,
-            V::UDdot => self.outputs().acceleration,
-            V::URatio => self.outputs().ratio,
-            V::RestoringForce => self.outputs().restoring_force,
-            V::DampingForce => self.outputs().damping_force,
-            V::ReactionBottom => self.outputs().reactions.bottom,
-            V::ReactionTop => self.outputs().reactions.top,
             V::ImpulseBottom => self.impulses.bottom,
             V::ImpulseTop => self.impulses.top,
             V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
             V::UMax => progress.state.peaks.largest(),
-            V::TieForce => self.outputs().tie_force,
             V::Mass => body.mass,
             V::EffectiveMass => body.effective_mass,
             V::Participation => body.participation,
@@ -79,6 +71,7 @@ impl Model for Unit {
             V::Omega1 => wall.omega1(),
             V::XiUsed => wall.damping_ratio(),
             V::RestitutionUsed => wall.restitution(),
+            real_output!() => output(&self.outputs(), variable).unwrap_or(f64::NAN),
             real_parameter!() => self.parameters.real(variable).unwrap_or(f64::NAN),
         }
     }
@@ -123,29 +116,24 @@ impl Model for Unit {
         self.input(variable).map(|input| input.rate = value).is_some()
     }
 
+    #[allow(unreachable_patterns, reason = "the outputs that are not computed from the state are above")]
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
         use RealVariable as V;
         let Outputs { displacement, velocity, acceleration, .. } = self.outputs();
-        let rates = || {
-            let support_rate = self.inputs.rate(|input| input.last_rate);
-            self.simulation.derivative(self.support(), [velocity, acceleration], support_rate)
-        };
         match variable {
             V::U => Some(velocity),
             V::UDot => Some(acceleration),
-            V::UDdot => Some(rates().acceleration),
-            V::ReactionBottom => Some(rates().reactions.bottom),
-            V::ReactionTop => Some(rates().reactions.top),
-            V::TieForce => Some(rates().tie_force),
-            V::URatio => Some(rates().ratio),
-            V::RestoringForce => Some(rates().restoring_force),
-            V::DampingForce => Some(rates().damping_force),
             // the largest |u| grows with |u| alone
             V::UMax if displacement.abs() >= self.real(V::UMax) => {
                 Some((displacement.signum() * velocity).max(0.0))
             }
             // these change at communication points and events alone
             V::UMax | V::ImpulseBottom | V::ImpulseTop | V::OverturnTime => Some(0.0),
+            real_output!() => {
+                let support_rate = self.inputs.rate(|input| input.last_rate);
+                let motion = [velocity, acceleration];
+                output(&self.simulation.derivative(self.support(), motion, support_rate), variable)
+            }
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
@@ -164,17 +152,9 @@ impl Model for Unit {
         };
         let along = self.simulation.derivative(self.support(), motion, Support { bottom, top, drift });
         match unknown {
-            V::U => Some(along.displacement),
-            V::UDot => Some(along.velocity),
-            V::UDdot => Some(along.acceleration),
-            V::URatio => Some(along.ratio),
-            V::RestoringForce => Some(along.restoring_force),
-            V::DampingForce => Some(along.damping_force),
-            V::ReactionBottom => Some(along.reactions.bottom),
-            V::ReactionTop => Some(along.reactions.top),
-            V::TieForce => Some(along.tie_force),
             // these depend on the past, not on the present state and inputs alone
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
+            real_output!() => output(&along, unknown),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
@@ -216,5 +196,24 @@ impl Model for Unit {
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
         self.transfer(codec)
+    }
+}
+
+/// Returns an output that follows from the state, or its derivative; `None` for other variables.
+#[allow(clippy::match_same_arms, reason = "outputs that have another source, and no outputs")]
+fn output(outputs: &Outputs, variable: RealVariable) -> Option<f64> {
+    use RealVariable as V;
+    match variable {
+        V::U => Some(outputs.displacement),
+        V::UDot => Some(outputs.velocity),
+        V::UDdot => Some(outputs.acceleration),
+        V::URatio => Some(outputs.ratio),
+        V::RestoringForce => Some(outputs.restoring_force),
+        V::DampingForce => Some(outputs.damping_force),
+        V::ReactionBottom => Some(outputs.reactions.bottom),
+        V::ReactionTop => Some(outputs.reactions.top),
+        V::TieForce => Some(outputs.tie_force),
+        V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => None,
+        real_input!() | real_parameter!() | real_calculated!() => None,
     }
 }

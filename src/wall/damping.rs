@@ -286,11 +286,6 @@ impl DampingInUse {
         Ok(Self { asked, ratio, elastic, rocking })
     }
 
-    /// Returns whether C is constant on every branch.
-    pub(super) fn is_constant(&self) -> bool {
-        self.rocking.constant().is_some()
-    }
-
     /// Returns the damping on a branch: on the elastic branch, on another one before the force falls to zero,
     /// or beyond that (`is_beyond`).
     pub(super) fn on_branch(&self, is_elastic: bool, is_beyond: bool) -> BranchDamping {

@@ -7,10 +7,9 @@ use super::damping::{Damping, DampingInUse, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
 use super::layout;
-use super::mechanism::Body;
+use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
-use super::sides::Sides;
 use super::tie::Tie;
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
@@ -157,7 +156,7 @@ impl Wall {
 
     /// Returns whether C is constant on every branch.
     pub fn has_constant_damping(&self) -> bool {
-        self.damping.is_constant()
+        self.damping.rocking.constant().is_some()
     }
 
     /// Returns whether the motion on each branch has a closed form: C is constant there, and rotations are

@@ -3,8 +3,7 @@
 use super::branch::{Branch, Corner};
 use super::damping::DampingInUse;
 use super::force_law::{Line, RestoringForce};
-use super::mechanism::Body;
-use super::sides::Sides;
+use super::mechanism::{Body, Sides};
 use super::tie::Tie;
 
 /// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations

@@ -14,9 +14,8 @@ use crate::choices::{Mechanism, TieSide};
 
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
-use super::mechanism::Body;
+use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
-use super::sides::Sides;
 
 /// The tie of a parapet.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,7 +9,6 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::tie::Tie;
 use super::usage::{Usage, usage};
-use super::usual::improbable;
 
 /// A usual step of records and importers \[s\].
 const USUAL_STEP: f64 = 0.01;
@@ -19,26 +18,53 @@ const MOST_USUAL_ANGLE: f64 = 100.0;
 const MOST_USUAL_STEPS: f64 = 10_000.0;
 
 /// Something a user should know about valid parameters.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum Warning {
     /// A parameter that is set and has no effect.
+    #[error("{name} is set and has no effect: it counts where {condition}")]
     NoEffect { name: &'static str, condition: &'static str },
     /// Eq. (23) outside an unloaded parapet.
+    #[error("computed c_bar (Eq. 23) is valid only for a parapet without overburden; set c_bar")]
     ComputedFreeStanding,
     /// Viscous damping computed from e, and e applied at impacts as well.
+    #[error(
+        "computed damping already represents the impacts: with impact = restitution the energy loss is \
+         counted twice; set damping_model = none or impact = none"
+    )]
     CountedTwice,
     /// a₁ outside the fit of Eqs. (20)–(22).
+    #[error(
+        "a1 = {a1} is outside the range {} to {} in which computed damping (Eqs. 20 to 22) was fitted",
+        equivalence::FITTED_A1.start(),
+        equivalence::FITTED_A1.end()
+    )]
     OutsideFit { a1: f64 },
     /// e = 1 and no damping.
+    #[error("restitution = 1 without damping: the wall loses no energy and never comes to rest")]
     NeverRests,
     /// An elastic frequency that makes steps expensive \[rad/s\].
+    #[error(
+        "omega1 = {omega1:.3e} rad/s: the wall vibrates {:.0} times in {USUAL_STEP} s, and computing takes \
+         as much longer than usual; check a1, thickness, density and overburden",
+        omega1 * USUAL_STEP / std::f64::consts::TAU
+    )]
     Fast { omega1: f64 },
     /// A step of Newmark that makes steps expensive \[s\].
+    #[error(
+        "newmark_step = {step:e} s: {:.0} steps for each {USUAL_STEP} s, and computing takes as much longer \
+         than usual; 1e-4 s is usual",
+        USUAL_STEP / step
+    )]
     SmallStep { step: f64 },
     /// A tie that holds the wall beyond its instability.
+    #[error(
+        "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins of the \
+         wall without its tie, not a collapse; compare tie_force with what the tie resists"
+    )]
     TieHolds { u_ins: f64 },
     /// A number that walls rarely have: probably a typing error or another unit.
+    #[error("{}", unusual(name, *value, unit, *usual, *meant))]
     Unusual {
         name: &'static str,
         value: f64,
@@ -49,57 +75,14 @@ pub enum Warning {
     },
 }
 
-impl std::fmt::Display for Warning {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoEffect { name, condition } => {
-                write!(f, "{name} is set and has no effect: it counts where {condition}")
-            }
-            Self::ComputedFreeStanding => f.write_str(
-                "computed c_bar (Eq. 23) is valid only for a parapet without overburden; set c_bar",
-            ),
-            Self::CountedTwice => f.write_str(
-                "computed damping already represents the impacts: with impact = restitution the energy loss \
-                 is counted twice; set damping_model = none or impact = none",
-            ),
-            Self::OutsideFit { a1 } => write!(
-                f,
-                "a1 = {a1} is outside the range {} to {} in which computed damping (Eqs. 20 to 22) was \
-                 fitted",
-                equivalence::FITTED_A1.start(),
-                equivalence::FITTED_A1.end()
-            ),
-            Self::NeverRests => f.write_str(
-                "restitution = 1 without damping: the wall loses no energy and never comes to rest",
-            ),
-            Self::Fast { omega1 } => write!(
-                f,
-                "omega1 = {omega1:.3e} rad/s: the wall vibrates {:.0} times in {USUAL_STEP} s, and computing \
-                 takes as much longer than usual; check a1, thickness, density and overburden",
-                omega1 * USUAL_STEP / std::f64::consts::TAU
-            ),
-            Self::SmallStep { step } => write!(
-                f,
-                "newmark_step = {step:e} s: {:.0} steps for each {USUAL_STEP} s, and computing takes as much \
-                 longer than usual; 1e-4 s is usual",
-                USUAL_STEP / step
-            ),
-            Self::TieHolds { u_ins } => write!(
-                f,
-                "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins \
-                 of the wall without its tie, not a collapse; compare tie_force with what the tie resists"
-            ),
-            Self::Unusual { name, value, unit, usual, meant } => {
-                let [value, least, most] = [*value, usual[0], usual[1]].map(six_digits);
-                let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-                write!(f, "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; ")?;
-                match meant {
-                    Some((other, own)) => write!(f, "if it is {other}, give {}{unit}", six_digits(*own)),
-                    None => f.write_str("check value and unit"),
-                }
-            }
-        }
-    }
+fn unusual(name: &str, value: f64, unit: &str, usual: [f64; 2], meant: Option<(&str, f64)>) -> String {
+    let [value, least, most] = [value, usual[0], usual[1]].map(six_digits);
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let remedy = match meant {
+        Some((other, own)) => format!("if it is {other}, give {}{unit}", six_digits(own)),
+        None => "check value and unit".to_owned(),
+    };
+    format!("{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; {remedy}")
 }
 
 /// A number to six digits, in powers of ten where it is very large or small.
@@ -158,10 +141,5 @@ impl Warning {
     /// Returns whether the warning says that runs take long.
     pub fn is_about_work(&self) -> bool {
         matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
-    }
-
-    /// Finds the parameters of a wall whose values are improbable.
-    pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> + use<> {
-        improbable(parameters)
     }
 }

@@ -1,4 +1,4 @@
-"""Computes the references of `wall verify` from the mechanics, in decimal arithmetic of 40 digits.
+"""Computes the references of `wall verify formulas` from the mechanics, in decimal arithmetic of 40 digits.
 
     python tests/data/references.py          # writes crates/evidence/src/verification/references.csv
 
@@ -355,7 +355,7 @@ def text():
     formulas = tomllib.loads((FOLDER / "formulas.toml").read_text())["formula"]
     lines = ["scene,variable,time,reference,scale,bound"]
     for formula in formulas:
-        for name, scene in formula["scenes"].items():
+        for name, scene in formula.get("scenes", {}).items():
             for variable, time, reference, scale, bound in rows(name, scene, formula.get("motion", {})):
                 numbers = f"{time!r},{float(reference)!r},{float(scale):.3e},{float(bound):.1e}"
                 lines.append(f"{name},{variable},{numbers}")

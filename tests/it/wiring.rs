@@ -27,7 +27,7 @@ fn getters() -> String {
         let start = model.find(from).unwrap_or_else(|| panic!("{from}"));
         model[start..start + model[start..].find(to).unwrap_or_else(|| panic!("{to}"))].to_owned()
     };
-    part("fn real(", "fn integer(").replace("V::", "RealVariable::")
+    (part("fn real(", "fn integer(") + &part("fn output(", "None,")).replace("V::", "RealVariable::")
         + &part("fn integer(", "fn boolean(").replace("V::", "IntegerVariable::")
         + &part("fn boolean(", "fn set_real(")
 }

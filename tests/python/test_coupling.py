@@ -14,7 +14,7 @@ from conftest import ROOT
 from exchange import Exchange, integrate, parapet_on_floor
 from monolith import GROUND, Monolith, Wall
 
-sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "xtask/coupling")]
+sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "tests/coupling")]
 import compiled  # noqa: E402
 from master import CLOSED, SCHEMES, Archive, System, Unit  # noqa: E402
 from run import pulse  # noqa: E402

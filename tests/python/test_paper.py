@@ -35,12 +35,12 @@ PAGES = {
     "building": (f"building {ROOT / 'scenes/building/three_storeys.toml'} --synthetic --html {{}}", 10),
     "study": ("ida study.toml -o out", 6),
     "spectrum": ("spectrum --synthetic --heights 1:6:6 --ratios 5:20:6 --html {}", 1),
-    "stability": ("stability --columns 2 --html {}", 0),
+    "stability": ("verify stability --columns 2 --html {}", 0),
     "calibrate": ("calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
-    "reproduce": ("reproduce -o {}", 20),
+    "reproduce": ("verify paper -o {}", 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check --spectrum spectrum.csv --unit m/s2 --html {}", 0),
-    "accuracy": (f"accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
+    "accuracy": (f"verify accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
     "playground": (None, 0),
 }  # fmt: skip
 # A4 between Chromium's margins of 1 cm, in px
@@ -120,7 +120,7 @@ def test_swatches_intervals_and_marks_are_printed(page):
     backgrounds, marks = browser.execute_script(
         "document.head.insertAdjacentHTML('beforeend', '<style id=probe>svg { visibility: hidden }</style>');"
         "const shown = query => [...document.querySelectorAll(query)].filter(one => one.checkVisibility());"
-        "return [shown('i.chip, .off').map(one => getComputedStyle(one).backgroundColor),"
+        "return [shown('i.chip, tr.FAIL').map(one => getComputedStyle(one).backgroundColor),"
         "  shown('b.chip').map(one => getComputedStyle(one).color)];"
     )
     printed = sheets(browser)

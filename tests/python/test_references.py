@@ -1,4 +1,4 @@
-"""The references of `wall verify` are those that tests/data/references.py computes."""
+"""The references of `wall verify formulas` are those that tests/data/references.py computes."""
 
 import importlib.util
 from pathlib import Path

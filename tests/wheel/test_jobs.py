@@ -275,7 +275,8 @@ def test_a_calibration_of_a_law_with_its_own_a1():
 
 def test_a_verification(program):
     found = rw.verify()
-    checks = [check for formula in program("verify", "--json")["formulas"] for check in formula["checks"]]
+    formulas = program("verify", "formulas", "--json")["formulas"]
+    checks = [check for formula in formulas for check in formula["checks"]]
     assert len(checks) > 150 and found["passes"].all()
     for column in ["case", "quantity", "unit", "reference", "computed", "error", "bound"]:
         assert found[column].tolist() == [check[column] for check in checks]

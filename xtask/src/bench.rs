@@ -117,7 +117,7 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
 fn in_python(name: &str, lock: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
     let environment = Environment::of(name, lock)?;
     let mut script = environment.program("python");
-    script.arg("xtask/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
+    script.arg("tests/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
     succeed(&mut script, "see its message above")
 }
 

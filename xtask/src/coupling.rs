@@ -15,7 +15,7 @@ pub(crate) fn run() -> Result<()> {
     let python = Environment::of("tests", "tests/python/requirements.lock")?;
     let folder = root().join("fmu_out");
     let mut measure = python.program("python");
-    measure.arg("xtask/coupling/measure.py").arg(wall).arg(floor).arg(&folder);
+    measure.arg("tests/coupling/measure.py").arg(wall).arg(floor).arg(&folder);
     succeed(&mut measure, "see its message above")?;
     let path = folder.join("coupling.md");
     let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -15,14 +15,14 @@ const VERIFICATION: &str = "docs/verification.md";
 const TESTS: &str = "tests/data/validation";
 /// The scene of the peers in the README: `OpenSeesPy` offers its damping.
 const SHOWN: &str = "wall 5 CDC,";
-/// First words of the last table of `wall accuracy`.
+/// First words of the last table of `wall verify accuracy`.
 const ROTATIONS: &str = "small rotations: their period";
 
 /// Measures and writes everything; `record` is the motion of the walls of Table 5.
 pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let peers = bench::peers(record)?;
-    let mut accuracy = vec!["accuracy", "--csv", "fmu_out/accuracy.csv", "--html", "fmu_out/accuracy.html"];
-    accuracy.extend(["--peers", bench::PEERS]);
+    let mut accuracy = vec!["verify", "accuracy", "--csv", "fmu_out/accuracy.csv"];
+    accuracy.extend(["--html", "fmu_out/accuracy.html", "--peers", bench::PEERS]);
     let path = record.map(std::path::absolute).transpose().map_err(|error| format!("the record: {error}"))?;
     let path = path.map(|path| path.display().to_string());
     if let Some(path) = &path {
@@ -31,7 +31,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let accuracy = wall(&accuracy)?;
     let rotations = accuracy.find(ROTATIONS).map_or("", |start| &accuracy[start..]);
     let stability =
-        wall(&["stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
+        wall(&["verify", "stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
     let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
         .map_err(failed("fmu_out/accuracy.csv"))?;
     write(
@@ -68,7 +68,7 @@ fn beside_other_tools() -> Result<()> {
     let path = target().join("shown_peers.csv");
     std::fs::write(&path, lines.collect::<Vec<_>>().join("\n")).map_err(failed("shown_peers.csv"))?;
     let path = path.display().to_string();
-    let scene = ["accuracy", "scenes/parapet_on_a_roof.toml", "--budget", "0"];
+    let scene = ["verify", "accuracy", "scenes/parapet_on_a_roof.toml", "--budget", "0"];
     wall(&[&scene[..], &["--peers", &path, "--plot", "docs/images/peers.svg"]].concat()).map(drop)
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn validation() -> Result<()> {
         let file = entry.map_err(failed(TESTS))?.file_name().to_string_lossy().into_owned();
         let Some(name) = file.strip_suffix(".toml") else { continue };
         let plot = format!("docs/images/{name}.svg");
-        let table = wall(&["validate", &format!("{TESTS}/{file}"), "--plot", &plot])?;
+        let table = wall(&["verify", "tests", &format!("{TESTS}/{file}"), "--plot", &plot])?;
         figures.push((name.to_owned(), fenced(&table)));
     }
     write(VALIDATION, &figures)?;
@@ -87,12 +87,12 @@ pub(crate) fn validation() -> Result<()> {
     Ok(())
 }
 
-/// Writes the formulas that `wall verify` checks, with references and bounds.
+/// Writes the formulas that `wall verify formulas` checks, with references and bounds.
 ///
 /// # Errors
 /// As [`run`].
 pub(crate) fn verification() -> Result<()> {
-    let formulas = wall(&["verify", "--markdown", "-"])?;
+    let formulas = wall(&["verify", "formulas", "--markdown", "-"])?;
     write(VERIFICATION, &[("formulas", format!("\n{formulas}"))])?;
     println!("written {VERIFICATION}");
     Ok(())
@@ -172,8 +172,9 @@ fn condensed(csv: &str) -> String {
     table
 }
 
-/// Splits a line whose first field is quoted.
+/// Splits a line whose first field may be quoted.
 fn fields(line: &str) -> Option<Vec<&str>> {
-    let (scene, rest) = line.strip_prefix('"')?.split_once("\",")?;
+    let quoted = line.strip_prefix('"').and_then(|rest| rest.split_once("\","));
+    let (scene, rest) = quoted.or_else(|| line.split_once(','))?;
     Some(std::iter::once(scene).chain(rest.split(',')).collect())
 }

@@ -11,7 +11,7 @@ pub(crate) fn run() -> Result<()> {
     let map = ["--heights", "1:6:21", "--ratios", "5:14:19", "--svg", "docs/images/spectrum.svg"];
     wall(&[&["spectrum", "--synthetic", "--pga", "2.5"], &map[..]].concat())?;
     let plot = ["--plot", "docs/images/work_precision.svg"];
-    wall(&[&["accuracy", "scenes/parapet_on_a_roof.toml"], &plot[..]].concat())?;
+    wall(&[&["verify", "accuracy", "scenes/parapet_on_a_roof.toml"], &plot[..]].concat())?;
     let results = root().join("target/images");
     if results.exists() {
         // the folder of a study by another build would be refused

@@ -2,10 +2,11 @@
 //!
 //! # Modules
 //! Nothing here prints. Only [`validation`] opens files. Each module uses only modules above it in this
-//! table; all but [`validation`] have their page beside them:
+//! table, and has what shows its results beside it:
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`Comparison`] | the row of every table: what, computed, given, allowed |
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
 //! | [`stability`] | stability maps and extremes |
 //! | [`reproduce`] | the tables and figures of the paper |
@@ -13,7 +14,12 @@
 //! | [`verification`] | every formula against a reference of its own |
 
 pub mod accuracy;
+mod comparison;
+mod error;
 pub mod reproduce;
 pub mod stability;
 pub mod validation;
 pub mod verification;
+
+pub use comparison::Comparison;
+pub use error::EvidenceError;

@@ -5,45 +5,36 @@ use fmu_export::Input;
 use crate::choices::Coupling;
 use crate::floor::Floor;
 use crate::motion::Load;
-use crate::variables::{RealVariable, real_calculated, real_local, real_output, real_parameter};
+use crate::variables::RealVariable;
 
 /// Walls that can push one floor.
 const WALLS: usize = 8;
 
+// the inputs of the walls follow one another
+const _: () = assert!(RealVariable::Reaction8 as usize + 1 == RealVariable::Reaction1 as usize + WALLS);
+const _: () = assert!(RealVariable::Impulse8 as usize + 1 == RealVariable::Impulse1 as usize + WALLS);
+
 /// What an input belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Source {
+pub(crate) enum Owner {
     /// The base.
     Base,
     /// A wall, counted from 0, and the coupling in which the input takes part.
     Wall(Coupling, usize),
 }
 
-impl Source {
+impl Owner {
     /// Returns what an input belongs to; `None` for other variables.
     pub(crate) fn of(variable: RealVariable) -> Option<Self> {
-        use Coupling::{Impulses, Reactions};
-        let (coupling, wall) = match variable {
-            RealVariable::AG => return Some(Self::Base),
-            RealVariable::Reaction1 => (Reactions, 0),
-            RealVariable::Reaction2 => (Reactions, 1),
-            RealVariable::Reaction3 => (Reactions, 2),
-            RealVariable::Reaction4 => (Reactions, 3),
-            RealVariable::Reaction5 => (Reactions, 4),
-            RealVariable::Reaction6 => (Reactions, 5),
-            RealVariable::Reaction7 => (Reactions, 6),
-            RealVariable::Reaction8 => (Reactions, 7),
-            RealVariable::Impulse1 => (Impulses, 0),
-            RealVariable::Impulse2 => (Impulses, 1),
-            RealVariable::Impulse3 => (Impulses, 2),
-            RealVariable::Impulse4 => (Impulses, 3),
-            RealVariable::Impulse5 => (Impulses, 4),
-            RealVariable::Impulse6 => (Impulses, 5),
-            RealVariable::Impulse7 => (Impulses, 6),
-            RealVariable::Impulse8 => (Impulses, 7),
-            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
+        let wall_from = |first: RealVariable| {
+            (variable as usize).checked_sub(first as usize).filter(|wall| *wall < WALLS)
         };
-        Some(Self::Wall(coupling, wall))
+        let reactions = wall_from(RealVariable::Reaction1).map(|wall| (Coupling::Reactions, wall));
+        let impulses = wall_from(RealVariable::Impulse1).map(|wall| (Coupling::Impulses, wall));
+        match reactions.or(impulses) {
+            Some((coupling, wall)) => Some(Self::Wall(coupling, wall)),
+            None => (variable == RealVariable::AG).then_some(Self::Base),
+        }
     }
 }
 
@@ -63,17 +54,17 @@ pub(crate) struct Inputs {
 impl Inputs {
     /// Returns the value of an input; 0 for other variables.
     pub(crate) fn get(&self, variable: RealVariable) -> f64 {
-        match Source::of(variable) {
-            Some(Source::Base) => self.ground.value,
-            Some(Source::Wall(Coupling::Reactions, wall)) => self.reactions[wall].value,
-            Some(Source::Wall(Coupling::Impulses, wall)) => self.impulses[wall],
+        match Owner::of(variable) {
+            Some(Owner::Base) => self.ground.value,
+            Some(Owner::Wall(Coupling::Reactions, wall)) => self.reactions[wall].value,
+            Some(Owner::Wall(Coupling::Impulses, wall)) => self.impulses[wall],
             None => 0.0,
         }
     }
 
     /// Sets an input.
     pub(crate) fn set(&mut self, variable: RealVariable, value: f64) {
-        if let Some(Source::Wall(Coupling::Impulses, wall)) = Source::of(variable) {
+        if let Some(Owner::Wall(Coupling::Impulses, wall)) = Owner::of(variable) {
             self.impulses[wall] = value;
         } else if let Some(input) = self.continuous(variable) {
             input.set(value);
@@ -82,10 +73,10 @@ impl Inputs {
 
     /// Returns a continuous input; `None` for other variables.
     pub(crate) fn continuous(&mut self, variable: RealVariable) -> Option<&mut Input> {
-        match Source::of(variable)? {
-            Source::Base => Some(&mut self.ground),
-            Source::Wall(Coupling::Reactions, wall) => Some(&mut self.reactions[wall]),
-            Source::Wall(Coupling::Impulses, _) => None,
+        match Owner::of(variable)? {
+            Owner::Base => Some(&mut self.ground),
+            Owner::Wall(Coupling::Reactions, wall) => Some(&mut self.reactions[wall]),
+            Owner::Wall(Coupling::Impulses, _) => None,
         }
     }
 

@@ -4,7 +4,7 @@ use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec,
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Base, Inputs, Source};
+use crate::inputs::{Base, Inputs, Owner};
 use crate::motion::{Load, State, Work};
 use crate::values;
 use crate::variables::{
@@ -126,15 +126,10 @@ impl Unit {
 
     /// Inputs of the other coupling are set but have no effect.
     pub(crate) fn tell_about_ignored_inputs(&mut self, log: &mut Log<'_>) {
+        let Inputs { reactions, impulses, .. } = &self.inputs;
         let (name, other, ignored) = match self.parameters.coupling {
-            Coupling::Reactions => {
-                ("reactions", "impulses", self.inputs.impulses.iter().any(|impulse| *impulse != 0.0))
-            }
-            Coupling::Impulses => (
-                "impulses",
-                "reactions",
-                self.inputs.reactions.iter().any(|input| *input != Input::default()),
-            ),
+            Coupling::Reactions => ("reactions", "impulses", impulses.iter().any(|impulse| *impulse != 0.0)),
+            Coupling::Impulses => ("impulses", "reactions", *reactions != [Input::default(); 8]),
         };
         if ignored && !self.ignored_told {
             self.ignored_told = true;
@@ -269,9 +264,9 @@ impl Model for Unit {
             V::BaseDisplacement => Along { base_displacement: 1.0, ..Along::default() },
             V::BaseVelocity => Along { base_velocity: 1.0, ..Along::default() },
             V::EnergyDamping => Along { energy: 1.0, ..Along::default() },
-            real_input!() => match Source::of(known)? {
-                Source::Base => Along { ground: 1.0, ..Along::default() },
-                Source::Wall(coupling, _) => {
+            real_input!() => match Owner::of(known)? {
+                Owner::Base => Along { ground: 1.0, ..Along::default() },
+                Owner::Wall(coupling, _) => {
                     let walls = self.inputs.weight(coupling, self.parameters.coupling);
                     Along { walls, ..Along::default() }
                 }

@@ -1,7 +1,5 @@
 //! A quick check of a record: baseline, unit, stated peak, missing start and tail; and of a scaled motion.
 
-use std::fmt;
-
 use crate::motion::{GroundMotion, floor_index};
 use crate::record::Record;
 use crate::unit::{STANDARD_GRAVITY, Unit};
@@ -51,17 +49,25 @@ pub struct Check {
 }
 
 /// A sign that a record or a scaled motion is not ready for use.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Warning {
     /// Every sample is zero.
+    #[error("every sample is 0")]
     NoMotion,
     /// The time step is longer than that of any record, so the times may not be in seconds.
+    #[error(
+        "step: {step} s between samples is longer than records have; are the times in milliseconds, or \
+         numbers of samples?"
+    )]
     Step {
         /// Time between samples (s).
         step: f64,
     },
     /// The ground still moves at the end.
+    #[error(
+        "baseline: the ground ends at {last:.3} m/s, its peak velocity is {peak:.3} m/s; correct the baseline"
+    )]
     Baseline {
         /// Velocity at the end (m/s).
         last: f64,
@@ -69,6 +75,11 @@ pub enum Warning {
         peak: f64,
     },
     /// The peak is out of the range of earthquakes, so the unit may be wrong.
+    #[error(
+        "unit: a peak of {} g is not credible; are the samples really in {unit}?{}",
+        if *peak < 1e-2 { format!("{peak:.3e}") } else { format!("{peak:.2}") },
+        credible(others)
+    )]
     Unit {
         /// Peak acceleration (g).
         peak: f64,
@@ -78,21 +89,25 @@ pub enum Warning {
         others: Vec<Unit>,
     },
     /// The peak of a motion is above or below that of any record, so its scale or a unit may be wrong.
+    #[error("motion: a peak of {}; check its scale, and the unit of its PGA or amplitude", strength(*peak))]
     Strength {
         /// Peak acceleration (m/s²).
         peak: f64,
     },
     /// The record starts in the middle of the shaking.
+    #[error("start: the first sample has {:.0} % of the peak; is the onset missing?", 100.0 * part)]
     MissingStart {
         /// First sample relative to the peak.
         part: f64,
     },
     /// The record ends in the middle of the shaking.
+    #[error("tail: the last second has {:.0} % of the peak; is the end missing?", 100.0 * part)]
     MissingTail {
         /// Largest sample of the last second relative to the peak.
         part: f64,
     },
     /// The file states another peak.
+    #[error("peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")]
     StatedPeak {
         /// Largest sample (m/s²).
         peak: f64,
@@ -100,8 +115,10 @@ pub enum Warning {
         stated: f64,
     },
     /// The direction is vertical.
+    #[error("vertical: this component is vertical, but records shake walls sideways; use a horizontal one")]
     Vertical,
     /// The file has more samples than it states.
+    #[error("samples: the file states {stated} and has {found}; the first {stated} are used")]
     Surplus {
         /// Number of samples in the file.
         found: usize,
@@ -109,8 +126,10 @@ pub enum Warning {
         stated: usize,
     },
     /// The line that closes the last channel is missing, with all its samples there.
+    #[error("end: the line that closes the channel is missing, all stated samples are there")]
     Unclosed,
     /// The times of the file, in another unit than seconds, have another step than the stated one.
+    #[error("step: the times of the file are {step} s apart; the {stated} s that you state count")]
     StatedStep {
         /// Step of the times (s).
         step: f64,
@@ -118,75 +137,26 @@ pub enum Warning {
         stated: f64,
     },
     /// A comment above the numbers names another unit than the one that the user has stated.
+    #[error("unit: a comment above the numbers says {unit}; the unit that you state counts")]
     Comment {
         /// The unit of the comment.
         unit: Unit,
     },
 }
 
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoMotion => write!(f, "every sample is 0"),
-            Self::Comment { unit } => {
-                write!(f, "unit: a comment above the numbers says {unit}; the unit that you state counts")
-            }
-            Self::StatedStep { step, stated } => write!(
-                f,
-                "step: the times of the file are {step} s apart; the {stated} s that you state count"
-            ),
-            Self::Step { step } => write!(
-                f,
-                "step: {step} s between samples is longer than records have; are the times in milliseconds, \
-                 or numbers of samples?"
-            ),
-            Self::Baseline { last, peak } => write!(
-                f,
-                "baseline: the ground ends at {last:.3} m/s, its peak velocity is {peak:.3} m/s; \
-                 correct the baseline"
-            ),
-            Self::Unit { peak, unit, others } => {
-                let shown = if *peak < 1e-2 { format!("{peak:.3e}") } else { format!("{peak:.2}") };
-                write!(f, "unit: a peak of {shown} g is not credible; are the samples really in {unit}?")?;
-                for (index, other) in others.iter().enumerate() {
-                    write!(f, "{} {other}", if index == 0 { " Credible would be" } else { " or" })?;
-                }
-                Ok(())
-            }
-            Self::Strength { peak } => {
-                let [low, high] = CREDIBLE_PEAK;
-                let in_g = peak / STANDARD_GRAVITY;
-                if in_g > high {
-                    write!(f, "motion: a peak of {peak:.1} m/s² is {in_g:.1} g, ")?;
-                    write!(f, "and few records have more than {high} g")?;
-                } else {
-                    write!(f, "motion: a peak of {peak:.1e} m/s² is {in_g:.1e} g, ")?;
-                    write!(f, "and records of strong motion have more than {low} g")?;
-                }
-                write!(f, "; check its scale, and the unit of its PGA or amplitude")
-            }
-            Self::MissingStart { part } => {
-                let percent = 100.0 * part;
-                write!(f, "start: the first sample has {percent:.0} % of the peak; is the onset missing?")
-            }
-            Self::MissingTail { part } => {
-                let percent = 100.0 * part;
-                write!(f, "tail: the last second has {percent:.0} % of the peak; is the end missing?")
-            }
-            Self::StatedPeak { peak, stated } => {
-                write!(f, "peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")
-            }
-            Self::Vertical => write!(
-                f,
-                "vertical: this component is vertical, but records shake walls sideways; use a horizontal one"
-            ),
-            Self::Surplus { found, stated } => {
-                write!(f, "samples: the file states {stated} and has {found}; the first {stated} are used")
-            }
-            Self::Unclosed => {
-                write!(f, "end: the line that closes the channel is missing, all stated samples are there")
-            }
-        }
+/// Lists the units that would give a credible peak.
+fn credible(units: &[Unit]) -> String {
+    let units: Vec<_> = units.iter().map(|unit| unit.name()).collect();
+    if units.is_empty() { String::new() } else { format!(" Credible would be {}", units.join(" or ")) }
+}
+
+/// Says of a peak (m/s²) what records have.
+fn strength(peak: f64) -> String {
+    let ([low, high], in_g) = (CREDIBLE_PEAK, peak / STANDARD_GRAVITY);
+    if in_g > high {
+        format!("{peak:.1} m/s² is {in_g:.1} g, and few records have more than {high} g")
+    } else {
+        format!("{peak:.1e} m/s² is {in_g:.1e} g, and records of strong motion have more than {low} g")
     }
 }
 

@@ -15,11 +15,10 @@ mod heading;
 pub use crate::error::Fault;
 pub use cells::{Numbers, Row, Thousands};
 pub use heading::Name;
-pub(crate) use heading::Said;
 
 use crate::error::excerpt;
-use crate::fields::{Line, lines};
-use cells::{Cells, Separator};
+use crate::fields::{Numbered, lines};
+use cells::{Separator, cells};
 
 /// What starts a comment.
 pub(crate) const COMMENTS: [char; 2] = ['#', '%'];
@@ -53,7 +52,7 @@ pub struct Columns<'a> {
     /// The last comment above the rows, where no line names the columns.
     remark: Vec<Name>,
     /// The line of the names, or else the first row.
-    heading: Line<'a>,
+    heading: Numbered<'a>,
     first_row: usize,
     separator: Separator,
     width: usize,
@@ -70,16 +69,15 @@ impl<'a> Columns<'a> {
     /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
     pub fn of_numbers(text: &'a str, is_first: impl Fn(&Name) -> bool, forms: &str) -> Result<Self, Fault> {
         let first = first_line(text, forms)?;
-        let titles: Vec<Line<'a>> =
+        let titles: Vec<Numbered<'a>> =
             content(text).take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES).collect();
-        refuse_other_comments(content(text).take(titles.len() + 1))?;
-        let bars = |line: &str| starts_a_number(line.trim_start_matches('|'));
-        refuse_bars(content(text).take(titles.len() + 1).filter(|(_, line)| bars(line)))?;
+        let is_row = |line: &str| starts_a_number(line.trim_start_matches('|'));
+        refuse_foreign(content(text).take(titles.len() + 1), is_row)?;
         let row = content(text).nth(titles.len()).filter(|(_, line)| starts_a_number(line));
         let of_row = row.map_or(Separator::None, |(_, line)| Separator::of_row(line));
         let width = row.map_or(0, |(_, line)| filled(of_row, line));
         let names = |line: &str| heading::names(line, Separator::of_names(line, false));
-        let is_heading = |&&(_, line): &&Line<'a>| {
+        let is_heading = |&&(_, line): &&Numbered<'a>| {
             let names = names(line);
             names.len() > 1 && is_first(&names[0])
         };
@@ -87,7 +85,7 @@ impl<'a> Columns<'a> {
             titles.last().filter(|(_, line)| titles.len() > 1 && heading::is_unit_row(&names(line)));
         let titles_only = &titles[..titles.len() - usize::from(unit_row.is_some())];
         let found = titles_only.last().filter(is_heading).or_else(|| titles_only.iter().find(is_heading));
-        let fits = |&&(_, line): &&Line<'a>| width > 1 && names(line).len() == width;
+        let fits = |&&(_, line): &&Numbered<'a>| width > 1 && names(line).len() == width;
         let found = found.or_else(|| titles_only.last().filter(fits));
         let has_commas = |line| Separator::of_names(line, false) == Separator::Comma;
         if let Some(row) = row.filter(|_| !found.is_some_and(|(_, line)| has_commas(line))) {
@@ -107,15 +105,9 @@ impl<'a> Columns<'a> {
             let remedy = "write rows of numbers below a line that names the columns";
             return Err(Fault::excerpt(first.0, forms, first.1, remedy));
         };
-        let mut columns = Self {
-            text,
-            names: Vec::new(),
-            remark: Vec::new(),
-            heading: (number, line),
-            first_row: number,
-            separator: of_row,
-            width,
-        };
+        let (heading, separator, remark) = ((number, line), of_row, Vec::new());
+        let mut columns =
+            Self { text, names: Vec::new(), remark, heading, first_row: number, separator, width };
         if of_row == Separator::None {
             // one column has a name of any number of words
             if let Some(&title) = titles.first() {
@@ -139,24 +131,14 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// [`Fault`] if there is no such line, or if two columns have one name.
     pub fn of_texts(text: &'a str, forms: &str) -> Result<Self, Fault> {
-        refuse_other_comments(content(text).take(1))?;
-        refuse_bars(content(text).take(1))?;
+        refuse_foreign(content(text).take(1), |_| true)?;
         let heading = first_line(text, forms)?;
         let separator = Separator::of_names(heading.1, true);
         let names = heading::names(heading.1, separator);
         if names.first().is_some_and(|name| name.written().is_empty()) {
             return Err(index_column(heading));
         }
-        let twin = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
-        if let Some((_, name)) = twin {
-            let found = format!("two columns {}", excerpt(name.text()));
-            return Err(Fault::new(
-                heading.0,
-                "columns with names of their own",
-                found,
-                "delete one of them",
-            ));
-        }
+        refuse_twins(&names, heading.0)?;
         let (first_row, width) = (heading.0 + 1, names.len());
         Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width })
     }
@@ -218,6 +200,29 @@ impl<'a> Columns<'a> {
         })
     }
 
+    /// Reads the numbers of a column; `take` takes each behind that of the first column, which is 0 where the
+    /// first column itself is read, and its line.
+    pub(crate) fn read(
+        &self,
+        column: usize,
+        mut take: impl FnMut(f64, f64, usize) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let (mut numbers, mut thousands) = (Numbers::new(self), Thousands::default());
+        for row in self.rows() {
+            let row = row?;
+            let mut cells = row.cells();
+            let mut first = 0.0;
+            if column > 0 {
+                first = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
+            }
+            let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
+            let value = numbers.real(&cell, row.line)?;
+            thousands.push(&cell, row.line);
+            take(first, value, row.line)?;
+        }
+        thousands.check()
+    }
+
     /// Finds the column to read beside the first: the one that is wanted by its name, or else the only one.
     /// Where there are more, it is the only one that states an acceleration while all others state something
     /// else. `first` is what the first column is, for messages.
@@ -233,21 +238,15 @@ impl<'a> Columns<'a> {
         }
         let is_wanted = |name: &Name| name.written() == wanted || name.text() == wanted;
         let mut matches = (1..self.names.len()).filter(|&column| is_wanted(&self.names[column]));
-        match (matches.next(), matches.next()) {
-            (Some(column), None) => Ok(column),
+        let (expected, found, remedy) = match (matches.next(), matches.next()) {
+            (Some(column), None) => return Ok(column),
             (None, _) if is_wanted(&self.names[0]) => {
-                let expected = format!("a column beside the first, {first}");
-                Err(Fault::excerpt(line, expected, wanted, "state the name of another column"))
+                (format!("a column beside the first, {first}"), wanted, "state the name of another column")
             }
-            (None, _) => {
-                let expected = format!("a column {}", excerpt(wanted));
-                Err(Fault::excerpt(line, expected, text, "state one of these columns"))
-            }
-            (Some(_), Some(_)) => {
-                let expected = format!("one column {}", excerpt(wanted));
-                Err(Fault::excerpt(line, expected, text, "give each column its own name"))
-            }
-        }
+            (None, _) => (format!("a column {}", excerpt(wanted)), text, "state one of these columns"),
+            _ => (format!("one column {}", excerpt(wanted)), text, "give each column its own name"),
+        };
+        Err(Fault::excerpt(line, expected, found, remedy))
     }
 
     /// Returns the name of the first column, or else what a comment above the rows calls it. Refuses an empty
@@ -293,10 +292,10 @@ impl<'a> Columns<'a> {
 }
 
 /// Refuses rows such as `0,5`, from the first one on: one number, or two.
-fn refuse_ambiguous_commas(text: &str, (line, first): Line<'_>, width: usize) -> Result<(), Fault> {
+fn refuse_ambiguous_commas(text: &str, (line, first): Numbered<'_>, width: usize) -> Result<(), Fault> {
     let mut rows = content(text).skip_while(|(number, _)| *number < line);
     let is_comma = Separator::of_row(first) == Separator::Comma && width == 2;
-    let is_clear = |(_, row): Line<'_>| row.contains(['.', '"']);
+    let is_clear = |(_, row): Numbered<'_>| row.contains(['.', '"']);
     if !is_comma || first.contains(char::is_whitespace) || rows.any(is_clear) {
         return Ok(());
     }
@@ -307,16 +306,9 @@ fn refuse_ambiguous_commas(text: &str, (line, first): Line<'_>, width: usize) ->
 }
 
 /// Makes the fault of a first column without a name.
-fn index_column((line, heading): Line<'_>) -> Fault {
+fn index_column((line, heading): Numbered<'_>) -> Fault {
     let remedy = "delete the first column, an index without a name (pandas: index=False)";
     Fault::excerpt(line, "a name for the first column", heading, remedy)
-}
-
-/// Refuses columns between bars.
-fn refuse_bars<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
-    let Some((number, line)) = lines.find(|(_, line)| line.contains('|')) else { return Ok(()) };
-    let expected = "columns between commas, semicolons, tabs or blanks";
-    Err(Fault::excerpt(number, expected, line, "`|` separates no columns: write one of these instead"))
 }
 
 /// Refuses two columns of one name.
@@ -330,7 +322,7 @@ fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
 
 /// Returns the lines that are no comments, from the first one with content on. `sep=;`, by which Excel knows
 /// the separator, counts as a comment.
-fn content(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+fn content(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     let content = lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)));
     content.skip_while(|(_, line)| line.chars().all(|c| c.is_whitespace() || matches!(c, ',' | ';' | '"')))
 }
@@ -340,27 +332,36 @@ fn is_separator_line(line: &str) -> bool {
 }
 
 /// Returns the first line that is no comment.
-fn first_line<'a>(text: &'a str, forms: &str) -> Result<Line<'a>, Fault> {
+fn first_line<'a>(text: &'a str, forms: &str) -> Result<Numbered<'a>, Fault> {
     content(text).next().ok_or_else(|| {
         let found = if lines(text).next().is_some() { "comments only" } else { "an empty file" };
         Fault::new(1, forms, found, "check that this is the right file")
     })
 }
 
-/// Refuses lines that start with the comment marks of other programs.
-fn refuse_other_comments<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
-    let is_other = |line: &str| OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark));
-    match lines.find(|(_, line)| is_other(line)) {
-        Some((number, line)) => Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT)),
-        None => Ok(()),
+/// Refuses comment marks of other programs, and bars between columns in lines that `is_row` knows.
+fn refuse_foreign<'a>(
+    lines: impl Iterator<Item = Numbered<'a>>,
+    is_row: impl Fn(&str) -> bool,
+) -> Result<(), Fault> {
+    for (number, line) in lines {
+        if OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark)) {
+            return Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT));
+        }
+        if line.contains('|') && is_row(line) {
+            let expected = "columns between commas, semicolons, tabs or blanks";
+            let remedy = "`|` separates no columns: write one of these instead";
+            return Err(Fault::excerpt(number, expected, line, remedy));
+        }
     }
+    Ok(())
 }
 
 const OTHER_COMMENT: &str = "comments start with # or %; start this line with # if it is one";
 
 /// Counts the cells of a row without the empty ones at its end.
 fn filled(separator: Separator, row: &str) -> usize {
-    let filled = Cells::new(row, separator).enumerate().filter(|(_, cell)| !cell.is_empty());
+    let filled = cells(row, separator).enumerate().filter(|(_, cell)| !cell.is_empty());
     filled.last().map_or(0, |(at, _)| at + 1)
 }
 

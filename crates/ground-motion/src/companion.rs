@@ -6,9 +6,7 @@ use crate::error::{Fault, GroundMotionError};
 use crate::fields::{lines, real};
 use crate::options::RecordOptions;
 use crate::record::read_bounded;
-
-/// Largest deviation of a time from a uniform step, relative to it.
-const TOLERANCE: f64 = 0.01;
+use crate::times::Times;
 
 /// Returns whether a file has the times of a record beside it, as `dts_3.csv` of `acc_3.csv`; it is no
 /// record.
@@ -32,15 +30,16 @@ pub fn is_listed(path: &Path) -> bool {
 }
 
 /// The times beside a record.
-pub(crate) struct Times {
+pub(crate) struct Companion {
     name: String,
-    step: f64,
+    /// Time between samples (s).
+    pub(crate) step: f64,
     /// How many there are; 1 where the file has the step alone.
     count: usize,
     last_line: usize,
 }
 
-impl Times {
+impl Companion {
     /// Reads the times beside a record, if there are any and no step is stated.
     pub(crate) fn beside(path: &Path, options: &RecordOptions) -> Result<Option<Self>, GroundMotionError> {
         let times = beside(path, "acc", "dts").filter(|times| options.step.is_none() && times.is_file());
@@ -51,11 +50,6 @@ impl Times {
             Ok((step, count, last_line)) => Ok(Some(Self { name, step, count, last_line })),
             Err(fault) => Err(fault.in_file(&name)),
         }
-    }
-
-    /// Adds their step to what is stated of the record.
-    pub(crate) fn completed(&self, options: &RecordOptions) -> RecordOptions {
-        RecordOptions { step: Some(self.step), ..options.clone() }
     }
 
     /// Refuses a record with another number of samples.
@@ -88,33 +82,19 @@ const REMEDY: &str = "correct the times, or state the step as `step` (on the com
 /// Finds the uniform step of times, one a line, or the one number that is the step itself; how many there
 /// are, and the last line.
 fn parsed(text: &str) -> Result<(f64, usize, usize), Fault> {
-    let mut times: Vec<(usize, f64)> = Vec::new();
+    let mut times = Times::default();
+    let uneven = |fault: Fault| Fault { remedy: REMEDY.to_owned(), ..fault };
     for (line, text) in lines(text) {
         let time = real(text).filter(|time| time.is_finite());
         let time = time.ok_or_else(|| Fault::excerpt(line, "one time in s", text, REMEDY))?;
-        if let Some((_, last)) = times.last().filter(|(_, last)| time <= *last) {
-            return Err(Fault::new(line, format!("a time after {last} s"), format!("{time} s"), REMEDY));
-        }
-        times.push((line, time));
+        times.push(time, line).map_err(uneven)?;
     }
-    let (Some(&(first_line, first)), Some(&(last_line, last))) = (times.first(), times.last()) else {
+    let Some(&(last_line, last)) = times.0.last() else {
         return Err(Fault::new(1, "times in s, one a line", "an empty file", REMEDY));
     };
-    if times.len() == 1 && first <= 0.0 {
-        return Err(Fault::new(first_line, "a step above 0 s", format!("{first} s"), REMEDY));
+    match times.uniform().map_err(uneven)? {
+        Some((_, step)) => Ok((step, times.0.len(), last_line)),
+        None if last > 0.0 => Ok((last, 1, last_line)),
+        None => Err(Fault::new(last_line, "a step above 0 s", format!("{last} s"), REMEDY)),
     }
-    let step = if times.len() == 1 { first } else { (last - first) / (times.len() - 1) as f64 };
-    for (index, &(line, time)) in times.iter().enumerate() {
-        let due = first + index as f64 * step;
-        if (time - due).abs() > TOLERANCE * step {
-            return Err(Fault::new(
-                line,
-                format!("uniform times, here {due} s"),
-                format!("{time} s"),
-                REMEDY,
-            ));
-        }
-    }
-    // decimal fractions are quotients of their sums only up to rounding
-    Ok((format!("{step:.9e}").parse().unwrap_or(step), times.len(), last_line))
 }

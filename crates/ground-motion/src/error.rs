@@ -129,6 +129,16 @@ impl Fault {
         Self::new(line, expected, excerpt(found), remedy)
     }
 
+    /// Makes the fault of something wrong in a header, which it quotes.
+    pub(crate) fn in_header(line: usize, expected: impl Into<String>, found: &str) -> Self {
+        Self::excerpt(line, expected, found, "correct the header")
+    }
+
+    /// Makes the fault of something that a header does not have.
+    pub(crate) fn missing(line: usize, expected: impl Into<String>) -> Self {
+        Self::new(line, expected, "none", "complete the header")
+    }
+
     pub(crate) fn in_file(self, file: &str) -> GroundMotionError {
         let Self { line, expected, found, remedy } = self;
         GroundMotionError::Content { file: file.to_owned(), line, expected, found, remedy }

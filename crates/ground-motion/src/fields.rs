@@ -1,19 +1,20 @@
 //! Lines, words and numbers of a record: in free form, and in the fixed widths that Fortran wrote.
 
 use crate::error::{CUT_SHORT, DAMAGED, Fault, TOO_MANY};
+use crate::motion::floor_index;
 use crate::quantity::Quantity;
 
 /// A line and its number, from 1.
-pub(crate) type Line<'a> = (usize, &'a str);
+pub(crate) type Numbered<'a> = (usize, &'a str);
 
 /// Returns the lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or
 /// `\r\r\n`; in a text without `\n`, as old Macs wrote it, `\r`.
-pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
 /// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
-pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     let end = if text.contains('\n') { '\n' } else { '\r' };
     let numbered = text.split(end).enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
@@ -43,6 +44,20 @@ pub(crate) fn leading_number(text: &str) -> (&str, &str) {
         return ("", text);
     }
     text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
+}
+
+/// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
+pub(crate) fn touching(word: &str) -> impl Iterator<Item = &str> {
+    let mut rest = word;
+    std::iter::from_fn(move || {
+        let bytes = rest.as_bytes();
+        let is_start = |at: &usize| {
+            matches!(bytes[*at], b'+' | b'-') && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
+        };
+        let (number, after) = rest.split_at((1..bytes.len()).find(is_start).unwrap_or(bytes.len()));
+        rest = after;
+        Some(number).filter(|number| !number.is_empty())
+    })
 }
 
 /// Reads a number that is finite and above 0.
@@ -87,6 +102,11 @@ pub(crate) fn check_count(
     let expected = format!("{stated} samples, as {stated_by} says");
     let remedy = if found < stated { CUT_SHORT } else { TOO_MANY };
     Err(Fault::new(last_line, expected, format!("{found} up to the end"), remedy))
+}
+
+/// Makes the fault of numbers behind the last one.
+fn too_many((number, text): Numbered<'_>, count: usize, stated: usize) -> Fault {
+    Fault::excerpt(number, format!("an end after {count} numbers, as line {stated} says"), text, DAMAGED)
 }
 
 /// Returns half a unit of the last decimal that a number is written with: what rounding may have changed.
@@ -148,7 +168,7 @@ impl Layout {
     /// the line that says how many.
     pub(crate) fn numbers<'a>(
         self,
-        lines: &mut impl Iterator<Item = Line<'a>>,
+        lines: &mut impl Iterator<Item = Numbered<'a>>,
         count: usize,
         stated: usize,
     ) -> Result<(Vec<f64>, usize), Fault> {
@@ -167,8 +187,7 @@ impl Layout {
                     continue;
                 }
                 if numbers.len() == count {
-                    let expected = format!("an end after {count} numbers, as line {stated} says");
-                    return Err(Fault::excerpt(number, expected, field, DAMAGED));
+                    return Err(too_many((number, field), count, stated));
                 }
                 numbers.push(value.ok_or_else(|| {
                     let expected = format!(
@@ -183,19 +202,26 @@ impl Layout {
         Ok((numbers, last_line))
     }
 
+    /// Returns integer `place` of a header, from 1, as a count; the integers stand below line `above`.
+    pub(crate) fn count_among(self, integers: &[f64], place: usize, above: usize) -> Result<usize, Fault> {
+        let value = integers[place - 1];
+        if value >= 0.0 && value.fract() == 0.0 {
+            return Ok(floor_index(value));
+        }
+        let line = above + place.div_ceil(self.per_line);
+        Err(Fault::new(line, format!("a count as integer {place}"), value.to_string(), "correct the header"))
+    }
+
     /// Refuses more numbers where a block should have ended.
     pub(crate) fn check_ended(
         self,
-        next: Option<Line<'_>>,
+        next: Option<Numbered<'_>>,
         count: usize,
         stated: usize,
     ) -> Result<(), Fault> {
         let Some((number, line)) = next else { return Ok(()) };
         match self.fields(line).next() {
-            Some(field) if real(field).is_some() => {
-                let expected = format!("an end after {count} numbers, as line {stated} says");
-                Err(Fault::excerpt(number, expected, line.trim(), DAMAGED))
-            }
+            Some(field) if real(field).is_some() => Err(too_many((number, line.trim()), count, stated)),
             _ => Ok(()),
         }
     }

@@ -53,17 +53,10 @@ pub(crate) const END_OF_FILE: u8 = 0x1a;
 /// # Errors
 /// [`Fault`] if the bytes are not UTF-8.
 pub fn utf8_text(bytes: Vec<u8>, what: &str) -> std::result::Result<String, Fault> {
-    if is_utf16(&bytes) {
-        return Err(utf16());
-    }
+    let expected = "text in UTF-8";
+    check_is_text(&bytes, expected, &format!("this is a binary file: give {what}"))?;
     String::from_utf8(bytes).map_err(|error| {
-        let bytes = error.as_bytes();
-        let expected = "text in UTF-8";
-        if let Some(at) = strange_byte(bytes) {
-            let found = format!("the byte 0x{:02x}, as in a binary file", bytes[at]);
-            return Fault::new(line_of(bytes, at), expected, found, format!("give {what}"));
-        }
-        let at = error.utf8_error().valid_up_to();
+        let (bytes, at) = (error.as_bytes(), error.utf8_error().valid_up_to());
         let found = format!("the byte 0x{:02x}, as in Windows-1252 or Latin-1", bytes[at]);
         Fault::new(line_of(bytes, at), expected, found, SAVE_AS_UTF8)
     })
@@ -72,7 +65,7 @@ pub fn utf8_text(bytes: Vec<u8>, what: &str) -> std::result::Result<String, Faul
 const SAVE_AS_UTF8: &str = "save the file as UTF-8 (Excel: \"CSV UTF-8\")";
 
 /// Returns whether bytes are UTF-16: by their mark, or by a zero beside each of the first letters.
-pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+fn is_utf16(bytes: &[u8]) -> bool {
     let is_letter = |byte: u8| matches!(byte, b'\t' | b'\n' | b'\r' | 0x20..=0x7e);
     match *bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
@@ -81,18 +74,18 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     }
 }
 
-/// Makes the fault of a file in UTF-16.
-pub(crate) fn utf16() -> Fault {
-    Fault::new(1, "text in UTF-8", "UTF-16, which Excel calls Unicode text", SAVE_AS_UTF8)
-}
-
-/// Finds the first byte that no text has.
-pub(crate) fn strange_byte(bytes: &[u8]) -> Option<usize> {
+/// Refuses bytes that are no text in UTF-8 or another encoding with ASCII; `expected` and `remedy` are the
+/// words of the message about a byte that no text has.
+pub(crate) fn check_is_text(bytes: &[u8], expected: &str, remedy: &str) -> std::result::Result<(), Fault> {
+    if is_utf16(bytes) {
+        return Err(Fault::new(1, "text in UTF-8", "UTF-16, which Excel calls Unicode text", SAVE_AS_UTF8));
+    }
     let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80..);
-    bytes.iter().position(|&byte| !is_text(byte))
+    let Some(at) = bytes.iter().position(|&byte| !is_text(byte)) else { return Ok(()) };
+    Err(Fault::new(line_of(bytes, at), expected, format!("the byte 0x{:02x}", bytes[at]), remedy))
 }
 
 /// Returns the line, from 1, of a place in bytes.
-pub(crate) fn line_of(bytes: &[u8], at: usize) -> usize {
+fn line_of(bytes: &[u8], at: usize) -> usize {
     bytes[..at].split(|&byte| byte == b'\n').count()
 }

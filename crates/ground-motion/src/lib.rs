@@ -41,6 +41,7 @@ pub mod spectrum;
 mod spectrum_file;
 mod storeys;
 mod synthetic;
+mod times;
 mod unit;
 mod vertical;
 

@@ -25,9 +25,20 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// Finds the unit of a file that writes `word` on `line`, as [`stated_unit`] does.
+    /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the
+    /// user states counts; where it is one, of whatever quantity, the user's must not contradict it.
     pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
-        stated_unit(self.unit, word, line)
+        match (Quantity::of(word), self.unit) {
+            (Some(Quantity::Acceleration(unit)), Some(given)) if unit != given => {
+                let expected = format!("the stated unit {given}");
+                let remedy = "state no unit (leave out --unit): the file has its own";
+                Err(Fault::new(line, expected, unit.name(), remedy))
+            }
+            (Some(Quantity::Acceleration(unit)), _) => Ok(unit),
+            (Some(other), _) => Err(other.refused(word, line)),
+            (None, Some(given)) => Ok(given),
+            (None, None) => Err(Fault::excerpt(line, "a unit of acceleration", word, STATE_THE_UNIT)),
+        }
     }
 
     /// Refuses a stated step that is not the file's own.
@@ -46,22 +57,6 @@ impl RecordOptions {
 pub(crate) fn is_close(stated: f64, step: f64) -> bool {
     const TOLERANCE: f64 = 1e-3;
     (stated - step).abs() <= TOLERANCE * step
-}
-
-/// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the user
-/// states counts; where it is one, of whatever quantity, the user's must not contradict it.
-pub(crate) fn stated_unit(given: Option<Unit>, word: &str, line: usize) -> Result<Unit, Fault> {
-    match (Quantity::of(word), given) {
-        (Some(Quantity::Acceleration(unit)), Some(given)) if unit != given => {
-            let expected = format!("the stated unit {given}");
-            let remedy = "state no unit (leave out --unit): the file has its own";
-            Err(Fault::new(line, expected, unit.name(), remedy))
-        }
-        (Some(Quantity::Acceleration(unit)), _) => Ok(unit),
-        (Some(other), _) => Err(other.refused(word, line)),
-        (None, Some(given)) => Ok(given),
-        (None, None) => Err(Fault::excerpt(line, "a unit of acceleration", word, STATE_THE_UNIT)),
-    }
 }
 
 /// The remedy for a file whose unit is not known.

@@ -3,8 +3,8 @@
 use std::iter::Peekable;
 
 use crate::check::Warning;
-use crate::error::{DAMAGED, Fault};
-use crate::fields::{Layout, Line, check_count, leading_real, rounding};
+use crate::error::Fault;
+use crate::fields::{Layout, Numbered, leading_real, rounding};
 use crate::unit::Unit;
 
 /// How many lines of a header are kept, and how many characters of each.
@@ -50,16 +50,15 @@ impl Parsed {
         }
     }
 
-    /// Takes the next sample, the value of a field on a line; refuses one that is not finite.
+    /// Takes the next sample, a number on a line; where it is none, or not finite in m/s², `fault` says so.
     pub(crate) fn push(
         &mut self,
         value: Option<f64>,
         line: usize,
-        field: &str,
-        expected: &str,
+        fault: impl FnOnce() -> Fault,
     ) -> Result<(), Fault> {
         let sample = value.map(|value| self.unit.to_si(value)).filter(|sample| sample.is_finite());
-        self.samples.push(sample.ok_or_else(|| Fault::excerpt(line, expected, field, DAMAGED))?);
+        self.samples.push(sample.ok_or_else(fault)?);
         self.last_line = line;
         Ok(())
     }
@@ -68,7 +67,7 @@ impl Parsed {
     pub(crate) fn read<'a>(
         &mut self,
         layout: Layout,
-        lines: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+        lines: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
         count: usize,
         stated: usize,
     ) -> Result<(), Fault> {
@@ -76,21 +75,6 @@ impl Parsed {
         self.samples = numbers.into_iter().map(|value| self.unit.to_si(value)).collect();
         self.last_line = self.last_line.max(last_line);
         layout.check_ended(lines.peek().copied(), count, stated)
-    }
-
-    /// Refuses a number of samples other than the one that `stated_by` says.
-    pub(crate) fn check_count(&self, stated: usize, stated_by: &str) -> Result<(), Fault> {
-        check_count(self.samples.len(), stated, stated_by, self.last_line)
-    }
-
-    /// Leaves out zeros with which the last line was filled up: `line_start` samples precede that line, and
-    /// all beyond `stated` are zeros on it.
-    pub(crate) fn trim_padding(&mut self, stated: usize, line_start: usize) {
-        let is_padding = line_start < stated
-            && self.samples.get(stated..).is_some_and(|rest| rest.iter().all(|a| *a == 0.0));
-        if is_padding {
-            self.samples.truncate(stated);
-        }
     }
 
     /// Takes the peak that a header states, in the unit of the file and rounded as it is written there. A

@@ -99,12 +99,8 @@ impl Pulse {
         if let Some(duration) = duration {
             check_positive("duration [s]", duration)?;
         }
-        let end = match (self.end(), duration) {
-            (Some(end), Some(duration)) => end.min(duration),
-            (Some(end), None) => end,
-            (None, Some(duration)) => duration,
-            (None, None) => return Err(GroundMotionError::Endless),
-        };
+        let ends = self.end().into_iter().chain(duration);
+        let end = ends.reduce(f64::min).ok_or(GroundMotionError::Endless)?;
         // The last sample lies on the end: a jump there must not turn into a ramp.
         let intervals = (end / longest_step).ceil().max(1.0);
         if intervals >= MAX_SAMPLES as f64 {

@@ -1,4 +1,4 @@
-//! What files state where a unit of acceleration should stand.
+//! The quantity that a unit measures: an acceleration, or what files state in its place.
 
 use crate::error::Fault;
 use crate::unit::Unit;
@@ -15,6 +15,8 @@ pub(crate) enum Quantity {
     /// A time: how many seconds the unit has.
     Time(f64),
     Frequency,
+    /// A response spectrum, which names say and units do not.
+    Spectrum,
     /// Anything else that is a unit, or a unit times a factor.
     Other,
 }
@@ -106,7 +108,7 @@ impl Quantity {
             Self::Acceleration(_) | Self::OtherAcceleration(..) => "acceleration",
             Self::Time(_) => "time",
             Self::Frequency => "frequency",
-            Self::Other => "another quantity",
+            Self::Spectrum | Self::Other => "another quantity",
         }
     }
 
@@ -121,9 +123,7 @@ impl Quantity {
                     self.noun()
                 )
             }
-            Self::Acceleration(_) | Self::Time(_) | Self::Frequency | Self::Other => {
-                "correct the unit, or use another column".to_owned()
-            }
+            _ => "correct the unit, or use another column".to_owned(),
         };
         let remedy = format!(
             "{remedy}; m/s2, cm/s2, mm/s2 and g are read, and a unit that you state does not override that \
@@ -169,24 +169,11 @@ pub(crate) fn plain(text: &str) -> String {
 /// Splits a plain unit such as `cm/s2` into its length and the power of the time below it. Names of columns
 /// have `cm_s2` and `cms2`.
 pub(crate) fn parts(plain: &str) -> Option<(&str, u8)> {
-    let below = [
-        ("/s2", 2),
-        ("/s/s", 2),
-        ("/ss", 2),
-        ("s-2", 2),
-        ("_s2", 2),
-        ("_s_2", 2),
-        ("_s_s", 2),
-        ("_s-2", 2),
-        ("ps2", 2),
-        ("s2", 2),
-        ("ss", 2),
-        ("/s", 1),
-        ("s-1", 1),
-        ("_s", 1),
-        ("s", 1),
-    ];
-    let found = below.iter().find_map(|(time, power)| Some((plain.strip_suffix(time)?, *power)));
-    let (length, power) = found.unwrap_or((plain, 0));
+    const SQUARED: [&str; 11] =
+        ["/s2", "/s/s", "/ss", "s-2", "_s2", "_s_2", "_s_s", "_s-2", "ps2", "s2", "ss"];
+    const PLAIN: [&str; 4] = ["/s", "s-1", "_s", "s"];
+    let without = |times: &[&str]| times.iter().find_map(|time| plain.strip_suffix(time));
+    let squared = without(&SQUARED).map(|length| (length, 2));
+    let (length, power) = squared.or(without(&PLAIN).map(|length| (length, 1))).unwrap_or((plain, 0));
     size_of(length, &LENGTHS).map(|_| (length, power))
 }

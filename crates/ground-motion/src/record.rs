@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::companion::Times;
+use crate::companion::Companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
-use crate::file::{END_OF_FILE, is_utf16, line_of, read_file, strange_byte, utf16};
+use crate::file::{END_OF_FILE, check_is_text, read_file};
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
@@ -46,8 +46,7 @@ pub struct Record {
 
 impl Parsed {
     fn into_record(self, format: Format, stated_step: Option<f64>) -> Result<Record, Fault> {
-        let Self { step, samples, unit, first_time, channel, last_line, .. } = self;
-        let Self { stated_peak, peak_rounding, warnings, is_vertical, header, .. } = self;
+        let Self { step, samples, last_line, .. } = self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
             let remedy = "check that the file is complete";
@@ -66,14 +65,14 @@ impl Parsed {
         Ok(Record {
             motion,
             format,
-            unit,
-            first_time,
-            channel,
-            stated_peak,
-            peak_rounding,
-            warnings,
-            is_vertical,
-            header,
+            unit: self.unit,
+            first_time: self.first_time,
+            channel: self.channel,
+            stated_peak: self.stated_peak,
+            peak_rounding: self.peak_rounding,
+            warnings: self.warnings,
+            is_vertical: self.is_vertical,
+            header: self.header,
         })
     }
 }
@@ -102,8 +101,9 @@ pub fn read_channels(
     let path = path.as_ref();
     let name = path.display().to_string();
     let bytes = read_bounded(path, &name)?;
-    let Some(times) = Times::beside(path, options)? else { return parse_channels(&name, bytes, options) };
-    let records = parse_channels(&name, bytes, &times.completed(options))?;
+    let Some(times) = Companion::beside(path, options)? else { return parse_channels(&name, bytes, options) };
+    let options = RecordOptions { step: Some(times.step), ..options.clone() };
+    let records = parse_channels(&name, bytes, &options)?;
     records.iter().try_for_each(|record| times.check_count(record.motion.samples().len()))?;
     Ok(records)
 }
@@ -148,9 +148,13 @@ pub fn parse_channels(
 
 /// Finds the format of a text and reads its channels.
 fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format, Vec<Parsed>), Fault> {
-    check_is_text(&bytes)?;
+    let remedy = "binary files are not read: save the record as plain text (UTF-8)";
+    check_is_text(&bytes, "text", remedy)?;
     let decoded = decode(bytes);
     let text = sound_part(&decoded)?;
+    if text.trim().is_empty() {
+        return Err(Fault::new(1, "a record", "an empty file", "check that this is the right file"));
+    }
     let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
     let mut parsed = format.parse(text, options)?;
     if vertical::by_name(name, format, options) {
@@ -210,16 +214,6 @@ fn sound_part(text: &str) -> Result<&str, Fault> {
             Err(Fault::new(line, "text", "the byte 0x1a, the end of a file", "keep one record in the file"))
         }
     }
-}
-
-/// Refuses bytes that are not text.
-fn check_is_text(bytes: &[u8]) -> Result<(), Fault> {
-    if is_utf16(bytes) {
-        return Err(utf16());
-    }
-    let Some(at) = strange_byte(bytes) else { return Ok(()) };
-    let remedy = "binary files are not read: save the record as plain text (UTF-8)";
-    Err(Fault::new(line_of(bytes, at), "text", format!("the byte 0x{:02x}", bytes[at]), remedy))
 }
 
 /// Decodes UTF-8, or else Latin-1, in which old headers name stations.

@@ -114,7 +114,7 @@ impl Spectrum {
         let limit = "at most 500 periods of the oscillator";
         check_parameter(pieces <= PIECES_PER_STEP, "time step in s", motion.step(), limit)?;
         let oscillator = Oscillator::new(2.0 * self.damping * omega, omega * omega);
-        let mut piece = Piece::new(oscillator, motion.step() / pieces);
+        let mut piece = Recursion::new(oscillator, motion.step() / pieces);
         let mut search = Search { state: [0.0; 2], largest: 0.0 };
         for pair in motion.samples().windows(2) {
             let slope = (pair[1] - pair[0]) / pieces;
@@ -125,7 +125,7 @@ impl Spectrum {
             search.largest = search.largest.max(search.state[0].abs());
         }
         if self.maxima == Maxima::Everywhere {
-            piece = Piece::new(oscillator, period / PIECES_PER_PERIOD);
+            piece = Recursion::new(oscillator, period / PIECES_PER_PERIOD);
             for _ in 0..floor_index(PIECES_PER_PERIOD) {
                 search.follow_piece(&piece, [0.0; 2], self.maxima);
             }
@@ -166,7 +166,7 @@ struct Search {
 impl Search {
     /// Follows the oscillator through one piece, in which the ground acceleration (m/s²) is linear between
     /// the two values of `ground`.
-    fn follow_piece(&mut self, piece: &Piece, ground: [f64; 2], maxima: Maxima) {
+    fn follow_piece(&mut self, piece: &Recursion, ground: [f64; 2], maxima: Maxima) {
         let (start, end) = (self.state, piece.state_at_end(self.state, ground));
         self.state = end;
         if maxima == Maxima::AtSamples || start[1] * end[1] >= 0.0 {
@@ -183,7 +183,7 @@ impl Search {
 
 /// The recursion over a short time, from a state (u, u̇) and the ground acceleration at both ends to the next
 /// state.
-struct Piece {
+struct Recursion {
     oscillator: Oscillator,
     /// Duration (s).
     duration: f64,
@@ -192,7 +192,7 @@ struct Piece {
     factors: [[f64; 4]; 2],
 }
 
-impl Piece {
+impl Recursion {
     fn new(oscillator: Oscillator, duration: f64) -> Self {
         let (c, k) = (oscillator.damping(), oscillator.stiffness());
         let Green { g, h, j, .. } = oscillator.green(duration);

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Said, Thousands};
+use crate::columns::{Columns, Name};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
-use crate::options::stated_unit;
+use crate::options::RecordOptions;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
 
@@ -96,24 +96,19 @@ impl SpectrumFile {
                 columns.named(column_number).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some())
             }
         };
-        let stated = unit.map(|word| stated_unit(given, word, columns.line()));
+        let options = RecordOptions { unit: given, ..RecordOptions::default() };
+        let stated = unit.map(|word| options.unit_of(word, columns.line()));
         let Some(unit) = stated.transpose()?.or(given) else {
             let remedy =
                 "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";
             return Err(Fault::excerpt(columns.line(), "a unit of Sa", columns.heading(), remedy));
         };
         let (mut points, mut lines) = (Vec::new(), Vec::new());
-        let (mut numbers, mut thousands) = (Numbers::new(&columns), Thousands::default());
-        for row in columns.rows() {
-            let row = row?;
-            let mut cells = row.cells();
-            let period = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
-            let cell = cells.nth(column_number - 1).unwrap_or_default();
-            points.push((period, unit.to_si(numbers.real(&cell, row.line)?)));
-            thousands.push(&cell, row.line);
-            lines.push(row.line);
-        }
-        thousands.check()?;
+        columns.read(column_number, |period, sa, line| {
+            points.push((period, unit.to_si(sa)));
+            lines.push(line);
+            Ok(())
+        })?;
         refuse_milliseconds(&columns, &points, &lines)?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
         let damping = columns.named(column_number).and_then(|name| stated_damping(name.written()));
@@ -135,29 +130,19 @@ impl SpectrumFile {
     }
 }
 
-/// What a word of a name says about the first column.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Abscissa {
-    Period,
-    Frequency,
-}
-
-impl Abscissa {
-    fn of(name: &Name) -> Option<Self> {
-        let words = name.words();
-        words.iter().find_map(|word| match word.as_str() {
-            "t" | "tn" => Some(Self::Period),
-            "f" | "freq" | "frequency" | "frequencies" | "omega" | "ω" | "w" | "hz" => Some(Self::Frequency),
-            word if word.starts_with("period") => Some(Self::Period),
-            _ => None,
-        })
-    }
+/// Returns the quantity that a word of a name says of the first column.
+fn abscissa(name: &Name) -> Option<Quantity> {
+    name.words().iter().find_map(|word| match word.as_str() {
+        "t" | "tn" => Some(Quantity::Time(1.0)),
+        "f" | "freq" | "frequency" | "frequencies" | "omega" | "ω" | "w" | "hz" => Some(Quantity::Frequency),
+        word if word.starts_with("period") => Some(Quantity::Time(1.0)),
+        _ => None,
+    })
 }
 
 /// Returns whether a column may be the first of a spectrum.
 fn is_abscissa(name: &Name) -> bool {
-    let quantity = name.unit().and_then(Quantity::of);
-    matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
+    matches!(name.quantity(), Some(Quantity::Time(_) | Quantity::Frequency)) || abscissa(name).is_some()
 }
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
@@ -182,11 +167,7 @@ fn stated_damping(name: &str) -> Option<f64> {
 
 /// Refuses long periods under a name without a unit.
 fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[usize]) -> Result<(), Fault> {
-    let is_seconds = |name: &Name| {
-        let words = name.words();
-        name.unit().or(words.last().map(String::as_str)).and_then(Quantity::of) == Some(Quantity::Time(1.0))
-    };
-    if columns.first().is_some_and(is_seconds) {
+    if matches!(columns.first().and_then(Name::stated), Some((_, Quantity::Time(1.0)))) {
         return Ok(());
     }
     let Some(at) = points.iter().position(|(period, _)| *period > LONGEST_PERIOD) else { return Ok(()) };
@@ -205,7 +186,7 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
             .is_some_and(|word| word.starts_with("acc") || ["a", "ag", "ax", "ay"].contains(&word.as_str()))
     };
     let is_time = first.words().first().is_some_and(|word| word == "time") || first.text() == "t";
-    if !is_time || name.says() == Some(Said::Spectrum) || !is_of_record(name) {
+    if !is_time || name.says() == Some(Quantity::Spectrum) || !is_of_record(name) {
         return Ok(());
     }
     let remedy = "this is a record: give the spectrum of its response, or the record as such; name periods \
@@ -216,11 +197,11 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 /// Refuses a first column that is not the period in seconds.
 fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
     let Some(name) = columns.checked_first()? else { return Ok(()) };
-    let remedy = match (name.stated(), Abscissa::of(name)) {
-        (Some((_, Quantity::Frequency)), _) | (_, Some(Abscissa::Frequency)) => {
+    let remedy = match (name.stated(), abscissa(name)) {
+        (Some((_, Quantity::Frequency)), _) | (_, Some(Quantity::Frequency)) => {
             "write periods instead of frequencies: T = 1/f, and T = 2π/ω".to_owned()
         }
-        (Some((_, Quantity::Time(1.0))), _) | (None, Some(Abscissa::Period)) => return Ok(()),
+        (Some((_, Quantity::Time(1.0))), _) | (None, Some(_)) => return Ok(()),
         (Some((unit, Quantity::Time(seconds))), _) => format!("convert the periods: 1 {unit} is {seconds} s"),
         // a comment need not name the columns
         (_, None) if columns.names().is_empty() => return Ok(()),

@@ -147,12 +147,14 @@ impl Storeys {
             return Err(GroundMotionError::TooManySamples { found: intervals * parts, limit });
         }
         let (parts, intervals) = (floor_index(parts), floor_index(intervals));
-        let mut nodes = Nodes::new(ground.step() / parts as f64, intervals * parts + 1);
+        let mut accelerations = vec![0.0; intervals * parts + 1];
+        let mut displacement = accelerations.clone();
         for mode in &self.modes {
-            mode.add(ground, [intervals, parts], mode.shape[floor - 1], &mut nodes);
+            let nodes = [&mut accelerations[..], &mut displacement];
+            mode.add(ground, [intervals, parts], mode.shape[floor - 1], nodes);
         }
-        let acceleration = GroundMotion::new(nodes.step, nodes.accelerations)?;
-        Ok(FloorMotion { acceleration, displacement: nodes.displacements })
+        let acceleration = GroundMotion::new(ground.step() / parts as f64, accelerations)?;
+        Ok(FloorMotion { acceleration, displacement })
     }
 }
 
@@ -192,24 +194,19 @@ fn modes(storeys: &[Storey]) -> Result<Vec<Mode>, GroundMotionError> {
     Ok(modes)
 }
 
-/// Nodes of a floor's motion.
-struct Nodes {
-    step: f64,
-    accelerations: Vec<f64>,
-    displacements: Vec<f64>,
-}
-
-impl Nodes {
-    fn new(step: f64, count: usize) -> Self {
-        Self { step, accelerations: vec![0.0; count], displacements: vec![0.0; count] }
-    }
-}
-
 impl Mode {
-    /// Adds the mode, multiplied by `factor`, over `intervals` of the record in `parts` steps each.
-    fn add(&self, ground: &GroundMotion, [intervals, parts]: [usize; 2], factor: f64, nodes: &mut Nodes) {
+    /// Adds the mode, multiplied by `factor`, to the acceleration and the displacement at each node, over
+    /// `intervals` of the record in `parts` steps each.
+    fn add(
+        &self,
+        ground: &GroundMotion,
+        [intervals, parts]: [usize; 2],
+        factor: f64,
+        [accelerations, displacements]: [&mut [f64]; 2],
+    ) {
+        let step = ground.step() / parts as f64;
         let (c, k) = (2.0 * self.damping_ratio * self.frequency, self.frequency * self.frequency);
-        let rows = Oscillator::new(c, k).propagator(nodes.step);
+        let rows = Oscillator::new(c, k).propagator(step);
         let samples = ground.samples();
         // the ground stands still after its last sample
         let ends = |interval: usize| match samples.get(interval..interval + 2) {
@@ -224,10 +221,10 @@ impl Mode {
             let rate = slope([from, to]);
             for part in 0..parts {
                 let index = interval * parts + part;
-                if index >= nodes.accelerations.len() {
+                if index >= accelerations.len() {
                     return;
                 }
-                let now = from + rate * nodes.step * part as f64;
+                let now = from + rate * step * part as f64;
                 let acceleration = -now - c * v - k * q;
                 // at a sample of the record, the mean of both sides
                 let (a, slope) = if part == 0 {
@@ -237,9 +234,9 @@ impl Mode {
                 };
                 let jerk = -slope - c * a - k * v;
                 // the absolute acceleration is −(c q̇ + k q)
-                let correction = nodes.step * nodes.step / 12.0;
-                nodes.accelerations[index] -= factor * (c * v + k * q - correction * (c * jerk + k * a));
-                nodes.displacements[index] += factor * (q - correction * a);
+                let correction = step * step / 12.0;
+                accelerations[index] -= factor * (c * v + k * q - correction * (c * jerk + k * a));
+                displacements[index] += factor * (q - correction * a);
                 let [dq, next, _] =
                     rows.map(|[of_v, of_a, of_p]| of_v * v + of_a * acceleration - of_p * rate);
                 (q, v) = (q + dq, next);

@@ -22,11 +22,9 @@
 //! integrators. Acta Numerica 19, 2010, 209–286, Section 2).
 
 mod green;
-mod kinematic_state;
 mod oscillator;
 mod polynomial;
 
 pub use green::Green;
-pub use kinematic_state::KinematicState;
 pub use oscillator::{Oscillator, Regime};
-pub use polynomial::{HIGHEST_ORDER, Polynomial};
+pub use polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};

@@ -1,8 +1,7 @@
 //! The oscillator: its Green's functions, series, propagation and bounds.
 
 use crate::green::{Green, Phi, phi1};
-use crate::kinematic_state::KinematicState;
-use crate::polynomial::{HIGHEST_ORDER, Polynomial};
+use crate::polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};
 
 /// A linear oscillator ü + c u̇ + k u = p₀ + p₁ t.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,18 @@
-//! Motion as a polynomial in time.
-
-use crate::kinematic_state::KinematicState;
+//! A motion at one time, and as a polynomial in time.
 
 /// Highest power of time in a [`Polynomial`].
 pub const HIGHEST_ORDER: usize = 26;
+
+/// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KinematicState {
+    /// u \[m\].
+    pub displacement: f64,
+    /// u̇ \[m/s\].
+    pub velocity: f64,
+    /// ü \[m/s²\].
+    pub acceleration: f64,
+}
 
 /// Motion as a polynomial in time, u(t) = Σ uₙ tⁿ.
 #[derive(Clone, Copy, Debug)]

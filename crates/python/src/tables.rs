@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::table::Cell;
+use report::table::{Cell, Table};
 
 /// A column of a table.
 pub(crate) enum Column<'a> {
@@ -31,7 +31,7 @@ impl<'a> Column<'a> {
         match (self, cell) {
             (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
             (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
-                numbers.push(*number)
+                numbers.push(*number);
             }
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {
@@ -45,13 +45,24 @@ impl<'a> Column<'a> {
     }
 }
 
+/// Returns the named columns of a table of at least one row.
+pub(crate) fn columns_of(table: &Table) -> impl Iterator<Item = (&str, Column<'_>)> {
+    let named = table.columns.iter().enumerate().filter(|(_, column)| !column.name.is_empty());
+    named.map(|(index, column)| {
+        let mut cells = Column::of(&table.rows[0][index]);
+        table.rows.iter().for_each(|row| cells.push(&row[index]));
+        (&*column.name, cells)
+    })
+}
+
 /// Makes a table of its columns: names as lists, the others as arrays of their type.
 pub(crate) fn table<'py, 'a>(
     py: Python<'py>,
-    columns: impl IntoIterator<Item = (&'static str, Column<'a>)>,
+    columns: impl IntoIterator<Item = (impl AsRef<str>, Column<'a>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let table = PyDict::new(py);
     for (name, column) in columns {
+        let name = name.as_ref();
         match column {
             Column::Names(names) => table.set_item(name, names)?,
             Column::Numbers(numbers) => table.set_item(name, PyArray1::from_vec(py, numbers))?,

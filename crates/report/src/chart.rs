@@ -34,9 +34,14 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Creates a chart.
-    pub fn new(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
-        Self { title: title.into(), x, y, series }
+    /// Creates a chart; an axis is also its label, or its label with its range.
+    pub fn new(
+        title: impl Into<String>,
+        x: impl Into<Axis>,
+        y: impl Into<Axis>,
+        series: Vec<Series>,
+    ) -> Self {
+        Self { title: title.into(), x: x.into(), y: y.into(), series }
     }
 }
 
@@ -58,6 +63,18 @@ impl Axis {
     /// Creates an axis over a range.
     pub fn over(label: &str, range: [f64; 2]) -> Self {
         Self { label: label.into(), range: Some(range) }
+    }
+}
+
+impl From<&str> for Axis {
+    fn from(label: &str) -> Self {
+        Self::new(label)
+    }
+}
+
+impl From<(&str, [f64; 2])> for Axis {
+    fn from((label, range): (&str, [f64; 2])) -> Self {
+        Self::over(label, range)
     }
 }
 

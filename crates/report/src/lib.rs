@@ -54,3 +54,21 @@ pub fn counted(count: impl std::fmt::Display, noun: &str) -> String {
     let text = format!("{count} {noun}");
     if text.starts_with("1 ") { text } else { text + "s" }
 }
+
+/// Breaks a text into lines of at most `width` characters, if its words are not longer.
+///
+/// ```
+/// assert_eq!(report::wrapped("one two three", 7), ["one two", "three"]);
+/// ```
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                *line = format!("{line} {word}");
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

@@ -15,20 +15,22 @@ use crate::{escaped, template};
 #[derive(Clone, Debug)]
 pub struct Page {
     title: String,
-    style: &'static str,
+    style: String,
     body: String,
 }
 
 impl Page {
     /// Creates a page with a title, which is plain text.
     pub fn new(title: &str) -> Self {
-        Self { title: escaped(title), style: "", body: String::new() }
+        Self { title: escaped(title), style: String::new(), body: String::new() }
     }
 
-    /// Sets the rules of style that only this page has.
+    /// Adds rules of style that only this page has.
     #[must_use]
-    pub fn styled(self, style: &'static str) -> Self {
-        Self { style, ..self }
+    pub fn styled(mut self, rules: &str) -> Self {
+        self.style += rules;
+        self.style.push('\n');
+        self
     }
 
     /// Adds markup.
@@ -47,7 +49,7 @@ impl Page {
 
     /// Returns the page.
     pub fn html(&self) -> String {
-        let parts = [("style", self.style), ("title", &*self.title), ("body", &*self.body)];
-        template::page("<style>\n{{style}}\n</style>\n<h1>{{title}}</h1>\n{{body}}", &parts)
+        let parts = [("style", &*self.style), ("title", &*self.title), ("body", &*self.body)];
+        template::page("<style>\n{{style}}</style>\n<h1>{{title}}</h1>\n{{body}}", &parts)
     }
 }

@@ -1,22 +1,22 @@
 //! Error against run time, on logarithmic axes.
 //!
 //! ```
-//! use evidence::accuracy::figure::{SOLVERS, Tool, plot};
+//! use evidence::accuracy::figure::{Point, SOLVERS, plot};
 //!
-//! let (_, color, mark) = SOLVERS[0];
-//! let (name, points) = ("exact", vec![(0.4, 1e-9)]);
-//! let tool = Tool { name, color, mark, points, titles: vec!["1 sample".into()], joined: true };
-//! assert!(plot(&[tool], Some(1e-12)).svg().contains("1e-9"));
+//! let point = Point { tool: "exact".into(), seconds: 4e-4, error: 1e-9, title: "1 sample".into() };
+//! assert!(plot(&SOLVERS, &[point], Some(1e-12), true).svg().contains("1e-9"));
 //! ```
 
 use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, GREY, Mark, PURPLE, RED};
 use report::plot::{Axis, Look, Plot, Scale, Series};
 
-/// Name, colour and mark of the solvers.
-pub const SOLVERS: [(&str, &str, Mark); 3] =
+/// Name, colour and mark of a solver or tool.
+pub type Sign = (&'static str, &'static str, Mark);
+/// The solvers.
+pub const SOLVERS: [Sign; 3] =
     [("exact", BLUE, Mark::Circle), ("adaptive", GREEN, Mark::Square), ("newmark", RED, Mark::Triangle)];
-/// Name, colour and mark of the tools that a comparison may name.
-pub const TOOLS: [(&str, &str, Mark); 6] = [
+/// The tools that a comparison may name.
+pub const TOOLS: [Sign; 6] = [
     ("rocking-wall", BLUE, Mark::Circle),
     ("ode_solvers", GREEN, Mark::Square),
     ("diffsol", PURPLE, Mark::Diamond),
@@ -27,42 +27,37 @@ pub const TOOLS: [(&str, &str, Mark); 6] = [
 /// Smallest error that is drawn: smaller ones are rounding, and the logarithm stays finite.
 const FLOOR: f64 = 1e-17;
 
-/// The measurements of one solver or tool.
+/// A measurement of a solver or tool.
 #[derive(Clone, Debug)]
-pub struct Tool {
-    /// Its name in the legend of a picture.
-    pub name: &'static str,
-    /// A colour of the palette.
-    pub color: &'static str,
-    /// Its mark.
-    pub mark: Mark,
-    /// Run time \[ms\] and error over `u_ins`.
-    pub points: Vec<(f64, f64)>,
-    /// The text shown when each point is pointed at.
-    pub titles: Vec<String>,
-    /// Points that follow from one another are joined by a line.
-    pub joined: bool,
+pub struct Point {
+    /// Name of the solver or tool.
+    pub tool: String,
+    /// Run time \[s\].
+    pub seconds: f64,
+    /// Error over `u_ins` \[-\].
+    pub error: f64,
+    /// The text shown when it is pointed at.
+    pub title: String,
 }
 
-/// Draws all tools; `rounding` is the error that rounding alone may cause.
-pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
+/// Draws the points of some tools, with their names if they are `named`. With the error that `rounding` alone
+/// may cause, a line joins the points of each tool.
+pub fn plot(tools: &[Sign], points: &[Point], rounding: Option<f64>, named: bool) -> Plot {
     let exponent = |error: f64| error.max(FLOOR).log10();
     let mut series = Vec::new();
-    for Tool { name, color, mark, points, titles, joined } in
-        tools.iter().filter(|tool| !tool.points.is_empty())
-    {
-        let line =
-            Series::line(color, 1.2, points.iter().map(|&(time, error)| (time, exponent(error))).collect());
-        let look = Look::Marks(*mark);
-        let marks = Series { look, width: 4.5, titles: titles.clone(), ..line.clone() };
-        let name = (*name).to_owned();
-        if *joined {
-            series.extend([Series { name, ..line }, marks]);
-        } else {
-            series.push(Series { name, ..marks });
+    for (tool, color, mark) in tools {
+        let own: Vec<_> = points.iter().filter(|point| point.tool == *tool).collect();
+        let places = own.iter().map(|point| (point.seconds * 1e3, exponent(point.error))).collect();
+        let line = Series { name: if named { tool } else { "" }.into(), ..Series::line(color, 1.2, places) };
+        let titles = own.iter().map(|point| point.title.clone()).collect();
+        let marks = Series { look: Look::Marks(*mark), width: 4.5, titles, ..line.clone() };
+        match rounding {
+            _ if own.is_empty() => {}
+            Some(_) => series.extend([line, Series { name: String::new(), ..marks }]),
+            None => series.push(marks),
         }
     }
-    let times = tools.iter().flat_map(|tool| tool.points.iter().map(|point| point.0));
+    let times = points.iter().map(|point| point.seconds * 1e3);
     let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     let decade = |value: f64, round: fn(f64) -> f64| 10.0_f64.powf(round(value.log10()));
     let left = decade(low, f64::floor);

@@ -11,20 +11,20 @@
 //! let problem = Problem::from_scene(&scene)?;
 //! let result = measure_at(&problem, &[Setting::Newmark(1), Setting::Newmark(10)], 0.0)?;
 //! assert!(result.measurements[1].error_max < result.measurements[0].error_max);
-//! # Ok::<(), evidence::accuracy::AccuracyError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
-mod error;
 pub mod figure;
 pub mod linearisation;
 pub mod page;
 mod problem;
+pub mod table;
 
 use std::time::Instant;
 
-pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
+use crate::EvidenceError;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
 use rocking_wall::wall::Wall;
@@ -123,8 +123,8 @@ struct History {
 /// Measures a problem at every setting of the default set; each is timed for about `budget` \[s\].
 ///
 /// # Errors
-/// [`AccuracyError`] if the parameters make no wall or a run fails.
-pub fn measure(problem: &Problem, budget: f64) -> Result<WorkPrecision, AccuracyError> {
+/// [`EvidenceError`] if the parameters make no wall or a run fails.
+pub fn measure(problem: &Problem, budget: f64) -> Result<WorkPrecision, EvidenceError> {
     let wall = Wall::new(&problem.parameters)?;
     let exact = EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| wall.has_closed_form());
     // full rotations are followed by the adaptive solver only
@@ -136,7 +136,7 @@ pub fn measure(problem: &Problem, budget: f64) -> Result<WorkPrecision, Accuracy
 /// Measures a problem at some settings.
 ///
 /// # Errors
-/// [`AccuracyError`] if the parameters make no wall or a run fails.
+/// [`EvidenceError`] if the parameters make no wall or a run fails.
 ///
 /// # Panics
 /// If full rotations are measured at other settings than adaptive ones.
@@ -144,10 +144,10 @@ pub fn measure_at(
     problem: &Problem,
     settings: &[Setting],
     budget: f64,
-) -> Result<WorkPrecision, AccuracyError> {
+) -> Result<WorkPrecision, EvidenceError> {
     let wall = Wall::new(&problem.parameters)?;
     let exact = wall.has_closed_form();
-    let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
+    let failed = |source| EvidenceError::Run { name: problem.name.clone(), source };
     let tightest = Setting::Adaptive(TIGHTEST);
     let best = Trial::new(problem, &wall, if exact { Setting::Exact(1) } else { tightest });
     let reference = best.history(1.0).map_err(failed)?;

@@ -1,15 +1,13 @@
-//! The page of `wall accuracy`: for each problem error against run time, on logarithmic axes.
+//! The page of `wall verify accuracy`: for each problem error against run time, on logarithmic axes.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
-use report::counted;
-use report::escaped;
+use report::page::Page;
 use report::palette::sign;
 use report::plot::{Picture, Plot};
-use report::template;
+use report::{counted, escaped};
 
-use super::figure::{SOLVERS, TOOLS, Tool, plot};
+use super::figure::{Point, SOLVERS, TOOLS, plot};
 use super::linearisation::{self, BothRotations};
 use super::{Measurement, WorkPrecision};
 
@@ -21,45 +19,69 @@ const SETTINGS: [&str; 3] = [
 ];
 
 /// The measurements of other tools, scene by scene.
-pub type Peers = BTreeMap<String, Vec<PeerRow>>;
+pub type Peers = BTreeMap<String, Vec<Point>>;
+
+const INTRODUCTION: &str = "\
+<p>Each point is one solver at one step or tolerance. It shows the largest error \
+of u over u<sub>ins</sub> at the samples of the record while the wall stands, against the least of several \
+run times. Down and to the left is better. Point at a mark to see its numbers.</p>
+<p>The grey line is the error that rounding alone can cause: 100 ε times the factor by which the wall \
+amplifies a change of its motion. The points of <i>exact</i> are compared with the adaptive solver at \
+10<sup>−13</sup>. They divide the record's step by 1, 4 and 16; their error does not depend on the \
+step.</p>";
 
 /// Writes the page of problems, of small rotations and, if they are given, of other tools.
 pub fn page(studies: &[WorkPrecision], rotations: &[BothRotations], peers: Option<&Peers>) -> String {
-    let mut figures = String::new();
-    for study in studies {
+    let drawn = |study: &WorkPrecision| {
         let fate = match study.overturning {
             Some(time) => format!("overturns at {time:.3} s"),
             None => format!("u<sub>max</sub>/u<sub>ins</sub> = {:.3}", study.peak),
         };
         let reference = if study.exact { "exact" } else { "adaptive at 10<sup>−13</sup>" };
-        let _ = writeln!(
-            figures,
-            "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
-            escaped(&study.name),
-            solver_plot(study, false).svg()
-        );
-    }
-    let key = SOLVERS.iter().zip(SETTINGS).map(|(&(name, color, mark), settings)| {
-        format!("<span>{}{name}: {settings}</span>", sign(color, mark))
-    });
-    template::page(
-        include_str!("page.html"),
-        &[
-            ("title", "Error against run time"),
-            ("key", &key.collect::<String>()),
-            ("figures", &figures),
-            ("rotations", &linearisation::page::section(rotations)),
-            ("peers", &peers.map_or_else(String::new, section)),
-        ],
-    )
+        let caption = format!("<b>{}</b><br>{fate}; reference: {reference}", escaped(&study.name));
+        figure(&caption, &solver_plot(study, false))
+    };
+    let settings = SOLVERS.iter().zip(SETTINGS);
+    let key =
+        settings.map(|(&(name, color, mark), settings)| (sign(color, mark), format!("{name}: {settings}")));
+    let page =
+        Page::new("Error against run time").text(INTRODUCTION).text(&figures(key, studies.iter().map(drawn)));
+    let page = match peers {
+        None => page,
+        Some(peers) => {
+            let key = TOOLS.map(|(name, color, mark)| (sign(color, mark), name.to_owned()));
+            let drawn = |(scene, rows): (&String, &Vec<Point>)| {
+                figure(&format!("<b>{}</b>", escaped(scene)), &plot(&TOOLS, rows, None, false))
+            };
+            page.section("Beside other tools", &figures(key, peers.iter().map(drawn)))
+        }
+    };
+    page.section("What small rotations leave out", &linearisation::page::section(rotations)).html()
+}
+
+/// A plot with its caption, which is markup.
+pub(super) fn figure(caption: &str, plot: &Plot) -> String {
+    format!("<figure><figcaption>{caption}</figcaption>{}</figure>\n", plot.svg())
+}
+
+/// Figures under a key: signs and words, which are markup.
+pub(super) fn figures(
+    key: impl IntoIterator<Item = (String, String)>,
+    figures: impl Iterator<Item = String>,
+) -> String {
+    let key: Vec<_> = key.into_iter().map(|(sign, words)| sign + &words).collect();
+    let (key, figures) = (key.join("</span>\n<span>"), figures.collect::<String>());
+    format!("<p class=\"key\"><span>{key}</span></p>\n<main class=\"figures\">\n{figures}</main>")
 }
 
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are
 /// given.
 pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
-    let sized = |title: &str, plot| Plot { title: title.to_owned(), size: [560.0, 320.0], ..plot };
+    let sized = |title: &String, plot| Plot { title: title.clone(), size: [560.0, 320.0], ..plot };
     let plots: Vec<_> = match peers {
-        Some(peers) => peers.iter().map(|(scene, rows)| sized(scene, peer_plot(rows, true))).collect(),
+        Some(peers) => {
+            peers.iter().map(|(scene, rows)| sized(scene, plot(&TOOLS, rows, None, true))).collect()
+        }
         None => studies.iter().map(|study| sized(&study.name, solver_plot(study, true))).collect(),
     };
     Picture::stacked(&plots)
@@ -67,47 +89,24 @@ pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
 
 /// The plot of a problem; with the names of the solvers if it is `named`.
 fn solver_plot(study: &WorkPrecision, named: bool) -> Plot {
-    let tools = SOLVERS.map(|(name, color, mark)| {
-        let rows: Vec<&Measurement> =
-            study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
-        let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
-        let titles = rows.iter().map(|row| hover(study, row)).collect();
-        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: true }
-    });
-    plot(&tools, Some(study.rounding()))
-}
-
-/// The plot of a scene of the peers; with their names if it is `named`.
-fn peer_plot(rows: &[PeerRow], named: bool) -> Plot {
-    let tools = TOOLS.map(|(name, color, mark)| {
-        let rows = rows.iter().filter(|row| row.tool == name);
-        let points = rows.clone().map(|row| (row.seconds * 1e3, row.error)).collect();
-        let titles = rows
-            .map(|row| {
-                format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
-            })
-            .collect();
-        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: false }
-    });
-    plot(&tools, None)
-}
-
-/// A line of the CSV that `cargo xtask bench --peers` writes.
-pub struct PeerRow {
-    tool: String,
-    setting: String,
-    seconds: f64,
-    error: f64,
+    let point = |row: &Measurement| Point {
+        tool: row.setting.solver().to_owned(),
+        seconds: row.seconds,
+        error: row.error_max,
+        title: hover(study, row),
+    };
+    let points: Vec<_> = study.measurements.iter().map(point).collect();
+    plot(&SOLVERS, &points, Some(study.rounding()), named)
 }
 
 /// Reads a line and its scene; `None` for the header and for a model that a tool does not offer.
-fn peer(line: &str) -> Option<(String, PeerRow)> {
+fn peer(line: &str) -> Option<(String, Point)> {
     let fields: Vec<&str> = line.split(',').collect();
     let [scene, tool, setting, seconds, error, ..] = fields[..] else { return None };
-    let (seconds, error) =
-        (seconds.parse().ok()?, error.parse().ok().filter(|error: &f64| error.is_finite())?);
-    let row = PeerRow { tool: tool.to_owned(), setting: setting.to_owned(), seconds, error };
-    Some((format!("Table 5, {scene}"), row))
+    let seconds: f64 = seconds.parse().ok()?;
+    let error = error.parse().ok().filter(|error: &f64| error.is_finite())?;
+    let title = format!("{tool}, {setting}: max error {error:.1e}; {:.3} ms", seconds * 1e3);
+    Some((format!("Table 5, {scene}"), Point { tool: tool.to_owned(), seconds, error, title }))
 }
 
 /// Reads the CSV of `cargo xtask bench --peers`.
@@ -117,20 +116,6 @@ pub fn read_peers(csv: &str) -> Peers {
         peers.entry(scene).or_default().push(row);
     }
     peers
-}
-
-/// The section on other tools.
-fn section(peers: &Peers) -> String {
-    let mut section = String::from("<h2>Beside other tools</h2>\n<p class=\"key\">");
-    for (name, color, mark) in TOOLS {
-        let _ = write!(section, "<span>{}{name}</span>", sign(color, mark));
-    }
-    section.push_str("</p>\n<main class=\"figures\">\n");
-    for (scene, rows) in peers {
-        let (scene, plot) = (escaped(scene), peer_plot(rows, false).svg());
-        let _ = writeln!(section, "<figure><figcaption><b>{scene}</b></figcaption>{plot}</figure>");
-    }
-    section + "</main>\n"
 }
 
 fn hover(study: &WorkPrecision, row: &Measurement) -> String {

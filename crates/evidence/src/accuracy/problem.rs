@@ -5,7 +5,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
-use super::error::AccuracyError;
+use crate::EvidenceError;
 
 /// A wall under a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,9 +28,9 @@ impl Problem {
     /// has none.
     ///
     /// # Errors
-    /// [`AccuracyError::Parameters`] if the parameters make no wall, or start it where it cannot be,
-    /// [`AccuracyError::Supports`] if it does not go with its floors.
-    pub fn from_scene(scene: &Scene) -> Result<Self, AccuracyError> {
+    /// [`EvidenceError::Parameters`] if the parameters make no wall, or start it where it cannot be,
+    /// [`EvidenceError::Supports`] if it does not go with its floors.
+    pub fn from_scene(scene: &Scene) -> Result<Self, EvidenceError> {
         let wall = Wall::new(&scene.parameters)?;
         wall.check_start(scene.parameters.u_start)?;
         let motion = scene.support_motion()?;
@@ -51,7 +51,7 @@ impl Problem {
         parameters: Parameters,
         motion: &GroundMotion,
         factor: f64,
-    ) -> Result<Self, AccuracyError> {
+    ) -> Result<Self, EvidenceError> {
         let parameters = Parameters { u_start: 0.0, ..parameters };
         let wall = Wall::new(&parameters)?;
         let forcing = |a: &f64| wall.body().forcing(Support::rigid(factor * a));
@@ -69,8 +69,8 @@ fn parapet([height, thickness, a1]: [f64; 3], damping_model: DampingModel) -> Pa
 /// the walls of Table 5.
 ///
 /// # Errors
-/// [`AccuracyError::Motion`] if the record cannot be cut.
-pub fn defaults(record: Option<&GroundMotion>) -> Result<Vec<Problem>, AccuracyError> {
+/// [`EvidenceError::Motion`] if the record cannot be cut.
+pub fn defaults(record: Option<&GroundMotion>) -> Result<Vec<Problem>, EvidenceError> {
     use DampingModel::{ConstantCoefficient as Cdc, ConstantRatio as Cdr, StiffnessProportional as Sdr};
     let synthetic = SyntheticMotion::default().motion()?;
     let long = SyntheticMotion { duration: 120.0, ..SyntheticMotion::default() }.motion()?;

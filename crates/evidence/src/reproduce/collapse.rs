@@ -3,8 +3,9 @@
 use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use report::counted;
+use report::table::{Column, Table};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
@@ -16,7 +17,6 @@ use study::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, Study};
 
 use super::figure::Figure;
 use super::printed::{TABLE_5, Table5};
-use super::table::{Cell, Table, columns};
 use super::tables::{mechanism, table_5_wall};
 
 /// Levels that find the collapse intensity of each record to 1 %.
@@ -35,6 +35,8 @@ pub struct Collapses {
     pub figure: Figure,
     /// Medians of CR, and those of the other models over it.
     pub table: Table,
+    /// What the table shows.
+    pub note: String,
     /// Summaries of each wall, its models in the order of [`Model::figure_15`].
     pub walls: Vec<Vec<Summary>>,
 }
@@ -63,7 +65,7 @@ pub fn figure_15(
         curve
     })?;
     let bootstrap = Bootstrap::new(count, RESAMPLES, SEED);
-    let (mut charts, mut rows, mut walls) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut charts, mut walls) = (Vec::new(), Vec::new());
     for (wall, row) in TABLE_5.iter().enumerate() {
         let collapses = |model| -> Vec<Exceedance> {
             let curve = |record| &curves[study.index(Case { wall, record, model })];
@@ -74,10 +76,14 @@ pub fn figure_15(
         let states: Vec<_> = collapses.iter().map(|model| vec![model.clone()]).collect();
         let summaries = compare(&states, 0, &ObservationKind::Records, &bootstrap).concat();
         charts.push(chart(row, study.models(), &collapses));
-        rows.push(table_row(row, &summaries));
         walls.push(summaries);
     }
-    Ok(Collapses { figure: figure(count, charts, &walls), table: table(count, rows), walls })
+    let note = format!(
+        "In brackets 95 % of {RESAMPLES} resamples of {}. Collapse is the first overturning found while the \
+         records are scaled up, to 1 % of its intensity.",
+        counted(count, "record")
+    );
+    Ok(Collapses { figure: figure(count, charts, &walls), table: table(&walls), note, walls })
 }
 
 fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
@@ -132,19 +138,8 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
     widest.sort_by(f64::total_cmp);
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
-    let x = Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
-    Chart::new(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
-}
-
-fn table_row(row: &Table5, summaries: &[Summary]) -> Vec<Cell> {
-    let mut cells = vec![
-        Cell::text(row.number.to_string()),
-        Cell::text(mechanism(row)),
-        Cell::text(interval(&summaries[0].median, STANDARD_GRAVITY)),
-    ];
-    cells.extend(summaries[1..].iter().map(|summary| Cell::text(interval(&summary.median_ratio, 1.0))));
-    cells.push(Cell::text(summaries.iter().map(|summary| summary.censored).sum::<usize>().to_string()));
-    cells
+    let x = ("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
+    Chart::new(title, x, ("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn interval(value: &Interval, unit: f64) -> String {
@@ -152,19 +147,28 @@ fn interval(value: &Interval, unit: f64) -> String {
     format!("{estimate} [{low}, {high}]")
 }
 
-fn table(count: usize, rows: Vec<Vec<Cell>>) -> Table {
-    Table {
-        name: "Medians",
-        title: "Median collapse AvgSA of CR, and that of each damping model over it",
-        notes: vec![format!(
-            "In brackets 95 % of {RESAMPLES} resamples of {}. Collapse is the first overturning found while \
-             the records are scaled up, to 1 % of its intensity.",
-            counted(count, "record")
-        )],
-        columns: columns(
-            "wall | type | CR: median (g) | CDC / CR | CDR / CR | SDR / CR | CDR with Eq. (14) / CR | \
-             runs that stood at 150 m/s²",
-        ),
-        rows,
+/// What the table of medians is called.
+pub const MEDIANS: &str = "Medians: Median collapse AvgSA of CR, and that of each damping model over it";
+
+fn table(walls: &[Vec<Summary>]) -> Table {
+    let text = |heading: &'static str| Column::text("", heading);
+    let mut table = Table::new([
+        text("wall"),
+        text("type"),
+        text("CR: median (g)"),
+        text("CDC / CR"),
+        text("CDR / CR"),
+        text("SDR / CR"),
+        text("CDR with Eq. (14) / CR"),
+        text("runs that stood at 150 m/s²"),
+    ]);
+    for (row, summaries) in TABLE_5.iter().zip(walls) {
+        let ratios = summaries[1..].iter().map(|summary| interval(&summary.median_ratio, 1.0));
+        let median = interval(&summaries[0].median, STANDARD_GRAVITY);
+        let mut cells = vec![usize::from(row.number).into(), mechanism(row).into(), median.into()];
+        cells.extend(ratios.map(Into::into));
+        cells.push(summaries.iter().map(|summary| summary.censored).sum::<usize>().into());
+        table.row(cells);
     }
+    table
 }

@@ -19,15 +19,21 @@ pub struct Figure {
     pub charts: Vec<Chart>,
 }
 
-/// Computes the history of a wall, free or excited, at `step` up to `end` \[s\].
-pub(super) fn history(
+/// Runs a wall, free or excited, at `step` up to `end` \[s\]; returns a point for each sample.
+pub(super) fn run(
     parameters: &Parameters,
     excitation: Option<Excitation>,
     [step, end]: [f64; 2],
-) -> Result<Vec<Sample>, SceneError> {
+    point: impl Fn(&Sample) -> (f64, f64),
+) -> Result<Vec<(f64, f64)>, SceneError> {
     let parameters = parameters.clone();
     let scene = Scene { parameters, excitation, stop_time: end, output_step: step, ..Scene::default() };
-    Ok(Response::of(&scene)?.samples)
+    Ok(Response::of(&scene)?.samples.iter().map(point).collect())
+}
+
+/// Time \[s\] and u/`u_ins` of a sample.
+pub(super) fn history(sample: &Sample) -> (f64, f64) {
+    (sample.time, sample.outputs.ratio)
 }
 
 /// Returns `count` + 1 equally spaced values.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -12,13 +12,13 @@ use run::free_motion::{with_damping, with_restitution};
 use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{Grid, calibrate};
 
-use super::error::ReproductionError;
-use super::figure::{Figure, history, spaced};
+use super::PaperTable;
+use super::figure::{Figure, history, run, spaced};
 use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
-use super::table::{Cell, Table, columns};
+use crate::{Comparison, EvidenceError};
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
 /// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.
@@ -52,12 +52,11 @@ fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterE
     Ok(Parameters { u_start, ..parameters })
 }
 
-fn u_axis() -> Axis {
-    Axis::over("u / u_ins", [-1.0, 1.0])
-}
+/// The axis of u.
+const U: (&str, [f64; 2]) = ("u / u_ins", [-1.0, 1.0]);
 
 /// Computes Figure 5: C over u, ξ over ω, damping force over u.
-pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
     // a constant coefficient, a constant ratio, and one proportional to stiffness
@@ -72,8 +71,7 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
         let ratio = |omega: f64| (omega, 100.0 * xi * (omega / omega1).powi(power));
         ratios.push(Series::line(name, color, spaced([0.5, omega1], 200).map(ratio).collect()));
         let force = |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / strength);
-        let samples = history(&parameters, None, [0.002, 5.0])?;
-        forces.push(Series::line(name, color, samples.iter().map(force).collect()));
+        forces.push(Series::line(name, color, run(&parameters, None, [0.002, 5.0], force)?));
     }
     // the model with the largest forces lies behind the others
     forces.reverse();
@@ -90,19 +88,9 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
                 .into(),
         ],
         charts: vec![
-            Chart::new("a) damping coefficient", u_axis(), Axis::new("C (kg/s)"), coefficients),
-            Chart::new(
-                "b) damping ratio",
-                Axis::new("ω (rad/s)"),
-                Axis::over("damping ratio (%)", [0.0, 10.0]),
-                ratios,
-            ),
-            Chart::new(
-                "c) damping force in a free vibration from 0.9 u_ins",
-                u_axis(),
-                Axis::new("C u̇ / F0"),
-                forces,
-            ),
+            Chart::new("a) damping coefficient", U, "C (kg/s)", coefficients),
+            Chart::new("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
+            Chart::new("c) damping force in a free vibration from 0.9 u_ins", U, "C u̇ / F0", forces),
         ],
     })
 }
@@ -119,7 +107,7 @@ fn damping_coefficients(wall: &Wall) -> Vec<(f64, f64)> {
 }
 
 /// Computes Figure 6: a free vibration of CR beside one of CDR.
-pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
     let [e, xi] = FIGURE_6;
     let strip = strip()?;
     let u_ins = Wall::new(&strip)?.body().instability.positive;
@@ -129,26 +117,23 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
     ];
     let (mut histories, mut phases) = (Vec::new(), Vec::new());
     for (name, color, parameters) in runs {
-        let samples = history(&parameters, None, [0.002, 10.0])?;
-        let time = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
-        let phase =
-            samples.iter().map(|sample| (sample.outputs.ratio, sample.outputs.velocity / u_ins)).collect();
-        histories.push(Series::line(&name, color, time));
-        phases.push(Series::line(&name, color, phase));
+        let phase = |sample: &Sample| (sample.outputs.ratio, sample.outputs.velocity / u_ins);
+        histories.push(Series::line(&name, color, run(&parameters, None, [0.002, 10.0], history)?));
+        phases.push(Series::line(&name, color, run(&parameters, None, [0.002, 10.0], phase)?));
     }
     Ok(Figure {
         number: 6,
         title: "Matched free vibrations of CR and CDR",
         notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
         charts: vec![
-            Chart::new("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
-            Chart::new("b) displacement and velocity", u_axis(), Axis::new("velocity / u_ins (1/s)"), phases),
+            Chart::new("a) history", ("time (s)", [0.0, 10.0]), U, histories),
+            Chart::new("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
         ],
     })
 }
 
 /// Computes Figure 7: a rocking body beside elastic oscillators.
-pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
     let [height, thickness] = FIGURE_WALL;
     let rigid = Parameters {
         height,
@@ -163,21 +148,21 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     let frequency = (0.75 * body.gravity / (height.hypot(thickness) / 2.0)).sqrt();
     let mut charts = Vec::new();
     for ((e, impacts), (panel, end)) in FIGURE_7.into_iter().zip([("a", 20.0), ("b", 10.0)]) {
-        let samples = history(&with_restitution(&body, e), None, [0.005, end])?;
+        let rocking = run(&with_restitution(&body, e), None, [0.005, end], history)?;
         let xi = equivalence::priestley(e, FIGURE_7_START, impacts);
-        let amplitude = amplitude_after(e, impacts / 2);
-        let period = equivalence::housner_period(frequency, amplitude);
+        // half-way through the impacts, each of which leaves e² of the energy
+        let energy = e.powf(2.0 * f64::from(impacts / 2)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
+        let period = equivalence::housner_period(frequency, 1.0 - (1.0 - energy).sqrt());
         let oscillator = |period: f64| {
             spaced([0.0, end], 2000).map(|t| (t, FIGURE_7_START * elastic(t, TAU / period, xi))).collect()
         };
         let title = format!("{panel}) e = {e}, ξ = {xi:.4} from Eq. (13) with n = {impacts}");
-        let rocking = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
         let series = vec![
             Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
             Series::line("rocking body, CR", color("CR"), rocking),
         ];
-        charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
+        charts.push(Chart::new(title, ("time (s)", [0.0, end]), U, series));
     }
     Ok(Figure {
         number: 7,
@@ -191,12 +176,6 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     })
 }
 
-/// Returns the amplitude θ/α of a rocking block after `impacts` impacts, by Housner's energy.
-fn amplitude_after(e: f64, impacts: u32) -> f64 {
-    let energy = e.powf(2.0 * f64::from(impacts)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
-    1.0 - (1.0 - energy).sqrt()
-}
-
 /// Returns the free vibration of an elastic oscillator released at rest from 1.
 fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
     let root = (1.0 - xi * xi).sqrt();
@@ -204,19 +183,14 @@ fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
     (-xi * omega * time).exp() * (phase.cos() + xi / root * phase.sin())
 }
 
-/// Returns a row of the captions: a number, its printed value with its decimals, and a remark.
-fn row(number: &str, computed: f64, (printed, decimals): (f64, usize), remark: &str) -> Vec<Cell> {
-    vec![Cell::text(number), Cell::value(computed, printed, decimals), Cell::text(remark)]
-}
-
 /// Computes the numbers printed in captions and text.
-pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError> {
+pub(super) fn captions(threads: NonZeroUsize) -> Result<PaperTable, EvidenceError> {
     let strip = strip()?;
     let cdc = Wall::new(&with_damping(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
     let fits = |model, restitution: &[f64]| {
         let grid = Grid { restitution: restitution.to_vec(), a1: vec![strip.a1], ..Grid::default() };
         let found = calibrate(&strip, model, &grid, threads)?;
-        Ok::<Vec<f64>, ReproductionError>(found.fits.iter().map(|fit| fit.damping).collect())
+        Ok::<Vec<f64>, EvidenceError>(found.fits.iter().map(|fit| fit.damping).collect())
     };
     let figure_6 = fits(DampingModel::ConstantRatio, &FIGURE_6[..1])?[0];
     // the e at which CDR needs the ratio of Figure 5, between two values around it
@@ -228,29 +202,38 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError
     let e_parapet = analytic_parapet((thickness / height).atan());
     let e_strip = analytic_vertical_spanning((2.0 * thickness / height).atan());
     let [e_2_parapet, e_2_strip] = FIGURE_2_RESTITUTION;
-    let strip_remark = "Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used";
-    let cdc_remark = "the assumed width and density were chosen for it";
+    let e_2 = "Figure 2: e of the";
     let mut rows = vec![
-        row("Figure 2: e of the parapet", e_parapet, (e_2_parapet, 3), "Eq. (2)"),
-        row("Figure 2: e of the strip", e_strip, (e_2_strip, 3), strip_remark),
-        row("Figure 5: C_CDC (kg/s)", cdc.elastic_damping(), (FIGURE_5_COEFFICIENT, 0), cdc_remark),
-        row(
+        Comparison::printed(format!("{e_2} parapet"), "Eq. (2)", [e_parapet, e_2_parapet], 3),
+        Comparison::printed(format!("{e_2} strip"), "Eq. (3), h₁ = h/2", [e_strip, e_2_strip], 3),
+        Comparison::printed(
+            "Figure 5: C_CDC (kg/s)",
+            "with the assumed width and density",
+            [cdc.elastic_damping(), FIGURE_5_COEFFICIENT],
+            0,
+        ),
+        Comparison::printed(
             "Figure 6: ξ of CDR for e = 0.875",
-            figure_6,
-            (FIGURE_6[1], 3),
             "least of Eq. (18) for this wall and start",
+            [figure_6, FIGURE_6[1]],
+            3,
         ),
     ];
-    let remark = format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value");
+    let least = format!("least of Eq. (18) for e = {e:.3}");
     for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
-        let number = format!("Figure 5: ξ of {}", label(model).name);
-        rows.push(row(&number, fits(model, &[e])?[0], (printed, 3), &remark));
+        let case = format!("Figure 5: ξ of {}", label(model).name);
+        rows.push(Comparison::printed(case, &least, [fits(model, &[e])?[0], printed], 3));
     }
-    Ok(Table {
+    Ok(PaperTable {
         name: "Captions",
         title: "Numbers printed in captions and text",
-        notes: vec![],
-        columns: columns("number | value | remark"),
+        notes: vec![
+            "Neither e by Eq. (3) nor 0.90 of it is what Figure 2 used for the strip.".into(),
+            format!(
+                "Width and density were chosen so that C_CDC comes out, and e = {e:.3} so that CDR of Figure \
+                 5 does."
+            ),
+        ],
         rows,
     })
 }

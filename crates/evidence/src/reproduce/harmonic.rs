@@ -10,9 +10,9 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 use run::free_motion::{with_damping, with_restitution};
 use run::model::color;
 
-use super::error::ReproductionError;
-use super::figure::{Figure, history};
+use super::figure::{Figure, history, run};
 use super::printed::{TABLE_4, TABLE_4_A3, TABLE_4_SIZE, TABLE_4_STRENGTH};
+use crate::EvidenceError;
 
 /// The motion assumed, a sine whose amplitude grows and falls linearly: frequency \[Hz\], amplitude \[m/s²\],
 /// times \[s\].
@@ -23,7 +23,7 @@ const FALL: f64 = 6.0;
 const END: f64 = 40.0;
 const STEP: f64 = 1e-3;
 
-fn motion() -> Result<GroundMotion, ReproductionError> {
+fn motion() -> Result<GroundMotion, EvidenceError> {
     let sample = |index: u32| {
         let time = f64::from(index) * STEP;
         let envelope = (time / RISE).min((RISE + FALL - time) / FALL).max(0.0);
@@ -42,7 +42,7 @@ fn specimen() -> Result<Parameters, ParameterError> {
 }
 
 /// Computes Figure 14.
-pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_14() -> Result<Figure, EvidenceError> {
     let motion = motion()?;
     let wall = specimen()?;
     let density = wall.density;
@@ -60,15 +60,14 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
         let mut series = Vec::new();
         for (name, parameters) in runs {
             let excitation = Excitation::new(motion.clone(), None);
-            let samples = history(&parameters, Some(excitation), [0.005, END])?;
-            let points: Vec<_> = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
+            let points = run(&parameters, Some(excitation), [0.005, END], history)?;
             let peak = points.iter().fold(0.0_f64, |peak, point| peak.max(point.1.abs()));
             series.push(Series::line(&format!("{name}, peak {peak:.3}"), color(name), points));
         }
         let panels = [("the whole motion", [0.0, END]), ("around the largest amplitude", [27.0, 33.0])];
         charts.extend(panels.map(|(panel, times)| {
             let title = format!("{}: {panel}", row.specimen);
-            let (x, y) = (Axis::over("time (s)", times), Axis::over("u / u_ins", [-0.6, 0.6]));
+            let (x, y) = (Axis::over("time (s)", times), ("u / u_ins", [-0.6, 0.6]));
             Chart::new(title, x, y, series.clone())
         }));
     }

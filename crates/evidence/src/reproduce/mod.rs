@@ -5,7 +5,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`printed`] | the numbers that the paper prints |
-//! | `table`, `figure`, `error` | tables and figures as data, and the error |
+//! | `figure` | figures as data |
 //! | `formulas` | Tables 1 and 2 |
 //! | [`tables`] | Tables 3, 4 and 5 |
 //! | `rotations` | Figures 2 and 3: full rotations |
@@ -17,14 +17,11 @@
 //! | [`page`] | the page |
 //!
 //! ```
-//! let table = evidence::reproduce::tables::table_3();
-//! let agree = table.values().filter(|value| value.agrees()).count();
-//! assert!(agree >= 8);
+//! assert!(evidence::reproduce::tables::table_3().agreeing() >= 8);
 //! ```
 
 mod closed_forms;
 pub mod collapse;
-mod error;
 mod figure;
 mod formulas;
 mod free_vibrations;
@@ -33,40 +30,59 @@ pub mod page;
 pub mod printed;
 mod rotations;
 mod section_5;
-mod table;
 pub mod tables;
 
 use std::num::NonZeroUsize;
 
-pub use error::ReproductionError;
+use crate::{Comparison, EvidenceError};
+
 pub use figure::Figure;
-pub use table::{Cell, Table, Value};
+
+/// A table of the paper, computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperTable {
+    /// Name, such as "Table 5".
+    pub name: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// Assumptions, and why some numbers do not match print.
+    pub notes: Vec<String>,
+    /// Its numbers beside the printed ones.
+    pub rows: Vec<Comparison>,
+}
+
+impl PaperTable {
+    /// Counts the numbers that round to the printed ones.
+    pub fn agreeing(&self) -> usize {
+        self.rows.iter().filter(|row| row.passes()).count()
+    }
+
+    /// Returns the number with the largest relative deviation, and that.
+    fn worst(&self) -> Option<(&Comparison, f64)> {
+        let printed = self.rows.iter().filter(|row| row.given != 0.0);
+        let deviations = printed.map(|row| (row, (row.computed / row.given - 1.0).abs()));
+        deviations.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
 
 /// All tables and figures that need no records, in the order of the paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reproduction {
     /// Tables; the last one holds numbers from captions and text.
-    pub tables: Vec<Table>,
+    pub tables: Vec<PaperTable>,
     /// Figures.
     pub figures: Vec<Figure>,
 }
 
-/// Number of parts that [`reproduce`] computes.
-const PARTS: usize = section_5::CALIBRATIONS + 6;
-
 /// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
 /// records, is computed by [`collapse::figure_15`]. Calls `finished` with the number of all
-/// parts after each part.
+/// calibrations, which take most of the time, after each.
 ///
 /// # Errors
-/// [`ReproductionError`] if a wall, a motion, a run or a calibration fails.
-pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, ReproductionError> {
+/// [`EvidenceError`] if a wall, a motion, a run or a calibration fails.
+pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, EvidenceError> {
     let [table_1, table_2] = formulas::tables_1_and_2()?;
-    let section_5 = section_5::Section5::new(threads, || finished(PARTS))?;
-    let drawn = |figure: Figure| {
-        finished(PARTS);
-        figure
-    };
+    let section_5 = section_5::Section5::new(threads, || finished(section_5::CALIBRATIONS))?;
     let tables = vec![
         table_1,
         table_2,
@@ -77,12 +93,12 @@ pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Repr
         free_vibrations::captions(threads)?,
     ];
     let mut figures = vec![
-        drawn(rotations::free_vibrations()?),
-        drawn(rotations::periods()?),
-        drawn(closed_forms::figure_4()?),
-        drawn(free_vibrations::figure_5()?),
-        drawn(free_vibrations::figure_6()?),
-        drawn(free_vibrations::figure_7()?),
+        rotations::free_vibrations()?,
+        rotations::periods()?,
+        closed_forms::figure_4()?,
+        free_vibrations::figure_5()?,
+        free_vibrations::figure_6()?,
+        free_vibrations::figure_7()?,
     ];
     figures.extend(section_5.figures());
     figures.extend([closed_forms::figure_13(), harmonic::figure_14()?]);

@@ -1,101 +1,92 @@
-//! The page of `wall reproduce`: tables and figures beside the printed numbers.
+//! The reproduction in words and as a page: tables and figures beside the printed numbers.
 
 use std::fmt::Write;
 
-use report::{chart, escaped, template};
+use report::page::Page;
+use report::table::Digits;
+use report::{chart, escaped, wrapped};
 
-use super::collapse::Collapses;
-use super::{Cell, Figure, Reproduction, Table, Value};
+use super::collapse::{Collapses, MEDIANS};
+use super::{Figure, PaperTable, Reproduction};
+use crate::comparison::{Headings, STYLE, html, table};
 
 /// Words for a page without records.
-const MISSING: &str = "<p>Figure 15 needs records: <code>wall reproduce --records FOLDER</code> adds it.</p>";
+const MISSING: &str =
+    "<p>Figure 15 needs records: <code>wall verify paper --records FOLDER</code> adds it.</p>";
+const HEADINGS: Headings = ["number", "of", "", "printed", "computed", "deviation", "", ""];
+
+/// Says of each table how many numbers agree, which deviates most, and why; and which figures there are.
+pub fn summary(reproduction: &Reproduction) -> String {
+    let mut text = String::new();
+    for table in &reproduction.tables {
+        let (agree, all) = (table.agreeing(), table.rows.len());
+        let _ = write!(text, "{:<24}{agree:>4} of {all:>3} numbers round to print", table.name);
+        if let Some((row, deviation)) = table.worst() {
+            let (decimals, percent) = (row.decimals.unwrap_or(0), 100.0 * deviation);
+            let _ = write!(
+                text,
+                "; largest deviation {percent:.1} %: printed {:.decimals$}, computed {:.finer$}\n    \
+                 of {}, {}",
+                row.given,
+                row.computed,
+                row.case,
+                row.quantity,
+                finer = decimals + 1
+            );
+        }
+        text.push('\n');
+        for line in table.notes.iter().flat_map(|note| wrapped(note, 96)) {
+            let _ = writeln!(text, "    {line}");
+        }
+    }
+    let numbers: Vec<String> = reproduction.figures.iter().map(|figure| figure.number.to_string()).collect();
+    text + "Figures " + &numbers.join(", ") + "\n"
+}
 
 /// Writes the page; `collapses` are Figure 15, which needs records.
 pub fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
-    let tables: String = reproduction.tables.iter().map(table).collect();
-    let drawn = || reproduction.figures.iter().chain(collapses.map(|collapses| &collapses.figure));
-    let mut figures: String = drawn().map(figure).collect();
-    figures.extend(collapses.map(|collapses| table(&collapses.table)));
-    let [agree, all] =
-        reproduction.tables.iter().map(Table::counts).fold([0, 0], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    let mut links = String::new();
-    for figure in drawn() {
-        let _ = write!(links, "<a href=\"#figure-{0}\">{0}</a> ", figure.number);
+    let Reproduction { tables, figures } = reproduction;
+    let agree: usize = tables.iter().map(PaperTable::agreeing).sum();
+    let all: usize = tables.iter().map(|table| table.rows.len()).sum();
+    let figures = || figures.iter().chain(collapses.map(|collapses| &collapses.figure));
+    let link = |figure: &Figure| format!("<a href=\"#figure-{0}\">{0}</a> ", figure.number);
+    let mut page = Page::new("Modelling rocking response via equivalent viscous damping, reproduced")
+        .styled(STYLE)
+        .text(&format!(
+            "<p>U. Tomassetti, F. Graziotti, L. Sorrentino and A. Penna. Every table and figure below was \
+             computed when this page was written. Of {all} printed numbers, {agree} agree to the last \
+             printed digit. The others are shaded, and the notes say why.</p>\n\
+             <p>Computed numbers have one digit more than print.</p>\n\
+             <nav>Figures {}</nav>",
+            figures().map(link).collect::<String>()
+        ))
+        .text(if collapses.is_some() { "" } else { MISSING });
+    for PaperTable { name, title, notes: words, rows } in tables {
+        let table = html(&table(rows, HEADINGS, Digits::AtMost(6)));
+        page = page.section(&format!("{name}: {title}"), &(notes(words) + &table));
     }
-    template::page(
-        include_str!("page.html"),
-        &[
-            ("title", "Modelling rocking response via equivalent viscous damping, reproduced"),
-            ("agree", &agree.to_string()),
-            ("all", &all.to_string()),
-            ("links", &links),
-            ("missing", if collapses.is_some() { "" } else { MISSING }),
-            ("tables", &tables),
-            ("figures", &figures),
-        ],
-    )
+    for figure in figures() {
+        page = page.text(&drawn(figure));
+    }
+    if let Some(Collapses { table, note, .. }) = collapses {
+        page = page.section(MEDIANS, &(notes(std::slice::from_ref(note)) + &table.html()));
+    }
+    page.html()
 }
 
 fn notes(notes: &[String]) -> String {
-    let mut text = String::new();
-    for note in notes {
-        let _ = writeln!(text, "<p>{}</p>", escaped(note));
-    }
-    text
+    let notes: Vec<_> = notes.iter().map(|note| ["<p>", &escaped(note), "</p>\n"].concat()).collect();
+    notes.concat()
 }
 
-fn table(table: &Table) -> String {
-    let mut text = format!(
-        "<section><h2>{}: {}</h2>\n{}<div class=\"scroll\"><table><tr>",
-        escaped(table.name),
-        escaped(table.title),
-        notes(&table.notes)
-    );
-    for column in &table.columns {
-        let _ = write!(text, "<th>{}</th>", escaped(column));
-    }
-    text.push_str("</tr>\n");
-    for row in &table.rows {
-        text.push_str("<tr>");
-        text.extend(row.iter().map(cell));
-        text.push_str("</tr>\n");
-    }
-    text + "</table></div></section>\n"
-}
-
-fn cell(cell: &Cell) -> String {
-    match cell {
-        Cell::Text(words) => format!("<td>{}</td>", escaped(words)),
-        Cell::Value(value) => {
-            let Value { computed, printed, decimals } = *value;
-            let class = if value.agrees() { "number" } else { "number off" };
-            let finer = decimals + 1;
-            let deviation = shown(computed - printed, finer);
-            let printed = shown(printed, decimals);
-            format!(
-                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {computed:.finer$}<br>\
-                 <i>{deviation:+.finer$}</i></td>"
-            )
-        }
-    }
-}
-
-/// Formats a number; one that shows as zero has no minus sign.
-fn shown(value: f64, decimals: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "a few decimals")]
-    let half = 0.5 * 10.0_f64.powf(-(decimals as f64));
-    if value.abs() < half { 0.0 } else { value }
-}
-
-fn figure(figure: &Figure) -> String {
-    let charts: String = figure.charts.iter().map(chart::figure).collect();
+fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {
+    // two or four panels are laid out in rows of two
+    let width = if matches!(charts.len(), 2 | 4) { " style=\"max-width: 900px\"" } else { "" };
+    let charts: String = charts.iter().map(chart::figure).collect();
     format!(
-        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"figures{3}\">\n{charts}</div>\
-         </section>\n",
-        figure.number,
-        escaped(figure.title),
-        notes(&figure.notes),
-        // two or four panels are laid out in rows of two
-        if matches!(figure.charts.len(), 2 | 4) { " two" } else { "" }
+        "<section id=\"figure-{number}\"><h2>Figure {number}: {}</h2>\n{}<div class=\"figures\"{width}>\n\
+         {charts}</div></section>",
+        escaped(title),
+        notes(words)
     )
 }

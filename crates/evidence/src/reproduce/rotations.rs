@@ -1,19 +1,18 @@
 //! Figures 2 and 3: small rotations beside full ones.
 
-use crate::accuracy::AccuracyError;
+use crate::EvidenceError;
 use run::rotations::{FreeMotion, period};
 
-use crate::accuracy::linearisation::{Comparison, figure_2, figure_2_wall, figure_3};
-use report::chart::{Axis, Chart, Series};
+use crate::accuracy::linearisation::{Histories, figure_2, figure_2_wall, figure_3};
+use report::chart::{Chart, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
 
 use super::figure::{Figure, spaced};
 use super::printed::START;
 
-/// Length and step of the histories of Figure 2 \[s\].
+/// Length of the histories of Figure 2 \[s\].
 const DURATION: f64 = 20.0;
-const STEP: f64 = 0.01;
 /// p of Figure 3 \[rad/s\].
 const FREQUENCIES: [f64; 4] = [2.0, 3.0, 4.0, 5.0];
 /// α of the walls of Figure 3 a) and b) \[rad\].
@@ -21,25 +20,15 @@ const SLENDERNESS: f64 = 0.1;
 const ANGLES: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35];
 
 /// Computes Figure 2.
-pub(super) fn free_vibrations() -> Result<Figure, AccuracyError> {
-    let parapet = figure_2(Mechanism::Parapet, DURATION, STEP)?;
-    let strip = figure_2(Mechanism::VerticalSpanning, DURATION, STEP)?;
-    let ratio = |comparison: &Comparison| comparison.time_ratio(0).unwrap_or(f64::NAN);
+pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
+    let [parapet, strip] = [Mechanism::Parapet, Mechanism::VerticalSpanning].map(|m| figure_2(m, DURATION));
+    let (parapet, strip) = (parapet?, strip?);
+    let ratio = |histories: &Histories| histories.time_ratio(0).unwrap_or(f64::NAN);
     let first = |motion: &FreeMotion| motion.impacts.first().copied().unwrap_or(f64::NAN);
-    let chart = |title: &str, comparison: &Comparison| {
-        let points = |motion: &FreeMotion| {
-            motion.history.iter().enumerate().map(|(index, u)| (index as f64 * comparison.step, *u)).collect()
-        };
-        let (x, y) = (Axis::over("time (s)", [0.0, DURATION]), Axis::over("u / u_ins", [-1.0, 1.0]));
-        Chart::new(
-            title,
-            x,
-            y,
-            vec![
-                Series::line("full rotations", 0, points(&comparison.trigonometric)),
-                Series::dashed("Eq. (1)", 1, points(&comparison.linear)),
-            ],
-        )
+    let chart = |title: &str, histories: &Histories| {
+        let [small, full] = histories.points();
+        let series = vec![Series::line("full rotations", 0, full), Series::dashed("Eq. (1)", 1, small)];
+        Chart::new(title, ("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]), series)
     };
     Ok(Figure {
         number: 2,
@@ -74,7 +63,7 @@ fn with_frequency(p: f64, angle: f64) -> Parameters {
 }
 
 /// Computes Figure 3.
-pub(super) fn periods() -> Result<Figure, AccuracyError> {
+pub(super) fn periods() -> Result<Figure, EvidenceError> {
     let mut series = Vec::new();
     for (color, p) in FREQUENCIES.into_iter().enumerate() {
         let closed = spaced([0.0, 0.98], 98).map(|start| (start, equivalence::housner_period(p, start)));
@@ -82,7 +71,7 @@ pub(super) fn periods() -> Result<Figure, AccuracyError> {
         let wall = with_frequency(p, SLENDERNESS);
         let points = spaced([0.1, 0.9], 8)
             .map(|start| Ok((start, period(&wall, start)?.linear)))
-            .collect::<Result<_, AccuracyError>>()?;
+            .collect::<Result<_, EvidenceError>>()?;
         series.push(Series::marks(&format!("p = {p} rad/s"), color, points));
     }
     let over_angle = figure_3(Mechanism::Parapet, &ANGLES, START)?;
@@ -101,14 +90,14 @@ pub(super) fn periods() -> Result<Figure, AccuracyError> {
         charts: vec![
             Chart::new(
                 format!("a) over the initial rotation, α = {SLENDERNESS}"),
-                Axis::over("θ0 / α", [0.0, 1.0]),
-                Axis::over("period (s)", [0.0, 10.0]),
+                ("θ0 / α", [0.0, 1.0]),
+                ("period (s)", [0.0, 10.0]),
                 series,
             ),
             Chart::new(
                 "b) Eq. (1) over Eq. (5)",
-                Axis::over("α (rad)", [0.0, 0.4]),
-                Axis::over("ratio of periods", [0.96, 1.005]),
+                ("α (rad)", [0.0, 0.4]),
+                ("ratio of periods", [0.96, 1.005]),
                 vec![Series::line("√cos α", 5, roots), Series::marks("Eq. (1)", 0, ratios.collect())],
             ),
         ],

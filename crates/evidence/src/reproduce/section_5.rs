@@ -2,17 +2,19 @@
 
 use std::num::NonZeroUsize;
 
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
-use run::model::{RATIO_MODELS as MODELS, color, label};
+use run::model::{RATIO_MODELS as MODELS, label};
+use study::calibration::figure::charts;
 use study::calibration::{
-    Calibration, CalibrationError, Coefficient, FREE_STANDING, Fit, Grid, PowerLaw, REGRESSIONS, calibrate,
+    Calibration, CalibrationError, FREE_STANDING, Grid, PowerLaw, REGRESSIONS, calibrate,
 };
 
+use super::PaperTable;
 use super::figure::{Figure, spaced};
 use super::printed::{FIGURE_WALL, START};
-use super::table::{Cell, Table, columns};
+use crate::Comparison;
 
 /// u₀/`u_ins` assumed for Figure 8, and a₁ for Figure 10; those of the printed figures are not known.
 const STARTS: [f64; 4] = [0.3, 0.5, 0.7, START];
@@ -20,8 +22,8 @@ const A1: [f64; 4] = [0.01, 0.03, 0.05, 0.10];
 /// a₁ of Figures 8, 9 and 11.
 const REFERENCE_A1: f64 = 0.03;
 const HEIGHTS: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
-/// Largest ratio drawn (%).
-const TOP: f64 = 16.0;
+/// Least a₁ of Figure 12.
+const LEAST_A1: f64 = 0.01;
 
 /// Number of calibrations of section 5: three models each for stiffness, amplitude and heights, and c̄.
 pub(super) const CALIBRATIONS: usize = 3 * (2 + HEIGHTS.len()) + 1;
@@ -70,28 +72,22 @@ impl Section5 {
     }
 
     /// Refits Eqs. (20)–(23).
-    pub(super) fn equations(&self) -> Table {
+    pub(super) fn equations(&self) -> PaperTable {
         let mut rows = Vec::new();
         for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
             let points: Vec<_> = found.coefficients.iter().map(|c| (c.a1, c.x)).collect();
             for (words, points) in [("0.01 … 0.10", &points[2..]), ("0.005 … 0.10", &points[..])] {
                 let Some(law) = PowerLaw::fit(points) else { continue };
-                rows.push(vec![
-                    Cell::text(format!("Eq. ({equation}), {}", label(model).name)),
-                    Cell::text(words),
-                    Cell::value(law.q, q, 3),
-                    Cell::value(law.r, r, 3),
-                ]);
+                let case = format!("Eq. ({equation}), {}, a₁ = {words}", label(model).name);
+                rows.push(Comparison::printed(&case, "q", [law.q, q], 3));
+                rows.push(Comparison::printed(case, "r", [law.r, r], 3));
             }
         }
-        rows.push(vec![
-            Cell::text("Eq. (23), c̄ = −q ln e"),
-            Cell::text("rigid-linear"),
-            Cell::value(self.free_standing.coefficients[0].x, FREE_STANDING, 2),
-            Cell::text(""),
-        ]);
+        let found = self.free_standing.coefficients[0].x;
+        let case = "Eq. (23), c̄ = −q ln e, rigid-linear";
+        rows.push(Comparison::printed(case, "q", [found, FREE_STANDING], 2));
         let implied = implied_c_bar(REFERENCE_A1);
-        Table {
+        PaperTable {
             name: "Equations (20) to (23)",
             title: "Section 5 refitted: ξ = −q a₁^r ln e, u₀ = 0.9 u_ins, e = 0.80 … 0.98",
             notes: vec![
@@ -103,27 +99,22 @@ impl Section5 {
                      = {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
                 ),
             ],
-            columns: columns("equation | a₁ | q | r"),
             rows,
         }
     }
 
     pub(super) fn figures(&self) -> Vec<Figure> {
-        vec![self.figure_8(), self.figure_9(), self.figure_10(), self.figure_11(), self.figure_12()]
+        let [figure_10, figure_11, figure_12] = self.figures_10_to_12();
+        vec![self.figure_8(), self.figure_9(), figure_10, figure_11, figure_12]
     }
 
     fn figure_8(&self) -> Figure {
-        let charts = self.amplitude.iter().map(|found| {
-            let mut series = vec![
-                Series::dashed("Eq. (14)", 5, over_e(equivalence::makris_konstantinidis)),
-                Series::dashed("Eq. (17)", 4, over_e(equivalence::giannini_masiani)),
-            ];
-            for (color, Coefficient { start, x, .. }) in found.coefficients.iter().enumerate() {
-                let fits = found.fits.iter().filter(|fit| fit.start == *start);
-                series.extend(marks_and_fit(&format!("u₀ = {start} u_ins"), color, fits, *x));
-            }
-            over_restitution(label(found.model).name, TOP, series)
-        });
+        let mut charts = charts(&self.amplitude);
+        charts.truncate(MODELS.len());
+        for chart in &mut charts {
+            chart.series.push(Series::dashed("Eq. (14)", 5, over_e(equivalence::makris_konstantinidis)));
+            chart.series.push(Series::dashed("Eq. (17)", 4, over_e(equivalence::giannini_masiani)));
+        }
         let x = |model: usize, start: usize| self.amplitude[model].coefficients[start].x;
         let trend = |model: usize| format!("{:.3} … {:.3}", x(model, 0), x(model, STARTS.len() - 1));
         Figure {
@@ -137,7 +128,7 @@ impl Section5 {
                 trend(1),
                 trend(2)
             )],
-            charts: charts.collect(),
+            charts,
         }
     }
 
@@ -146,12 +137,13 @@ impl Section5 {
             let mut series = Vec::new();
             for (color, (found, height)) in self.shape.iter().zip(HEIGHTS).enumerate() {
                 let name = format!("h/b = {:.0}", height / FIGURE_WALL[1]);
-                let points = percent(found[index].fits.iter());
+                let points = found[index].fits.iter().map(|fit| (fit.restitution, fit.damping)).collect();
                 series.push(Series::marks(&name, color, points));
             }
             let x = self.shape[1][index].coefficients[0].x;
             series.push(Series::line("ξ = −x ln e for h/b = 10", 5, over_e(|e| -x * e.ln())));
-            over_restitution(label(model).name, TOP, series)
+            let (x, y) = (("e", [0.78, 1.0]), ("damping ratio", [0.0, 0.16]));
+            Chart::new(label(model).name, x, y, series)
         });
         Figure {
             number: 9,
@@ -172,73 +164,45 @@ impl Section5 {
         (0..MODELS.len()).flat_map(of).fold(0.0, f64::max)
     }
 
-    fn figure_10(&self) -> Figure {
-        let charts = self.stiffness.iter().map(|found| {
-            let mut series = Vec::new();
-            let drawn = found.coefficients.iter().filter(|c| A1.contains(&c.a1));
-            for (color, Coefficient { a1, x, .. }) in drawn.enumerate() {
-                let fits = found.fits.iter().filter(|fit| fit.a1 == *a1);
-                series.extend(marks_and_fit(&format!("a₁ = {a1}, x = {x:.3}"), color, fits, *x));
-            }
-            over_restitution(label(found.model).name, TOP, series)
+    /// Draws the calibrations over e at some a₁; the charts are those of `wall calibrate`.
+    fn drawn(&self, is_drawn: impl Fn(f64) -> bool) -> Vec<Chart> {
+        let some = self.stiffness.each_ref().map(|found| {
+            let fits = found.fits.iter().filter(|fit| is_drawn(fit.a1)).copied();
+            Calibration::new(found.model, fits.collect())
         });
-        Figure {
-            number: 10,
-            title: "The same over the initial stiffness",
-            notes: vec!["Drawn values of a₁ are lost; here 0.01, 0.03, 0.05 and 0.10.".into()],
-            charts: charts.collect(),
-        }
+        charts(&some)
     }
 
-    fn figure_11(&self) -> Figure {
-        let series = self.stiffness.iter().map(|found| {
-            let fits = found.fits.iter().filter(|fit| fit.a1 == REFERENCE_A1);
-            let points = fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect();
-            let name = label(found.model).name;
-            Series::marks(name, color(name), points)
-        });
-        Figure {
-            number: 11,
-            title: "Least error of Eq. (18)",
-            notes: vec![
-                "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the paper \
-                 finds so for 0.82 to 0.88 only."
-                    .into(),
-            ],
-            charts: vec![Chart::new(
-                format!("a₁ = {REFERENCE_A1}, u₀ = {START} u_ins"),
-                Axis::over("e", [0.78, 1.0]),
-                Axis::new("√Err"),
-                series.collect(),
-            )],
-        }
-    }
-
-    fn figure_12(&self) -> Figure {
-        let mut series = Vec::new();
-        for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
-            let model = label(model).name;
-            let color = color(model);
-            let points: Vec<_> = found.coefficients.iter().map(|c| (c.a1, c.x)).collect();
-            let curve = |law: PowerLaw| spaced([0.005, 0.1], 95).map(|a1| (a1, law.at(a1))).collect();
-            series.push(Series::dashed(&format!("Eq. ({equation})"), color, curve(PowerLaw { q, r })));
-            if let Some(law) = PowerLaw::fit(&points[2..]) {
-                let name = format!("{:.3} a₁^{:.3}", law.q, law.r);
-                series.push(Series::line(&name, color, curve(law)));
-            }
-            series.push(Series::marks(model, color, points));
-        }
-        Figure {
-            number: 12,
-            title: "Coefficient x of Eq. (19) over the initial stiffness",
-            notes: vec!["Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into()],
-            charts: vec![Chart::new(
-                "ξ = −x ln e",
-                Axis::over("a₁", [0.0, 0.1]),
-                Axis::over("x", [0.0, 0.8]),
-                series,
-            )],
-        }
+    fn figures_10_to_12(&self) -> [Figure; 3] {
+        let mut over_restitution = self.drawn(|a1| A1.contains(&a1));
+        let mut least_errors = self.drawn(|a1| a1 == REFERENCE_A1);
+        over_restitution.truncate(MODELS.len());
+        least_errors.drain(..MODELS.len());
+        let over_stiffness = self.drawn(|a1| a1 >= LEAST_A1).pop();
+        [
+            Figure {
+                number: 10,
+                title: "The same over the initial stiffness",
+                notes: vec!["Drawn values of a₁ are lost; here 0.01, 0.03, 0.05 and 0.10.".into()],
+                charts: over_restitution,
+            },
+            Figure {
+                number: 11,
+                title: "Least error of Eq. (18)",
+                notes: vec![
+                    "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the \
+                     paper finds so for 0.82 to 0.88 only."
+                        .into(),
+                ],
+                charts: least_errors,
+            },
+            Figure {
+                number: 12,
+                title: "Coefficient x of Eq. (19) over the initial stiffness",
+                notes: vec!["Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into()],
+                charts: over_stiffness.into_iter().collect(),
+            },
+        ]
     }
 }
 
@@ -250,17 +214,5 @@ fn implied_c_bar(a1: f64) -> f64 {
 }
 
 fn over_e(ratio: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-    spaced([0.79, 0.995], 82).map(|e| (e, 100.0 * ratio(e))).collect()
-}
-
-fn percent<'a>(fits: impl Iterator<Item = &'a Fit>) -> Vec<(f64, f64)> {
-    fits.map(|fit| (fit.restitution, 100.0 * fit.damping)).collect()
-}
-
-fn marks_and_fit<'a>(name: &str, color: usize, fits: impl Iterator<Item = &'a Fit>, x: f64) -> [Series; 2] {
-    [Series::line("", color, over_e(|e| -x * e.ln())), Series::marks(name, color, percent(fits))]
-}
-
-fn over_restitution(title: &str, top: f64, series: Vec<Series>) -> Chart {
-    Chart::new(title, Axis::over("e", [0.78, 1.0]), Axis::over("damping ratio (%)", [0.0, top]), series)
+    spaced([0.79, 0.995], 82).map(|e| (e, ratio(e))).collect()
 }

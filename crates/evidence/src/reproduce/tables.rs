@@ -5,10 +5,9 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
 use run::model::label;
 
-use super::printed::{
-    TABLE_3, TABLE_3_A1, TABLE_3_RESTITUTION, TABLE_4, TABLE_5, TABLE_5_HINGE, Table4, Table5,
-};
-use super::table::{Cell, Table, columns};
+use super::PaperTable;
+use super::printed::{TABLE_3, TABLE_3_A1, TABLE_3_RESTITUTION, TABLE_4, TABLE_5, TABLE_5_HINGE, Table5};
+use crate::Comparison;
 
 /// Returns the paper's abbreviation of a mechanism.
 pub(super) fn mechanism(row: &Table5) -> &'static str {
@@ -16,64 +15,54 @@ pub(super) fn mechanism(row: &Table5) -> &'static str {
 }
 
 /// Computes Table 3.
-pub fn table_3() -> Table {
-    let rows = TABLE_3.iter().map(|&(model, equation, walls)| {
-        let mut cells = vec![Cell::text(format!("{}, Eq. ({equation})", label(model).name))];
-        for ([tests, predicted @ ..], restitutions) in walls.into_iter().zip(TABLE_3_RESTITUTION) {
-            cells.push(Cell::text(format!("{tests:.3}")));
+pub fn table_3() -> PaperTable {
+    let (mut rows, mut given) = (Vec::new(), Vec::new());
+    for (model, equation, walls) in TABLE_3 {
+        let case = format!("{}, Eq. ({equation})", label(model).name);
+        let walls = ["single leaf", "cavity"].into_iter().zip(walls).zip(TABLE_3_RESTITUTION);
+        for ((wall, [tests, predicted @ ..]), restitutions) in walls {
+            given.push(format!("{wall}, {}: {tests:.3}", label(model).name));
             for (printed, e) in predicted.into_iter().zip(restitutions) {
-                cells.push(Cell::value(model.predicted_ratio(TABLE_3_A1, e), printed, 3));
+                let quantity = format!("{wall}, e = {e}");
+                let numbers = [model.predicted_ratio(TABLE_3_A1, e), printed];
+                rows.push(Comparison::printed(&case, quantity, numbers, 3));
             }
         }
-        cells
-    });
-    Table {
+    }
+    PaperTable {
         name: "Table 3",
         title: "Damping ratios calibrated on tests [33] and predicted from measured e, a₁ = 0.03",
         notes: vec![
-            "Two cells of the cavity wall differ by 0.001 to 0.002: their e is printed to two digits only."
+            format!("From tests: {}.", given.join("; ")),
+            "Two numbers of the cavity wall differ by 0.001 to 0.002: their e is printed to two digits only."
                 .into(),
         ],
-        columns: columns(
-            "model | single leaf: tests | predicted, e = 0.84 | predicted, e = 0.87 | cavity: tests | \
-             predicted, e = 0.61 | predicted, e = 0.74",
-        ),
-        rows: rows.collect(),
+        rows,
     }
 }
 
 /// Computes Table 4.
-pub fn table_4() -> Table {
-    let rows = TABLE_4.iter().map(|row: &Table4| {
+pub fn table_4() -> PaperTable {
+    let (mut rows, mut given) = (Vec::new(), Vec::new());
+    for row in &TABLE_4 {
         let [cr_a1, e] = row.restitution;
-        let [cdr_a1, cdr_test, cdr] = row.constant_ratio;
-        let [sdr_a1, sdr_test, sdr] = row.stiffness_proportional;
-        let given = |value: f64| Cell::text(format!("{value:.3}"));
-        vec![
-            Cell::text(row.specimen),
-            given(cr_a1),
-            given(e),
-            given(cdr_a1),
-            given(cdr_test),
-            Cell::value(equivalence::constant_ratio(cdr_a1, e), cdr, 3),
-            given(sdr_a1),
-            given(sdr_test),
-            Cell::value(equivalence::stiffness_proportional(sdr_a1, e), sdr, 3),
-        ]
-    });
-    Table {
+        given.push(format!("{}: CR, a₁ = {cr_a1:.3}, e = {e:.3}", row.specimen));
+        for (name, [a1, tests, printed], ratio) in [
+            ("ξ, Eq. (21)", row.constant_ratio, equivalence::constant_ratio as fn(f64, f64) -> f64),
+            ("ξ₁, Eq. (22)", row.stiffness_proportional, equivalence::stiffness_proportional),
+        ] {
+            given.push(format!("{name}, a₁ = {a1:.3}, {tests:.3} from tests"));
+            rows.push(Comparison::printed(row.specimen, name, [ratio(a1, e), printed], 3));
+        }
+    }
+    PaperTable {
         name: "Table 4",
         title: "Tested parapets: F₀ = 1.24 kN, u_ins = 115 mm, a₃ = 0.95",
         notes: vec![
-            "Parameters from tests are given, not computed. 0.0298 is printed as 0.029: cut off, not \
-             rounded."
-                .into(),
+            format!("Given, not computed: {}.", given.join("; ")),
+            "0.0298 is printed as 0.029: cut off, not rounded.".into(),
         ],
-        columns: columns(
-            "specimen | CR: a₁ | e | CDR: a₁ | ξ from tests | ξ, Eq. (21) | SDR: a₁ | \
-             ξ₁ from tests | ξ₁, Eq. (22)",
-        ),
-        rows: rows.collect(),
+        rows,
     }
 }
 
@@ -91,12 +80,18 @@ pub fn table_5_wall(row: &Table5) -> Parameters {
     }
 }
 
+/// What Table 5 prints of each wall.
+const TABLE_5_COLUMNS: [(&str, usize); TABLE_5_NUMBERS] =
+    [("e_an", 3), ("e_exp", 3), ("ξ CDC (%)", 2), ("ξ CDR (%)", 2), ("ξ₁ SDR (%)", 2), ("ξ Eq. (14) (%)", 2)];
+/// Numbers of each wall of Table 5.
+pub const TABLE_5_NUMBERS: usize = 6;
+
 /// Computes Table 5.
 ///
 /// # Errors
 /// [`ParameterError`] if a row makes no wall.
-pub fn table_5() -> Result<Table, ParameterError> {
-    let mut rows = Vec::new();
+pub fn table_5() -> Result<PaperTable, ParameterError> {
+    let (mut rows, mut given) = (Vec::new(), Vec::new());
     for row in &TABLE_5 {
         let wall = table_5_wall(row);
         let restitution = |restitution_source| -> Result<f64, ParameterError> {
@@ -111,22 +106,19 @@ pub fn table_5() -> Result<Table, ParameterError> {
             equivalence::makris_konstantinidis(e),
         ]
         .map(|ratio| 100.0 * ratio);
-        let mut cells = vec![
-            Cell::text(row.number.to_string()),
-            Cell::text(mechanism(row)),
-            Cell::text(format!("{:.2}", row.size[0])),
-            Cell::text(format!("{:.2}", row.size[1])),
-            Cell::text(format!("{:.4}", row.a1)),
-            Cell::value(e_an, row.restitution[0], 3),
-            Cell::value(e, row.restitution[1], 3),
-        ];
-        cells.extend(percent.iter().zip(row.damping).map(|(ratio, printed)| Cell::value(*ratio, printed, 2)));
-        rows.push(cells);
+        let ([h, b], kind) = (row.size, mechanism(row));
+        given.push(format!("{}: {kind}, {h:.2} m × {b:.2} m, a₁ = {:.4}", row.number, row.a1));
+        let computed = [e_an, e].into_iter().chain(percent);
+        let printed = row.restitution.into_iter().chain(row.damping);
+        for ((column, decimals), numbers) in TABLE_5_COLUMNS.into_iter().zip(computed.zip(printed)) {
+            rows.push(Comparison::printed(row.number.to_string(), column, numbers.into(), decimals));
+        }
     }
-    Ok(Table {
+    Ok(PaperTable {
         name: "Table 5",
         title: "The walls of the incremental dynamic analyses, a₃ = 1",
         notes: vec![
+            format!("Given: {}.", given.join("; ")),
             "The whole column of CDR lies 0.014 to 0.042 below print: a factor of 0.352 to 0.354 in Eq. (21) \
              gives the printed values, not the 0.350 that the paper prints."
                 .into(),
@@ -141,10 +133,6 @@ pub fn table_5() -> Result<Table, ParameterError> {
              were fitted over."
                 .into(),
         ],
-        columns: columns(
-            "wall | type | h (m) | b (m) | a₁ | e_an | e_exp | ξ CDC (%) | ξ CDR (%) | \
-             ξ₁ SDR (%) | ξ Eq. (14) (%)",
-        ),
         rows,
     })
 }

@@ -1,33 +1,15 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
-use super::released::{Released, StabilityError};
+use crate::{Comparison, EvidenceError};
+
+use super::released::Released;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 use run::bisection::begins_at;
 
-/// Result of one extreme case.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Extreme {
-    /// Name.
-    pub name: &'static str,
-    /// What happens in the case, and what its value measures.
-    pub criterion: &'static str,
-    /// Value found.
-    pub value: f64,
-    /// Largest value that is allowed.
-    pub limit: f64,
-}
-
-impl Extreme {
-    /// Returns whether the value keeps its limit.
-    pub fn holds(&self) -> bool {
-        self.value <= self.limit
-    }
-}
-
-type Value = Result<f64, StabilityError>;
+type Value = Result<f64, EvidenceError>;
 /// Name, criterion, limit, and how the value is found.
 type Case = (&'static str, &'static str, f64, fn() -> Value);
 
@@ -76,10 +58,10 @@ const CASES: [Case; 24] = [
 /// Runs all cases.
 ///
 /// # Errors
-/// [`StabilityError`] if one cannot be run.
-pub fn extremes() -> Result<Vec<Extreme>, StabilityError> {
+/// [`EvidenceError`] if one cannot be run.
+pub fn extremes() -> Result<Vec<Comparison>, EvidenceError> {
     let run =
-        |&(name, criterion, limit, value): &Case| Ok(Extreme { name, criterion, value: value()?, limit });
+        |&(case, criterion, limit, value): &Case| Ok(Comparison::limited(case, criterion, value()?, limit));
     CASES.iter().map(run).collect()
 }
 
@@ -112,7 +94,7 @@ fn strip(hinge_ratio: f64, overburden_in_weights: f64) -> Parameters {
 }
 
 /// Releases a wall from a fraction of `u_ins`, to be followed by the exact solver.
-fn released(parameters: &Parameters, fraction: f64) -> Result<Released, StabilityError> {
+fn released(parameters: &Parameters, fraction: f64) -> Result<Released, EvidenceError> {
     Ok(Released::new(Motion::new(Wall::new(parameters)?, Method::Exact), fraction))
 }
 
@@ -194,7 +176,7 @@ fn history(
     method: Method,
     forcing: &[f64],
     step: f64,
-) -> Result<History, StabilityError> {
+) -> Result<History, EvidenceError> {
     let motion = Motion::new(Wall::new(parameters)?, method);
     let solver = RecordSolver::new(&motion, step);
     let start = RunStart { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
@@ -206,7 +188,7 @@ fn history(
 }
 
 /// Returns the histories of the exact and of the adaptive solver under a pulse.
-fn both(parameters: &Parameters, strength: f64) -> Result<[History; 2], StabilityError> {
+fn both(parameters: &Parameters, strength: f64) -> Result<[History; 2], EvidenceError> {
     let (forcing, step) = pulse(&Wall::new(parameters)?, strength);
     let exact = history(parameters, Method::Exact, &forcing, step)?;
     Ok([exact, history(parameters, Method::Adaptive { tolerance: 1e-13 }, &forcing, step)?])
@@ -271,7 +253,7 @@ fn accumulating() -> Value {
         ratio *= e;
         time += 2.0 * libm::atanh(ratio) / p;
     }
-    let rests_by = |end: f64| -> Result<bool, StabilityError> {
+    let rests_by = |end: f64| -> Result<bool, EvidenceError> {
         let mut wall = released(&rigid(e), 0.5)?;
         wall.advance(end)?;
         Ok(wall.state.phase == Phase::Resting)
@@ -286,7 +268,7 @@ fn accumulating() -> Value {
 }
 
 /// History of the default wall under 10 s of a sine.
-fn under_sine(peak: f64) -> Result<Vec<f64>, StabilityError> {
+fn under_sine(peak: f64) -> Result<Vec<f64>, EvidenceError> {
     let forcing: Vec<f64> = (0..1000_u32).map(|i| peak * libm::sin(0.1 * f64::from(i))).collect();
     Ok(history(&free(), Method::Exact, &forcing, 1e-2)?.0)
 }

@@ -11,21 +11,20 @@
 //! let damping = DampingModel::ConstantCoefficient;
 //! let map = map(Solver::Automatic, damping, RowQuantity::DampingRatio, 2)?;
 //! assert!(map.cells.iter().flatten().all(|cell| cell.stable));
-//! # Ok::<(), evidence::stability::StabilityError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
 mod extreme;
 pub mod page;
 mod released;
 
-pub use extreme::{Extreme, extremes};
-pub use released::StabilityError;
-
+pub use extreme::extremes;
 use released::Released;
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::Parameters;
 
+use crate::EvidenceError;
 use run::model::damping_models;
 
 /// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
@@ -56,6 +55,16 @@ pub enum RowQuantity {
     Step,
     /// Damping ratio ξ \[-\].
     DampingRatio,
+}
+
+impl RowQuantity {
+    /// Its name in files, in words and on an axis.
+    fn names(self) -> [&'static str; 3] {
+        match self {
+            Self::Step => ["step_s", "step", "step (s)"],
+            Self::DampingRatio => ["xi", "xi", "ξ"],
+        }
+    }
 }
 
 /// Free motions of one solver with one damping model over a₁ and a second quantity.
@@ -96,13 +105,13 @@ const STEP_RATIO: f64 = 0.03;
 /// Makes one map with `columns` values of a₁ from 1e-6 to 0.1.
 ///
 /// # Errors
-/// [`StabilityError`] if a reference run fails.
+/// [`EvidenceError`] if a reference run fails.
 pub fn map(
     solver: Solver,
     damping: DampingModel,
     quantity: RowQuantity,
     columns: u32,
-) -> Result<Map, StabilityError> {
+) -> Result<Map, EvidenceError> {
     let a1 = |index| libm::pow(10.0, -6.0 + 5.0 * f64::from(index) / f64::from(columns - 1));
     let columns: Vec<f64> = (0..columns).map(a1).collect();
     let rows: Vec<(f64, u32, f64)> = match quantity {
@@ -112,7 +121,7 @@ pub fn map(
     let row = |&(_, steps, xi): &(f64, u32, f64)| {
         columns.iter().map(|&a1| cell(solver, damping, a1, xi, steps)).collect()
     };
-    let cells = rows.iter().map(row).collect::<Result<_, StabilityError>>()?;
+    let cells = rows.iter().map(row).collect::<Result<_, EvidenceError>>()?;
     let rows = rows.iter().map(|row| row.0).collect();
     Ok(Map { solver, damping, quantity, columns, rows, cells })
 }
@@ -124,7 +133,7 @@ fn cell(
     a1: f64,
     xi: f64,
     steps: u32,
-) -> Result<MapCell, StabilityError> {
+) -> Result<MapCell, EvidenceError> {
     let step = INTERVAL / f64::from(steps);
     let parameters = Parameters {
         height: 3.0,

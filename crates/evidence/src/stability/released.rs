@@ -1,19 +1,8 @@
 //! A wall released at rest, and its energy.
 
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
-use rocking_wall::wall::{ParameterError, Support};
+use rocking_wall::wall::Support;
 use run::free_motion::advance;
-
-/// Why a run could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum StabilityError {
-    /// The parameters make no wall.
-    #[error(transparent)]
-    Parameters(#[from] ParameterError),
-    /// The run failed.
-    #[error(transparent)]
-    Run(#[from] SolverError),
-}
 
 /// A wall in free motion after its release.
 pub(super) struct Released {

@@ -5,8 +5,8 @@ use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use run::model::{RATIO_MODELS, label};
 
-use super::difference::Difference;
-use super::error::ValidationError;
+use super::Difference;
+use crate::EvidenceError;
 use run::bisection::begins_at;
 use run::free_motion::{advance, with_damping, with_restitution};
 
@@ -72,11 +72,11 @@ impl Decay {
     /// by Eqs. (20)–(22). Two more runs have the calibrated and the analytic e, which are not fitted.
     ///
     /// # Errors
-    /// [`ValidationError`]: a wall that is refused, a peak beyond `u_ins`, or rest before the last peak.
+    /// [`EvidenceError`]: a wall that is refused, a peak beyond `u_ins`, or rest before the last peak.
     ///
     /// # Panics
     /// If there are fewer than two peaks from the start on.
-    pub fn compare(&self, parameters: &Parameters) -> Result<DecayComparison, ValidationError> {
+    pub fn compare(&self, parameters: &Parameters) -> Result<DecayComparison, EvidenceError> {
         let points = &self.points;
         let is_peak = |[time, displacement]: [f64; 2]| time >= self.start && displacement != 0.0;
         let places: Vec<_> = (0..points.len()).filter(|&place| is_peak(points[place])).collect();
@@ -86,7 +86,7 @@ impl Decay {
         let with = |e: f64| with_restitution(&rigid, e);
         let instability = Wall::new(&with(1.0))?.body().instability.positive / parameters.thickness;
         if let Some(&peak) = measured.iter().find(|peak| **peak >= instability) {
-            return Err(ValidationError::Peak { peak, instability });
+            return Err(EvidenceError::Peak { peak, instability });
         }
         let e = match self.restitution {
             Some(e) => e,
@@ -126,16 +126,16 @@ impl Decay {
 }
 
 /// Returns the e of least squares of the peaks, to 0.001.
-fn fitted(with: &impl Fn(f64) -> Parameters, measured: &[f64]) -> Result<f64, ValidationError> {
-    let mut best = Err(ValidationError::Rest { found: 0, expected: measured.len() - 1 });
+fn fitted(with: &impl Fn(f64) -> Parameters, measured: &[f64]) -> Result<f64, EvidenceError> {
+    let mut best = Err(EvidenceError::Rest { found: 0, expected: measured.len() - 1 });
     for step in LEAST_E..1000 {
         let e = E_STEP * f64::from(step);
         match model("", e, None, &with(e), measured) {
             Ok(model) if best.as_ref().is_ok_and(|(least, _)| *least <= model.difference.rms) => {}
             Ok(model) => best = Ok((model.difference.rms, e)),
             // a small e leaves no motion before the last peak
-            Err(ValidationError::Rest { .. }) if best.is_ok() => {}
-            Err(error @ ValidationError::Rest { .. }) => best = Err(error),
+            Err(EvidenceError::Rest { .. }) if best.is_ok() => {}
+            Err(error @ EvidenceError::Rest { .. }) => best = Err(error),
             Err(error) => return Err(error),
         }
     }
@@ -149,7 +149,7 @@ fn model(
     damping: Option<f64>,
     parameters: &Parameters,
     measured: &[f64],
-) -> Result<DecayModel, ValidationError> {
+) -> Result<DecayModel, EvidenceError> {
     let thickness = parameters.thickness;
     let first = measured.first().copied().unwrap_or_default();
     let (turns, passages) = released(parameters, first * thickness, measured.len().saturating_sub(1))?;
@@ -171,7 +171,7 @@ fn released(
     parameters: &Parameters,
     start: f64,
     count: usize,
-) -> Result<(Vec<f64>, Vec<f64>), ValidationError> {
+) -> Result<(Vec<f64>, Vec<f64>), EvidenceError> {
     let motion = Motion::of(parameters, parameters.tolerance)?;
     let mut state = motion.start_under(start, 0.0, 0.0);
     let (mut peaks, mut passages, mut memo) = (Vec::new(), Vec::new(), Memo::default());
@@ -189,7 +189,7 @@ fn released(
             peaks.push(located(&motion, before, has_turned)?.1.displacement.abs());
         }
     }
-    Err(ValidationError::Rest { found: peaks.len(), expected: count })
+    Err(EvidenceError::Rest { found: peaks.len(), expected: count })
 }
 
 /// Halves a step to the time at which something has happened; returns it and the state there.
@@ -197,7 +197,7 @@ fn located(
     motion: &Motion,
     before: State,
     has_happened: impl Fn(&State) -> bool,
-) -> Result<(f64, State), ValidationError> {
+) -> Result<(f64, State), EvidenceError> {
     let mut state = before;
     let time = begins_at([0.0, STEP], HALVINGS, |time| {
         state = before;

@@ -3,8 +3,8 @@
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::difference::Difference;
-use super::error::ValidationError;
+use super::Difference;
+use crate::EvidenceError;
 
 /// Step of the search for a₃ \[-\].
 const A3_STEP: f64 = 0.001;
@@ -53,11 +53,11 @@ impl Push {
     /// 0.001.
     ///
     /// # Errors
-    /// [`ValidationError::Parameters`] if the wall or no trilinear law is valid.
+    /// [`EvidenceError::Parameters`] if the wall or no trilinear law is valid.
     ///
     /// # Panics
     /// If no point lies from `fit_from` on.
-    pub fn compare(&self, parameters: &Parameters) -> Result<PushComparison, ValidationError> {
+    pub fn compare(&self, parameters: &Parameters) -> Result<PushComparison, EvidenceError> {
         // damping does not act in a slow push
         let still = Parameters { damping_model: DampingModel::None, ..parameters.clone() };
         let rigid = Parameters { force_law: ForceLaw::RigidLinear, a3: 1.0, ..still.clone() };

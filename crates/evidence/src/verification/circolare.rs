@@ -4,8 +4,8 @@ use std::path::Path;
 
 use rocking_wall::scene::{Place, Scene, SceneError};
 
-use super::error::VerificationError;
-use super::formula::{Check, Formula};
+use super::studies::{SIX_DIGITS, within};
+use crate::{Comparison, EvidenceError};
 use check::circolare::{
     GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
 };
@@ -18,11 +18,9 @@ const TIE: &str = "tie = { tie_stiffness = 2e5, tie_height = 3, tie_slack = 0.03
 const STRIP: &str = "geometry.mechanism = \"vertical_spanning\"\ngeometry.height = 3\n\
                      geometry.thickness = 0.25\ngeometry.density = 1800\ngeometry.overburden = 10e3\n\
                      force_law = { a1 = 0.03 }\n";
-/// Half a unit of the sixth digit.
-const SIX_DIGITS: f64 = 5e-6;
 
 /// Checks a wall on the ground, or at z/H of a building of three storeys.
-fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, VerificationError> {
+fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, EvidenceError> {
     let (mut building, mut damping) = (String::new(), [""; 2]);
     if let Some(ratio) = height_ratio {
         building = format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio:?} }}\n");
@@ -54,21 +52,20 @@ fn results(side: Option<&SideVerdict>) -> [f64; 5] {
     })
 }
 
-pub(super) fn examples() -> Result<Formula, VerificationError> {
+pub(super) fn examples() -> Result<Vec<Comparison>, EvidenceError> {
     let ground = GroundSpectrum::new(Hazard { ag: 0.15, f0: 2.45, tc: 0.32 }, Soil::B, 1.0);
-    let mut checks: Vec<_> = [
-        ("S_S", "-", ground.soil_factor, 1.2),
-        ("T_C", "s", ground.t_c, 0.442_092),
-        ("S_e(0.3 s), 5 %", "m/s2", ground.acceleration(0.3, 0.05), 4.32621),
-        ("eta of 8 %", "-", damping_factor(0.08), 0.877_058),
-    ]
-    .into_iter()
-    .map(|(name, unit, found, expected)| {
-        Check::of(("site, soil B", name, unit), [found, expected], SIX_DIGITS)
-    })
-    .collect();
+    let case = "site, soil B";
+    let mut comparisons = within(
+        SIX_DIGITS,
+        [
+            (case, "S_S", "-", ground.soil_factor, 1.2),
+            (case, "T_C", "s", ground.t_c, 0.442_092),
+            (case, "S_e(0.3 s), 5 %", "m/s2", ground.acceleration(0.3, 0.05), 4.32621),
+            (case, "eta of 8 %", "-", damping_factor(0.08), 0.877_058),
+        ],
+    );
     let tied = format!("{PARAPET}{TIE}");
-    for (name, wall, ratio, expected) in [
+    for (name, wall, ratio, given) in [
         ("parapet on the ground", PARAPET, None, [0.498_925, 0.951_57, 0.183_875, 0.855_812, 1.37893]),
         ("parapet on the roof", PARAPET, Some(1.0), [0.498_925, 0.951_57, 0.070_611_9, 0.790_84, 0.913_095]),
         ("tied parapet", &*tied, None, [f64::NAN, f64::NAN, f64::NAN, 1.35612, 1.37893]),
@@ -80,25 +77,11 @@ pub(super) fn examples() -> Result<Formula, VerificationError> {
             [0.136_359, 6.76449, 0.442_265, 1.02249, 1.31793],
         ),
     ] {
-        let verdict = checked(wall, ratio)?;
-        let found = results(verdict.sides.positive.as_ref());
+        let found = results(checked(wall, ratio)?.sides.positive.as_ref());
         let names = [("T0", "s"), ("a_y", "m/s2"), ("zeta SLD", "-"), ("zeta SLV", "-"), ("zeta SLC", "-")];
-        for (((quantity, unit), found), expected) in names.into_iter().zip(found).zip(expected) {
-            // a tie has no number there in the examples
-            if !expected.is_nan() {
-                checks.push(Check::of((name, quantity, unit), [found, expected], SIX_DIGITS));
-            }
-        }
+        let rows = (0..names.len()).map(|k| (name, names[k].0, names[k].1, found[k], given[k]));
+        // a tie has no number there in the examples
+        comparisons.extend(within(SIX_DIGITS, rows.filter(|row| !row.4.is_nan())));
     }
-    Ok(Formula::new(
-        [
-            "Check by Circolare 7/2019",
-            "the-check-by-circolare-72019",
-            "C8.7.1.2.1 and C7.2.3 with the spectra of NTC 2018: activation (SLD) and displacement (SLV, \
-             SLC) of walls on the ground and in a building",
-            "worked examples, which an independent script computed from the formulas of the code",
-            "half a unit of the sixth digit: 5e-6",
-        ],
-        checks,
-    ))
+    Ok(comparisons)
 }

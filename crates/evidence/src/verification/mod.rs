@@ -2,53 +2,83 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `error` | the error |
-//! | `formula` | formulas and their checks as data |
-//! | `scenes` | formulas that the variables of a wall show, in scenes: data of `formulas.toml` |
-//! | `library` | variables of a scene, computed by this library |
-//! | `studies` | formulas of spectra, capacity, fragilities; the list of all that are not scenes |
+//! | `scenes` | the variables of a wall in scenes, and their references |
+//! | `studies` | numbers of spectra, capacity, fragilities |
 //! | `circolare` | the worked examples of the check by Circolare 7/2019 |
 //! | `paper` | the paper's tables of damping ratios |
-//! | [`page`] | the verification manual with the results |
+//! | [`page`] | the manual: on a terminal, as JSON, as Markdown, as a page |
 //!
-//! The references of `scenes` stand in `references.csv`. `tests/data/references.py` writes them, in decimal
-//! arithmetic of 40 digits, or takes them from the reference cases in 113-bit arithmetic.
+//! The texts and the scenes stand in `formulas.toml`, the references of the scenes in `references.csv`.
+//! `tests/data/references.py` writes these, in decimal arithmetic of 40 digits, or takes them from the
+//! reference cases in 113-bit arithmetic.
 //!
 //! ```
-//! use evidence::verification::{library, verify};
-//!
-//! let formulas = verify(library)?;
-//! assert!(formulas.iter().all(|formula| formula.checks.iter().all(|check| check.passes())));
-//! # Ok::<(), evidence::verification::VerificationError>(())
+//! let formulas = evidence::verification::verify()?;
+//! assert!(formulas.iter().all(|formula| formula.comparisons.iter().all(|number| number.passes())));
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
 mod circolare;
-mod error;
-mod formula;
-mod library;
 pub mod page;
 mod paper;
 mod scenes;
 mod studies;
 
-use rocking_wall::scene::Scene;
+use std::collections::BTreeMap;
 
-pub use error::VerificationError;
-pub use formula::{Check, Counts, Formula};
-pub use library::library;
-pub use scenes::{Quantity, verify_scenes};
+use serde::Deserialize;
 
-/// Checks every formula; `values` computes the quantities of a scene, which come by rising times. It returns
-/// `None` for a quantity that it does not know. [`library`] is one such function, an FMU another.
+use crate::{Comparison, EvidenceError};
+
+/// A formula, what it is compared with, and the numbers.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Formula {
+    /// Title.
+    pub title: String,
+    /// Heading of `docs/model.md` that states it, as a link.
+    pub section: String,
+    /// The formula.
+    pub statement: String,
+    /// Where the reference comes from.
+    pub reference: String,
+    /// Why the bound is what it is.
+    pub why: String,
+    /// Numbers.
+    #[serde(skip)]
+    pub comparisons: Vec<Comparison>,
+    /// Texts of scenes by their names.
+    #[serde(default)]
+    pub scenes: BTreeMap<String, String>,
+    /// Motion of all scenes.
+    motion: Option<scenes::Samples>,
+    /// The study that computes it.
+    study: Option<studies::Study>,
+}
+
+#[derive(Deserialize)]
+struct Document {
+    formula: Vec<Formula>,
+}
+
+/// Computes every formula.
 ///
 /// # Errors
-/// Those of `values`, and [`VerificationError`] where a formula of `studies` cannot be computed.
-pub fn verify<E: From<VerificationError>>(
-    values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
-) -> Result<Vec<Formula>, E> {
-    let mut formulas = verify_scenes(values)?;
-    for formula in studies::FORMULAS {
-        formulas.push(formula()?);
+/// [`EvidenceError`] where one cannot be computed.
+pub fn verify() -> Result<Vec<Formula>, EvidenceError> {
+    let mut formulas = document().formula;
+    for formula in &mut formulas {
+        for text in [&mut formula.statement, &mut formula.reference, &mut formula.why] {
+            *text = text.trim().replace('\n', " ");
+        }
+        formula.comparisons = match formula.study {
+            Some(study) => study.compare()?,
+            None => scenes::compare(&formula.scenes, formula.motion.as_ref())?,
+        };
     }
     Ok(formulas)
+}
+
+fn document() -> Document {
+    toml::from_str(include_str!("formulas.toml")).expect("formulas.toml is part of the program")
 }

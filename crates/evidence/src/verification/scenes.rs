@@ -4,50 +4,19 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fmu_export::VariableId;
-use ground_motion::GroundMotion;
-use rocking_wall::scene::Scene;
-use rocking_wall::simulation::Excitation;
+use ground_motion::{GroundMotion, GroundMotionError};
+use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::simulation::{Excitation, Simulation, segment_of};
 use rocking_wall::variables::RealVariable;
+use rocking_wall::wall::Support;
 use serde::Deserialize;
 
-use super::error::VerificationError;
-use super::formula::{Check, Formula};
-
-const FORMULAS: &str = include_str!("formulas.toml");
-const REFERENCES: &str = include_str!("references.csv");
-
-/// A variable of the model description at a time of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quantity {
-    /// Name.
-    pub name: &'static str,
-    /// Time \[s\].
-    pub time: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document {
-    formula: Vec<Entry>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    title: String,
-    section: String,
-    statement: String,
-    reference: String,
-    why: String,
-    /// Texts of scenes by their names.
-    scenes: BTreeMap<String, String>,
-    motion: Option<Samples>,
-}
+use crate::{Comparison, EvidenceError};
 
 /// Motion of the supports, straight between samples.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Samples {
+pub(super) struct Samples {
     step: f64,
     bottom: Vec<f64>,
     top: Option<Vec<f64>>,
@@ -55,7 +24,7 @@ struct Samples {
 }
 
 impl Samples {
-    fn excitation(&self) -> Result<Excitation, VerificationError> {
+    fn excitation(&self) -> Result<Excitation, GroundMotionError> {
         let motion = |samples: &Vec<f64>| GroundMotion::new(self.step, samples.clone());
         let excitation = Excitation::new(motion(&self.bottom)?, self.top.as_ref().map(motion).transpose()?);
         Ok(match &self.drift {
@@ -65,73 +34,72 @@ impl Samples {
     }
 }
 
-/// A line of the references.
+/// A variable of the model description at a time of a scene \[s\], by rising times; its reference, what the
+/// error is relative to, and the largest error over it.
 struct Reference {
-    scene: &'static str,
-    quantity: Quantity,
+    name: &'static str,
+    time: f64,
     value: f64,
     scale: f64,
     bound: f64,
 }
 
-fn references() -> impl Iterator<Item = Reference> {
-    REFERENCES.lines().skip(1).map(|line| {
-        let mut fields = line.split(',');
-        let [scene, name] = [(); 2].map(|()| fields.next().unwrap_or_default());
-        let numbers: Vec<f64> = fields.filter_map(|field| field.parse().ok()).collect();
+/// The references of a scene.
+fn references(scene: &str) -> impl Iterator<Item = Reference> {
+    let lines = include_str!("references.csv").lines().filter_map(move |line| line.strip_prefix(scene));
+    lines.filter_map(|line| line.strip_prefix(',')).map(|line| {
+        let (name, numbers) = line.split_once(',').unwrap_or_default();
+        let numbers: Vec<f64> = numbers.split(',').filter_map(|field| field.parse().ok()).collect();
         let [time, value, scale, bound] = numbers[..] else { panic!("references.csv: {line}") };
-        Reference { scene, quantity: Quantity { name, time }, value, scale, bound }
+        Reference { name, time, value, scale, bound }
     })
 }
 
-/// Checks the formulas that the variables of a wall show, and nothing that only studies compute: what an FMU
-/// can be asked for. `values` computes the quantities of a scene, as for [`verify`](super::verify).
-///
-/// # Errors
-/// Those of `values`, and [`VerificationError`] for a scene that cannot be read.
-///
-/// # Panics
-/// If `values` returns more or fewer numbers than it is asked for.
-pub fn verify_scenes<E: From<VerificationError>>(
-    mut values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
-) -> Result<Vec<Formula>, E> {
-    let document: Document = toml::from_str(FORMULAS).expect("formulas.toml is part of the program");
-    let mut formulas = Vec::new();
-    for entry in document.formula {
-        let mut checks = Vec::new();
-        for (name, text) in &entry.scenes {
-            let scene = scene(name, text, entry.motion.as_ref())?;
-            let references: Vec<_> = references().filter(|reference| reference.scene == name).collect();
-            let quantities: Vec<_> = references.iter().map(|reference| reference.quantity).collect();
-            let computed = values(&scene, &quantities)?;
-            assert_eq!(computed.len(), quantities.len(), "a value for each quantity");
-            checks.extend(references.iter().zip(computed).map(|(reference, value)| check(reference, value)));
+/// Compares the variables of scenes with their references.
+pub(super) fn compare(
+    scenes: &BTreeMap<String, String>,
+    motion: Option<&Samples>,
+) -> Result<Vec<Comparison>, EvidenceError> {
+    let mut comparisons = Vec::new();
+    for (name, text) in scenes {
+        let mut scene = Scene::parse(name, text, Path::new("."))?;
+        if let Some(samples) = motion {
+            scene.excitation = Some(samples.excitation()?);
         }
-        let joined = |text: &str| text.trim().replace('\n', " ");
-        formulas.push(Formula {
-            statement: joined(&entry.statement),
-            reference: joined(&entry.reference),
-            why: joined(&entry.why),
-            title: entry.title,
-            section: entry.section,
-            checks,
-        });
+        let motion = scene.support_motion()?;
+        let motion = motion.as_deref();
+        let support = |time: f64| segment_of(motion, time, 0.0).from;
+        let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support(0.0))?;
+        for Reference { name: variable, time, value, scale, bound } in references(name) {
+            let next = |now: f64, _: f64| (segment_of(motion, now, time - now), time - now);
+            simulation.advance_through(next, None).map_err(SceneError::from)?;
+            simulation.set_time(time);
+            let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
+            let unit = RealVariable::from_name(variable).and_then(|variable| variable.variable().unit);
+            let what = (name, format!("{variable}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
+            let computed = computed(&simulation, support(time), variable);
+            comparisons.push(Comparison { scale, ..Comparison::new(what, [computed, value], bound) });
+        }
     }
-    Ok(formulas)
+    Ok(comparisons)
 }
 
-fn scene(name: &str, text: &str, motion: Option<&Samples>) -> Result<Scene, VerificationError> {
-    let mut scene = Scene::parse(name, text, Path::new("."))?;
-    if let Some(samples) = motion {
-        scene.excitation = Some(samples.excitation()?);
+/// Returns a variable of the model description, or a fact of the wall, by its name.
+fn computed(simulation: &Simulation, support: Support, name: &str) -> f64 {
+    let outputs = simulation.outputs(support);
+    match name {
+        "u" => outputs.displacement,
+        "u_dot" => outputs.velocity,
+        "u_ddot" => outputs.acceleration,
+        "restoring_force" => outputs.restoring_force,
+        "damping_force" => outputs.damping_force,
+        "reaction_bottom" => outputs.reactions.bottom,
+        "reaction_top" => outputs.reactions.top,
+        "tie_force" => outputs.tie_force,
+        "overturn_time" => simulation.progress().overturn_time.unwrap_or(-1.0),
+        _ => {
+            let facts = simulation.wall().facts();
+            facts.iter().find(|fact| fact.name == name).map_or(f64::NAN, |fact| fact.value)
+        }
     }
-    Ok(scene)
-}
-
-fn check(reference: &Reference, computed: Option<f64>) -> Check {
-    let Reference { scene, quantity: Quantity { name, time }, value, scale, bound } = *reference;
-    let quantity = if time == 0.0 { name.to_owned() } else { format!("{name} at {time:.3} s") };
-    let unit = RealVariable::from_name(name).and_then(|variable| variable.variable().unit);
-    let unit = unit.filter(|unit| *unit != "1").unwrap_or("-");
-    Check { case: scene.to_owned(), quantity, unit, reference: value, computed, scale, bound }
 }

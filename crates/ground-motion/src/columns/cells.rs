@@ -80,8 +80,8 @@ impl<'a> Row<'a> {
         self.all_cells().take(self.width)
     }
 
-    pub(super) fn all_cells(&self) -> Cells<'a> {
-        Cells::new(self.text, self.separator)
+    pub(super) fn all_cells(&self) -> impl Iterator<Item = Cow<'a, str>> {
+        cells(self.text, self.separator)
     }
 
     /// Refuses a number of cells that is not that of the columns; empty ones at the end do not count.
@@ -123,42 +123,29 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The cells of a row, without blanks around them and without quotes.
-#[derive(Clone, Debug)]
-pub(super) struct Cells<'a> {
-    rest: Option<&'a str>,
-    separator: Separator,
-}
-
-impl<'a> Cells<'a> {
-    pub(super) fn new(row: &'a str, separator: Separator) -> Self {
-        Self { rest: Some(row), separator }
-    }
-}
-
-impl<'a> Iterator for Cells<'a> {
-    type Item = Cow<'a, str>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let mut rest = self.rest.take()?;
-        if self.separator == Separator::Blanks {
-            rest = rest.trim_start();
-            if rest.is_empty() {
+/// Splits a row into its cells, without blanks around them and without quotes.
+pub(super) fn cells(row: &str, separator: Separator) -> impl Iterator<Item = Cow<'_, str>> {
+    let mut rest = Some(row);
+    std::iter::from_fn(move || {
+        let mut row = rest.take()?;
+        if separator == Separator::Blanks {
+            row = row.trim_start();
+            if row.is_empty() {
                 return None;
             }
         }
-        let may_close = rest.trim_start().starts_with('"');
+        let may_close = row.trim_start().starts_with('"');
         let mut is_open = false;
-        let end = rest.find(|c: char| {
+        let end = row.find(|c: char| {
             is_open ^= may_close && c == '"';
-            !is_open && self.separator.is(c)
+            !is_open && separator.is(c)
         });
-        let Some(end) = end else { return Some(unquoted(rest)) };
-        let mut after = rest[end..].chars();
+        let Some(end) = end else { return Some(unquoted(row)) };
+        let mut after = row[end..].chars();
         after.next();
-        self.rest = Some(after.as_str());
-        Some(unquoted(&rest[..end]))
-    }
+        rest = Some(after.as_str());
+        Some(unquoted(&row[..end]))
+    })
 }
 
 /// Strips blanks and quotes from a cell; doubled quotes inside stand for one.

@@ -1,6 +1,6 @@
 //! The names of columns, and the units that they state.
 
-use super::cells::{Cells, Separator, unquoted};
+use super::cells::{Separator, cells, unquoted};
 use crate::error::Fault;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
@@ -70,31 +70,31 @@ impl Name {
     }
 
     /// Returns the quantity other than an acceleration of the ground that its words say.
-    pub(crate) fn says(&self) -> Option<Said> {
+    pub(crate) fn says(&self) -> Option<Quantity> {
         let words = self.words();
         let quantity = words.iter().find_map(|word| match word.as_str() {
-            "sv" | "psv" | "vg" => Some(Said::Is(Quantity::Velocity)),
-            "sd" | "dg" => Some(Said::Is(Quantity::Displacement)),
-            word if word.starts_with("vel") => Some(Said::Is(Quantity::Velocity)),
-            word if word.starts_with("dis") => Some(Said::Is(Quantity::Displacement)),
+            "sv" | "psv" | "vg" => Some(Quantity::Velocity),
+            "sd" | "dg" => Some(Quantity::Displacement),
+            word if word.starts_with("vel") => Some(Quantity::Velocity),
+            word if word.starts_with("dis") => Some(Quantity::Displacement),
             _ => None,
         });
         let is_period = words.first().is_some_and(|word| word.starts_with("period") || word == "tn");
         let is_spectrum = is_period || words.iter().any(|word| ["sa", "psa", "spectral"].contains(&&**word));
-        quantity.or(is_spectrum.then_some(Said::Spectrum))
+        quantity.or(is_spectrum.then_some(Quantity::Spectrum))
     }
 
     /// Refuses the name of a velocity or a displacement on a line.
     pub(crate) fn refuse_other_quantity(&self, line: usize) -> Result<(), Fault> {
         match self.says() {
-            Some(Said::Is(quantity)) if self.is_acceleration() => {
+            Some(Quantity::Spectrum) | None => Ok(()),
+            Some(quantity) if self.is_acceleration() => {
                 let remedy = "name and unit contradict each other: correct the wrong one, or use the column \
                               of the acceleration";
                 let expected = format!("the name of an acceleration, or a unit of a {}", quantity.noun());
                 Err(Fault::excerpt(line, expected, &self.written, remedy))
             }
-            Some(Said::Is(quantity)) => Err(quantity.refused(&self.written, line)),
-            Some(Said::Spectrum) | None => Ok(()),
+            Some(quantity) => Err(quantity.refused(&self.written, line)),
         }
     }
 
@@ -105,25 +105,21 @@ impl Name {
         !is_plain_v && self.written.replacen(unit, " ", 1).split(['_', ' ']).any(is_vertical_channel)
     }
 
+    /// Returns the quantity of its unit.
+    pub(crate) fn quantity(&self) -> Option<Quantity> {
+        self.unit.as_deref().and_then(Quantity::of)
+    }
+
     /// Returns whether it states a unit of acceleration that is read.
     pub(crate) fn is_acceleration(&self) -> bool {
-        matches!(self.unit.as_deref().and_then(Quantity::of), Some(Quantity::Acceleration(_)))
+        matches!(self.quantity(), Some(Quantity::Acceleration(_)))
     }
 
     /// Returns whether it states a quantity other than an acceleration.
     pub(crate) fn is_another_quantity(&self) -> bool {
-        let quantity = self.unit.as_deref().and_then(Quantity::of);
-        quantity.is_some_and(|of| !matches!(of, Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
+        self.quantity()
+            .is_some_and(|of| !matches!(of, Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
     }
-}
-
-/// What the words of a name say.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Said {
-    /// A response spectrum.
-    Spectrum,
-    /// A velocity or a displacement.
-    Is(Quantity),
 }
 
 /// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`,
@@ -158,12 +154,12 @@ fn closing(text: &str, opening: &str) -> Option<usize> {
 /// Splits a line of names, without empty ones at its end.
 pub(super) fn names(line: &str, separator: Separator) -> Vec<Name> {
     let mut names: Vec<Name> = match separator {
-        Separator::Blanks if line.contains('\t') => Cells::new(line, Separator::Tab)
-            .filter(|name| !name.is_empty())
-            .map(|name| Name::of(&name))
-            .collect(),
+        Separator::Blanks if line.contains('\t') => {
+            let filled = cells(line, Separator::Tab).filter(|name| !name.is_empty());
+            filled.map(|name| Name::of(&name)).collect()
+        }
         Separator::Blanks => words(line).iter().map(|name| Name::of(name)).collect(),
-        _ => Cells::new(line, separator).map(|name| Name::of(&name)).collect(),
+        _ => cells(line, separator).map(|name| Name::of(&name)).collect(),
     };
     let filled = names.iter().rposition(|name| !name.written.is_empty()).map_or(0, |last| last + 1);
     names.truncate(filled);

@@ -15,9 +15,10 @@
 //!
 //! AFAD's newer files (`.asc`) are in the form of ESM.
 
-use super::components::{Components, step, value};
+use super::components::{components, finish, push_row};
+use super::header::{count, step};
 use crate::error::Fault;
-use crate::fields::{Line, after, find, lines, real};
+use crate::fields::{Numbered, after, find, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -34,22 +35,17 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 /// Reads the components of an AFAD file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let is_row = |line: &str| line.split_whitespace().all(|word| real(word).is_some());
-    let header: Vec<Line<'_>> =
+    let header: Vec<Numbered<'_>> =
         lines(text).take(HEADER_LINES).take_while(|(_, line)| !is_row(line)).collect();
     let step = step(&header, "SAMPLING INTERVAL (sec)", |step| step, options)?;
-    let (count_line, count) = value(&header, COUNT)?;
-    let count = count.parse().map_err(|_| {
-        let expected = format!("{COUNT} as a whole number");
-        Fault::excerpt(count_line, expected, count, "correct the header")
-    })?;
+    let (count_line, count) = count(&header, COUNT)?;
     let peaks = header.iter().find(|(_, line)| find(line, "PGA VALUES").is_some());
-    let in_brackets = |&(number, line): &Line<'_>| {
+    let in_brackets = |&(number, line): &Numbered<'_>| {
         let unit = line.split_once('(')?.1.split_once(')')?.0;
         Some((number, unit.to_owned()))
     };
     let Some((unit_line, unit)) = peaks.and_then(in_brackets) else {
-        let expected = "the unit in `RAW PGA VALUES (gal)`";
-        return Err(Fault::new(count_line, expected, "none", "complete the header"));
+        return Err(Fault::missing(count_line, "the unit in `RAW PGA VALUES (gal)`"));
     };
     let unit = options.unit_of(&unit, unit_line)?;
     let &(names_line, names) = header.last().unwrap_or(&(1, ""));
@@ -57,16 +53,16 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let expected = "the names of the columns, `N-S E-W U-D`";
         return Err(Fault::excerpt(names_line, expected, names, "complete the header"));
     }
-    let mut components = Components::new([step, 0.0], unit, names.split_whitespace(), names_line)?;
-    for (channel, name) in components.channels.iter_mut().zip(names.split_whitespace()) {
+    let mut channels = components([step, 0.0], unit, names.split_whitespace(), names_line)?;
+    for (channel, name) in channels.iter_mut().zip(names.split_whitespace()) {
         let stated = peaks.and_then(|(_, line)| after(line, &format!("({name})")));
         if let Some(text) = stated {
             channel.state_peak(text);
         }
     }
     for (number, line) in lines(text).skip(header.len()) {
-        components.push(line.split_whitespace(), number)?;
+        push_row(&mut channels, line.split_whitespace(), number)?;
     }
     let stated_by = format!("{COUNT} on line {count_line}");
-    components.finish(count, &stated_by, &header.iter().map(|(_, line)| *line))
+    finish(channels, count, &stated_by, &header.iter().map(|(_, line)| *line))
 }

@@ -13,8 +13,10 @@
 //!
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
-use crate::error::{Fault, excerpt};
-use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{
+    Numbered, check_count, find, leading_number, lines, positive, real, touching, unit_word,
+};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
@@ -40,13 +42,13 @@ fn states_count_and_step(line: &str) -> bool {
 }
 
 /// Reads the text of an AT2 file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let first = |states: fn(&str) -> bool| lines(text).take(HEADER_LINES).position(|(_, line)| states(line));
     let header_length = first(states_count_and_step).or_else(|| first(|line| find(line, "NPTS").is_some()));
     let Some(header_length) = header_length else {
-        let found = lines(text).next().map_or_else(|| "an empty file".to_owned(), |(_, line)| excerpt(line));
+        let found = lines(text).next().unwrap_or_default().1;
         let expected = format!("an AT2 header with {COUNT_AND_STEP}");
-        return Err(Fault::new(1, expected, found, "check that this is a PEER AT2 file"));
+        return Err(Fault::excerpt(1, expected, found, "check that this is a PEER AT2 file"));
     };
     let header = || lines(text).take(header_length);
     let mut rest = lines(text).skip(header_length);
@@ -59,18 +61,22 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let mut line_start = 0;
     for (number, line) in rest {
         line_start = parsed.samples.len();
-        for word in line.split_ascii_whitespace().flat_map(|word| Touching { rest: word }) {
-            parsed.push(real(word), number, word, "a finite number")?;
+        for word in line.split_ascii_whitespace().flat_map(touching) {
+            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
     }
-    parsed.trim_padding(count, line_start);
-    parsed.check_count(count, &format!("NPTS on line {count_line}"))?;
+    // the last line may be filled up with zeros
+    let surplus = parsed.samples.get(count..).filter(|_| line_start < count);
+    if surplus.is_some_and(|rest| rest.iter().all(|a| *a == 0.0)) {
+        parsed.samples.truncate(count);
+    }
+    check_count(parsed.samples.len(), count, &format!("NPTS on line {count_line}"), parsed.last_line)?;
     // event, date, station, component, and in old files the station's number in brackets
     let place = header().nth(1).and_then(|(_, line)| line.rsplit_once(", "));
     let direction = place.and_then(|(_, component)| component.split_whitespace().next());
     parsed.is_vertical = direction.is_some_and(is_vertical);
     parsed.keep_header(header().map(|(_, line)| line));
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Reads NPTS and DT from their line.
@@ -99,7 +105,7 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
 
 /// Finds the unit that the header states, or else the one that the user states. It is never guessed.
 fn unit<'a>(
-    header: impl Iterator<Item = Line<'a>>,
+    header: impl Iterator<Item = Numbered<'a>>,
     count_line: usize,
     options: &RecordOptions,
 ) -> Result<Unit, Fault> {
@@ -118,27 +124,5 @@ fn unit<'a>(
             let expected = "a unit in the header, `IN UNITS OF G`";
             Err(Fault::new(count_line, expected, "none before this line", STATE_THE_UNIT))
         }
-    }
-}
-
-/// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
-pub(super) struct Touching<'a> {
-    pub(super) rest: &'a str,
-}
-
-impl<'a> Iterator for Touching<'a> {
-    type Item = &'a str;
-
-    fn next(&mut self) -> Option<&'a str> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let bytes = self.rest.as_bytes();
-        let is_start = |at: &usize| {
-            matches!(bytes[*at], b'+' | b'-') && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
-        };
-        let (number, rest) = self.rest.split_at((1..bytes.len()).find(is_start).unwrap_or(bytes.len()));
-        self.rest = rest;
-        Some(number)
     }
 }

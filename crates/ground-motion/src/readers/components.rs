@@ -1,8 +1,7 @@
 //! What formats with one column for each component share.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, check_count, leading_number, positive, real, rounding};
-use crate::options::RecordOptions;
+use crate::fields::{check_count, real, rounding};
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical::is_vertical;
@@ -15,105 +14,66 @@ pub(super) fn is_due(field: &str, due: f64) -> bool {
     real(field).is_some_and(|time| (time - due).abs() <= rounding(field) + 1e-9 * due.abs())
 }
 
-/// The components of a table, one column each.
-pub(super) struct Components {
-    pub(super) channels: Vec<Parsed>,
-}
-
-impl Components {
-    /// Makes components without samples, of a name each; these follow after a line. `U` is vertical, too.
-    ///
-    /// Refuses more components than any recorder has: the header is damaged.
-    pub(super) fn new<'a>(
-        [step, first_time]: [f64; 2],
-        unit: Unit,
-        names: impl Iterator<Item = &'a str>,
-        line: usize,
-    ) -> Result<Self, Fault> {
-        let component = |(index, name): (usize, &str)| {
-            let mut parsed = Parsed::new(step, unit, line);
-            parsed.first_time = first_time;
-            parsed.channel = Some(format!("{}: {name}", index + 1));
-            parsed.is_vertical = is_vertical(name) || name.eq_ignore_ascii_case("U");
-            parsed
-        };
-        let channels: Vec<_> = names.enumerate().take(MOST + 1).map(component).collect();
-        if (1..=MOST).contains(&channels.len()) {
-            return Ok(Self { channels });
-        }
-        let expected = format!("the names of 1 to {MOST} components");
-        let found = if channels.is_empty() { "none" } else { "more" };
-        Err(Fault::new(line, expected, found, "correct the header"))
-    }
-
-    /// Takes the next row, one field for each component.
-    pub(super) fn push<'a>(
-        &mut self,
-        fields: impl Iterator<Item = &'a str>,
-        line: usize,
-    ) -> Result<(), Fault> {
-        let columns = self.channels.len();
-        let mut fields = fields.fuse();
-        for (index, channel) in self.channels.iter_mut().enumerate() {
-            let field = fields.next().unwrap_or_default();
-            let expected = format!("a finite number ({} of {columns})", index + 1);
-            channel.push(real(field), line, field, &expected)?;
-        }
-        match fields.next() {
-            Some(more) => {
-                let expected = format!("{columns} samples, one for each component");
-                Err(Fault::excerpt(line, expected, more, DAMAGED))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// Returns the components, with the first lines of their header; refuses another number of rows than the
-    /// one that `stated_by` says.
-    pub(super) fn finish<'a>(
-        mut self,
-        stated: usize,
-        stated_by: &str,
-        header: &(impl Iterator<Item = &'a str> + Clone),
-    ) -> Result<Vec<Parsed>, Fault> {
-        for channel in &mut self.channels {
-            check_count(channel.samples.len(), stated, stated_by, channel.last_line)?;
-            channel.keep_header(header.clone());
-        }
-        Ok(self.channels)
-    }
-}
-
-/// Finds the value of a key in header lines `KEY : value`, and its line.
-pub(super) fn value<'a>(header: &[Line<'a>], key: &str) -> Result<Line<'a>, Fault> {
-    let of_key = |&(number, line): &Line<'a>| {
-        let (name, value) = line.trim_start_matches('#').split_once(':')?;
-        name.trim().eq_ignore_ascii_case(key).then_some((number, value.trim()))
+/// Makes components without samples, of a name each; these follow after a line. `U` is vertical, too.
+///
+/// Refuses more components than any recorder has: the header is damaged.
+pub(super) fn components<'a>(
+    [step, first_time]: [f64; 2],
+    unit: Unit,
+    names: impl Iterator<Item = &'a str>,
+    line: usize,
+) -> Result<Vec<Parsed>, Fault> {
+    let component = |(index, name): (usize, &str)| {
+        let mut parsed = Parsed::new(step, unit, line);
+        parsed.first_time = first_time;
+        parsed.channel = Some(format!("{}: {name}", index + 1));
+        parsed.is_vertical = is_vertical(name) || name.eq_ignore_ascii_case("U");
+        parsed
     };
-    header.iter().find_map(of_key).filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
-        let line = header.last().map_or(1, |(number, _)| *number);
-        Fault::new(line, format!("a value for `{key}` in the header"), "none", "complete the header")
-    })
+    let channels: Vec<_> = names.enumerate().take(MOST + 1).map(component).collect();
+    if (1..=MOST).contains(&channels.len()) {
+        return Ok(channels);
+    }
+    let expected = format!("the names of 1 to {MOST} components");
+    let found = if channels.is_empty() { "none" } else { "more" };
+    Err(Fault::new(line, expected, found, "correct the header"))
 }
 
-/// Finds the positive number of a key, and its line.
-pub(super) fn number(header: &[Line<'_>], key: &str) -> Result<(usize, f64), Fault> {
-    let (line, text) = value(header, key)?;
-    let number = positive(leading_number(text).0);
-    number.map(|number| (line, number)).ok_or_else(|| {
-        Fault::excerpt(line, format!("a positive number for `{key}`"), text, "correct the header")
-    })
+/// Takes the next row, one field for each component.
+pub(super) fn push_row<'a>(
+    channels: &mut [Parsed],
+    fields: impl Iterator<Item = &'a str>,
+    line: usize,
+) -> Result<(), Fault> {
+    let columns = channels.len();
+    let mut fields = fields.fuse();
+    for (index, channel) in channels.iter_mut().enumerate() {
+        let field = fields.next().unwrap_or_default();
+        channel.push(real(field), line, || {
+            let expected = format!("a finite number ({} of {columns})", index + 1);
+            Fault::excerpt(line, expected, field, DAMAGED)
+        })?;
+    }
+    match fields.next() {
+        Some(more) => {
+            let expected = format!("{columns} samples, one for each component");
+            Err(Fault::excerpt(line, expected, more, DAMAGED))
+        }
+        None => Ok(()),
+    }
 }
 
-/// Finds the step of a key and compares it with the one that the user states.
-pub(super) fn step(
-    header: &[Line<'_>],
-    key: &str,
-    to_step: impl Fn(f64) -> f64,
-    options: &RecordOptions,
-) -> Result<f64, Fault> {
-    let (line, value) = number(header, key)?;
-    let step = to_step(value);
-    options.check_step(step, line)?;
-    Ok(step)
+/// Returns the components, with the first lines of their header; refuses another number of rows than the
+/// one that `stated_by` says.
+pub(super) fn finish<'a>(
+    mut channels: Vec<Parsed>,
+    stated: usize,
+    stated_by: &str,
+    header: &(impl Iterator<Item = &'a str> + Clone),
+) -> Result<Vec<Parsed>, Fault> {
+    for channel in &mut channels {
+        check_count(channel.samples.len(), stated, stated_by, channel.last_line)?;
+        channel.keep_header(header.clone());
+    }
+    Ok(channels)
 }

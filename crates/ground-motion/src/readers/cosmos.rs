@@ -16,7 +16,7 @@
 
 use super::volume_2::{self, Channel, Dialect, REALS, Scale, in_heading};
 use crate::error::Fault;
-use crate::fields::{Line, after, find, leading_real};
+use crate::fields::{Numbered, after, find, leading_real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -55,7 +55,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 /// Takes the unit from the heading, and interval and peak from the real headers.
 fn scale(
     channel: &Channel<'_>,
-    heading: Line<'_>,
+    heading: Numbered<'_>,
     count: usize,
     options: &RecordOptions,
 ) -> Result<Scale, Fault> {
@@ -66,7 +66,7 @@ fn scale(
     let real = |place: usize| channel.reals.get(place - 1).copied().filter(|value| *value != UNKNOWN);
     let Some(interval) = real(INTERVAL).filter(|interval| *interval > 0.0) else {
         let expected = format!("the sample interval in ms as real header {INTERVAL}");
-        return Err(Fault::new(channel.reals_line.max(1), expected, "none", "complete the header"));
+        return Err(Fault::missing(channel.reals_line.max(1), expected));
     };
     let step = interval / 1000.0;
     options.check_step(step, channel.reals_line)?;

@@ -18,7 +18,7 @@
 
 use super::volume_2::{self, Channel, Dialect, Scale, in_heading};
 use crate::error::Fault;
-use crate::fields::{Layout, Line, after, find, leading_number, positive, unit_word};
+use crate::fields::{Layout, Numbered, after, find, leading_number, positive, unit_word};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -54,7 +54,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 /// Takes step and unit from the heading, and the peak from the text before it.
 fn scale(
     channel: &Channel<'_>,
-    heading: Line<'_>,
+    heading: Numbered<'_>,
     _count: usize,
     options: &RecordOptions,
 ) -> Result<Scale, Fault> {

@@ -16,17 +16,14 @@
 //! header line. The unit has to be stated, unless the header line has it in brackets: `t [s],a [g]`, or as in
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
-mod times;
-
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Said, Thousands};
+use crate::columns::{Columns, Name};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
+use crate::times::Times;
 use crate::unit::Unit;
-
-use times::Times;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
 /// name, so that no unit may follow it. They take the first column for the time whatever its name is, so the
@@ -52,7 +49,7 @@ fn is_time(name: &Name) -> bool {
 }
 
 /// Reads the text of a table or a column.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let columns = Columns::of_numbers(text, is_time, FORMS)?;
     let (column, seconds) = if columns.width() == 1 {
         (0, 1.0)
@@ -81,7 +78,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         let expected = "a stated unit (this file has none)";
         return Err(Fault::new(columns.line(), expected, "no unit", remedy));
     }
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Returns how many seconds the unit of the times has. Refuses a first column that is not the time, and times
@@ -142,7 +139,7 @@ fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
     let names = [columns.names().first(), columns.names().get(column)].into_iter().flatten();
     let is_first_of_several = |index: usize| index == 0 && columns.width() > 1;
     let mut spectral = names.enumerate().filter(|(index, name)| {
-        name.says() == Some(Said::Spectrum) || is_first_of_several(*index) && name.text() == "T"
+        name.says() == Some(Quantity::Spectrum) || is_first_of_several(*index) && name.text() == "T"
     });
     let Some((_, name)) = spectral.next() else { return Ok(()) };
     let expected = "accelerations of the ground at times";
@@ -153,7 +150,7 @@ fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 
 /// Reads one column of samples.
 fn read_column(columns: &Columns<'_>, options: &RecordOptions, parsed: &mut Parsed) -> Result<(), Fault> {
-    read_samples(columns, 0, parsed, |_, _| Ok(()))?;
+    columns.read(0, |_, sample, line| parsed.push(Some(sample), line, || overflow(sample, line)))?;
     let name = columns.names().first().map(Name::written);
     if let Some(wanted) = &options.column
         && name != Some(wanted)
@@ -180,12 +177,15 @@ fn read_table(
     parsed: &mut Parsed,
 ) -> Result<(), Fault> {
     let mut times = Times::default();
-    read_samples(columns, column, parsed, |time, line| times.push(seconds * time, line))?;
-    let Some((first_time, step)) = times.uniform()? else {
-        let found = parsed.samples.len().to_string();
-        let remedy = "check that the file is complete";
-        return Err(Fault::new(parsed.last_line, "at least two rows", found, remedy));
-    };
+    if let Some(Ok(row)) = columns.rows().next() {
+        refuse_clock_time(&row.cells().next().unwrap_or_default(), row.line)?;
+    }
+    columns.read(column, |time, sample, line| {
+        times.push(seconds * time, line)?;
+        parsed.push(Some(sample), line, || overflow(sample, line))
+    })?;
+    // one sample is refused as such
+    let Some((first_time, step)) = times.uniform()? else { return Ok(()) };
     // numbers of samples, and milliseconds whose unit is not written
     let is_other = |stated: f64| stated < 1.0 && (step == 1.0 || step > 1.0 && is_close(step, 1e3 * stated));
     if let Some(stated) = options.step.filter(|stated| seconds != 1.0 || is_other(*stated)) {
@@ -199,31 +199,9 @@ fn read_table(
     Ok(())
 }
 
-/// Reads the samples of a column; `take_time` takes the number of the first column and its line.
-fn read_samples(
-    columns: &Columns<'_>,
-    column: usize,
-    parsed: &mut Parsed,
-    mut take_time: impl FnMut(f64, usize) -> Result<(), Fault>,
-) -> Result<(), Fault> {
-    let (mut numbers, mut thousands) = (Numbers::new(columns), Thousands::default());
-    for row in columns.rows() {
-        let row = row?;
-        let mut cells = row.cells();
-        if column > 0 {
-            let time = cells.next().unwrap_or_default();
-            refuse_clock_time(&time, row.line)?;
-            take_time(numbers.real(&time, row.line)?, row.line)?;
-        }
-        let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
-        let sample = Some(parsed.unit.to_si(numbers.real(&cell, row.line)?));
-        thousands.push(&cell, row.line);
-        parsed.samples.push(sample.filter(|sample| sample.is_finite()).ok_or_else(|| {
-            Fault::excerpt(row.line, "a finite acceleration", &cell, "check the value and the unit")
-        })?);
-        parsed.last_line = row.line;
-    }
-    thousands.check()
+/// Makes the fault of a number that is not finite in m/s².
+fn overflow(number: f64, line: usize) -> Fault {
+    Fault::new(line, "a finite acceleration", format!("`{number:e}`"), "check the value and the unit")
 }
 
 /// Refuses dates and times of the day.

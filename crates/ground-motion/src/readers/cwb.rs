@@ -13,9 +13,10 @@
 //!      0.000     0.000     0.000     0.000
 //! ```
 
-use super::components::{Components, is_due, number, step, value};
+use super::components::{components, finish, is_due, push_row};
+use super::header::{number, step, value};
 use crate::error::{DAMAGED, Fault, excerpt};
-use crate::fields::{Layout, Line, leading_real, real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, leading_real, real, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -23,6 +24,7 @@ use crate::parsed::Parsed;
 /// Longest header.
 const HEADER_LINES: usize = 60;
 
+const LENGTH: &str = "RecordLength(sec)";
 const SEQUENCE: &str = "DataSequence";
 
 /// Returns whether the first lines are such a header.
@@ -34,7 +36,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 /// Reads the components of a CWA file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let lines = untrimmed_lines(text).take(HEADER_LINES);
-    let header: Vec<Line<'_>> = lines.take_while(|(_, line)| line.starts_with('#')).collect();
+    let header: Vec<Numbered<'_>> = lines.take_while(|(_, line)| line.starts_with('#')).collect();
     let step = step(&header, "SampleRate(Hz)", |rate| 1.0 / rate, options)?;
     let (unit_line, unit) = value(&header, "AmplitudeUnit")?;
     let unit = unit.split_whitespace().next().unwrap_or_default().trim_end_matches('.');
@@ -47,7 +49,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     };
     if !names().next().is_some_and(|name| name.eq_ignore_ascii_case("time")) || names().count() < 2 {
         let expected = format!("{SEQUENCE}: Time and the components");
-        return Err(Fault::excerpt(sequence_line, expected, sequence, "correct the header"));
+        return Err(Fault::in_header(sequence_line, expected, sequence));
     }
     let (layout_line, layout) = value(&header, "Data")?;
     let layout = Layout::of(layout).filter(|layout| layout.per_line == names().count());
@@ -58,8 +60,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let mut rows = untrimmed_lines(text).skip(header.len()).peekable();
     let first = rows.peek().and_then(|(_, line)| real(layout.fields(line).next()?));
     let start = first.filter(|time| time.is_finite()).unwrap_or(0.0);
-    let mut components = Components::new([step, start], unit, names().skip(1), sequence_line)?;
-    for (channel, name) in components.channels.iter_mut().zip(names().skip(1)) {
+    let mut channels = components([step, start], unit, names().skip(1), sequence_line)?;
+    for (channel, name) in channels.iter_mut().zip(names().skip(1)) {
         if let Ok((_, extremes)) = value(&header, &format!("AmplitudeMAX. {name}")) {
             let size = |text: &str| leading_real(text).map_or(0.0, f64::abs);
             let larger = extremes.split('~').max_by(|a, b| size(a).total_cmp(&size(b)));
@@ -72,10 +74,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         if !is_due(time, due) {
             return Err(Fault::new(line, format!("the time {due:.3} s"), excerpt(time), DAMAGED));
         }
-        components.push(fields, line)?;
+        push_row(&mut channels, fields, line)?;
     }
-    let (length_line, length) = number(&header, "RecordLength(sec)")?;
-    let stated_by = format!("RecordLength(sec) on line {length_line}, {length} s at {step} s,");
+    let (length_line, length) = number(value(&header, LENGTH)?, LENGTH)?;
+    let stated_by = format!("{LENGTH} on line {length_line}, {length} s at {step} s,");
     let stated = floor_index((length / step).round());
-    components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
+    finish(channels, stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
 }

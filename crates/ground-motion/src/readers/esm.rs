@@ -18,10 +18,9 @@
 //! ESM and ITACA have 64 header lines, ITACA before DYNA 1.2 has 55 or 43, AFAD of Türkiye 63, or a title
 //! above.
 
-use std::iter::Peekable;
-
-use crate::error::{Fault, excerpt};
-use crate::fields::{Line, lines, real};
+use super::header::{count, step, value};
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{Numbered, check_count, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -40,98 +39,61 @@ pub(super) fn recognises(head: &[&str]) -> bool {
         || head.iter().any(|line| line.starts_with("SAMPLING_INTERVAL_S:"))
 }
 
-/// The header: lines, keys and values.
-struct Header<'a>(Vec<(usize, &'a str, &'a str)>);
-
-impl<'a> Header<'a> {
-    /// Reads the lines `KEY: value` that precede the samples, below a title if there is one.
-    fn read(lines: &mut Peekable<impl Iterator<Item = Line<'a>>>) -> Result<Self, Fault> {
-        let mut entries = Vec::new();
-        let mut titles = 0;
-        while let Some(&(number, line)) = lines.peek() {
-            match line.split_once(':') {
-                Some((key, value)) if entries.len() < HEADER_LINES => {
-                    entries.push((number, key.trim(), value.trim()));
-                }
-                None if entries.is_empty() && titles < TITLE_LINES && real(line).is_none() => titles += 1,
-                _ => break,
-            }
-            lines.next();
-        }
-        if entries.is_empty() {
-            let (line, found) = match lines.peek() {
-                Some(&(number, line)) => (number, excerpt(line)),
-                None => (1, "none up to the end".to_owned()),
-            };
-            let remedy = "check that this is an ESM or ITACA file";
-            return Err(Fault::new(line, "header lines `KEY: value`", found, remedy));
-        }
-        Ok(Self(entries))
-    }
-
-    fn optional(&self, key: &str) -> Option<(usize, &'a str)> {
-        let entry = self.0.iter().find(|(_, name, value)| *name == key && !value.is_empty());
-        entry.map(|&(number, _, value)| (number, value))
-    }
-
-    fn get(&self, key: &str) -> Result<(usize, &'a str), Fault> {
-        self.optional(key).ok_or_else(|| {
-            let last = self.0.last().map_or(1, |entry| entry.0);
-            let line = self.0.iter().find(|(_, name, _)| *name == key).map_or(last, |entry| entry.0);
-            Fault::new(line, format!("a value for {key}"), "none", "complete the header")
-        })
-    }
-
-    fn number(&self, key: &str, is_sound: impl Fn(f64) -> bool) -> Result<(usize, f64), Fault> {
-        let (line, value) = self.get(key)?;
-        let number = real(value).filter(|value| value.is_finite() && is_sound(*value));
-        number.map(|number| (line, number)).ok_or_else(|| {
-            Fault::excerpt(line, format!("{key} as a sound number"), value, "correct the header")
-        })
-    }
+/// Returns whether a line above the header is neither part of it nor a sample.
+fn is_title(line: &str) -> bool {
+    !line.contains(':') && real(line).is_none()
 }
 
 /// Reads the text of an ESM or ITACA file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let mut rest = lines(text).peekable();
-    let header = Header::read(&mut rest)?;
+    let mut titles = 0;
+    while rest.next_if(|(_, line)| titles < TITLE_LINES && is_title(line)).is_some() {
+        titles += 1;
+    }
+    let mut header: Vec<Numbered<'_>> = Vec::new();
+    while let Some(line) = rest.next_if(|(_, line)| header.len() < HEADER_LINES && line.contains(':')) {
+        header.push(line);
+    }
+    if header.is_empty() {
+        let (line, found) = rest.peek().copied().or(lines(text).last()).unwrap_or_default();
+        let remedy = "check that this is an ESM or ITACA file";
+        return Err(Fault::excerpt(line, "header lines `KEY: value`", found, remedy));
+    }
+    let optional = |key: &str| value(&header, key).ok();
     // before DYNA 1.0: `UNPROCESSED ACCELERATION`
     let is_acceleration = |value: &str| {
         let quantity = value.rsplit_once("PROCESSED ").map_or(value, |(_, quantity)| quantity);
         quantity.eq_ignore_ascii_case("ACCELERATION")
     };
-    let quantity = header.optional("DATA_TYPE").filter(|(_, value)| !is_acceleration(value));
+    let quantity = optional("DATA_TYPE").filter(|(_, value)| !is_acceleration(value));
     if let Some((line, value)) = quantity {
         let remedy = "use the acceleration file of this record";
         return Err(Fault::excerpt(line, "an acceleration record", value, remedy));
     }
-    let (step_line, step) = header.number("SAMPLING_INTERVAL_S", |step| step > 0.0)?;
-    options.check_step(step, step_line)?;
-    let (count_line, count) = header.get("NDATA")?;
-    let count = count
-        .parse()
-        .map_err(|_| Fault::excerpt(count_line, "NDATA as a whole number", count, "correct the header"))?;
-    let (unit_line, unit) = header.get("UNITS")?;
+    let step = step(&header, "SAMPLING_INTERVAL_S", |step| step, options)?;
+    let (count_line, count) = count(&header, "NDATA")?;
+    let (unit_line, unit) = value(&header, "UNITS")?;
     let unit = options.unit_of(unit, unit_line)?;
 
-    let mut parsed = Parsed::new(step, unit, header.0.last().map_or(1, |(number, ..)| *number));
+    let mut parsed = Parsed::new(step, unit, header.last().map_or(1, |(number, _)| *number));
     for (number, line) in rest {
-        parsed.push(real(line), number, line, "one finite number")?;
+        parsed.push(real(line), number, || Fault::excerpt(number, "one finite number", line, DAMAGED))?;
     }
-    parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
+    check_count(parsed.samples.len(), count, &format!("NDATA on line {count_line}"), parsed.last_line)?;
     // the last letter of a stream is its direction, HNZ; before DYNA 1.0 it is a component, UP
-    let stream = header.optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
-    parsed.is_vertical =
-        stream || header.optional("COMPONENT").is_some_and(|(_, component)| is_vertical(component));
+    let stream = optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
+    parsed.is_vertical = stream || optional("COMPONENT").is_some_and(|(_, component)| is_vertical(component));
     let described = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM", "COMPONENT"];
-    parsed.keep_header(described.iter().filter_map(|key| Some(header.optional(key)?.1)));
-    if header.optional("PGA_CM/S^2").is_some() {
-        let (line, peak) = header.number("PGA_CM/S^2", |_| true)?;
+    parsed.keep_header(described.iter().filter_map(|key| Some(optional(key)?.1)));
+    if let Some((line, text)) = optional("PGA_CM/S^2") {
+        let peak = real(text).filter(|peak| peak.is_finite());
+        let peak = peak.ok_or_else(|| Fault::in_header(line, "a number for `PGA_CM/S^2`", text))?;
         let stated = Unit::CentimetrePerSecondSquared.to_si(peak.abs());
         parsed.stated_peak = Some(stated);
         check_peak(&parsed.samples, stated, line)?;
     }
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Refuses samples without the peak that the header states: a wrong unit or a missing part shows here.

@@ -19,9 +19,9 @@
 
 use std::iter::Peekable;
 
+use super::one_by_one;
 use crate::error::Fault;
-use crate::fields::{Layout, Line, find, real, untrimmed_lines};
-use crate::motion::floor_index;
+use crate::fields::{Layout, Numbered, find, real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::vertical::is_vertical;
@@ -39,46 +39,28 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 
 /// Reads the components of a GeoNet file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-    let mut rest = untrimmed_lines(text).peekable();
-    let mut components = Vec::new();
-    while let Some(&(number, line)) = rest.peek() {
-        if !recognises(&[line]) {
-            let expected = "the first line of a component, `Corrected accelerogram … GNS Science`";
-            return Err(Fault::excerpt(number, expected, line.trim(), "check that this is a GeoNet file"));
-        }
-        let mut component = component(&mut rest, options)?;
-        let name = component.channel.unwrap_or_default();
-        component.channel = Some(format!("{}: {name}", components.len() + 1));
-        components.push(component);
-    }
-    if components.is_empty() {
-        return Err(Fault::new(1, "a GeoNet file", "an empty file", "check that this is the right file"));
-    }
-    Ok(components)
+    one_by_one(untrimmed_lines(text).peekable(), |rest| component(rest, options))
 }
 
 /// Reads the next component.
 fn component<'a>(
-    rest: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+    rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
     options: &RecordOptions,
 ) -> Result<Parsed, Fault> {
-    let mut header: Vec<Line<'a>> = Vec::new();
+    let (first, title) = rest.peek().copied().unwrap_or((1, ""));
+    if !recognises(&[title]) {
+        let expected = "the first line of a component, `Corrected accelerogram … GNS Science`";
+        return Err(Fault::excerpt(first, expected, title.trim(), "check that this is a GeoNet file"));
+    }
+    let mut header: Vec<Numbered<'a>> = Vec::new();
     while let Some(line) = rest.next_if(|(_, line)| header.len() < TEXT_LINES && !is_numbers(line)) {
         header.push(line);
     }
-    let &(first, title) = header.first().unwrap_or(&(1, ""));
     let last = header.last().map_or(first, |(number, _)| *number);
     let is_raw = find(title, "UNCORRECTED").is_some();
     let (integers, integers_end) = LAYOUT.numbers(rest, INTEGERS, last)?;
     let (reals, reals_end) = LAYOUT.numbers(rest, REALS, integers_end)?;
-    let count = |place: usize| {
-        let value = integers[place - 1];
-        let is_count = value >= 0.0 && value.fract() == 0.0;
-        is_count.then(|| floor_index(value)).ok_or_else(|| {
-            let line = last + place.div_ceil(LAYOUT.per_line);
-            Fault::new(line, format!("a count as integer {place}"), value.to_string(), "correct the header")
-        })
-    };
+    let count = |place: usize| LAYOUT.count_among(&integers, place, last);
     let step = reals[25];
     if step <= 0.0 {
         let expected = "the step in s as real 26 of the header";
@@ -88,17 +70,13 @@ fn component<'a>(
     let unit = options.unit_of("mm/s2", first)?;
     let mut parsed = Parsed::new(step, unit, reals_end);
     let samples = count(if is_raw { 31 } else { 34 })?;
-    if is_raw {
-        parsed.read(LAYOUT, rest, samples, last + 4)?;
-    } else {
-        let (numbers, line) = LAYOUT.numbers(rest, samples, last + 4)?;
-        parsed.samples = numbers.into_iter().map(|value| unit.to_si(value)).collect();
-        parsed.last_line = line;
-        for place in [35, 36] {
-            LAYOUT.numbers(rest, count(place)?, last + 4)?;
-        }
-        LAYOUT.check_ended(rest.peek().copied(), samples, last + 4)?;
+    let (numbers, line) = LAYOUT.numbers(rest, samples, last + 4)?;
+    parsed.samples = numbers.into_iter().map(|value| unit.to_si(value)).collect();
+    parsed.last_line = line;
+    for &place in if is_raw { &[][..] } else { &[35, 36] } {
+        LAYOUT.numbers(rest, count(place)?, last + 4)?;
     }
+    LAYOUT.check_ended(rest.peek().copied(), samples, last + 4)?;
     let name = header.iter().find_map(|(_, line)| line.trim_start().strip_prefix("Component"));
     let name = name.and_then(|name| name.split_whitespace().next()).unwrap_or_default();
     parsed.is_vertical = is_vertical(name);

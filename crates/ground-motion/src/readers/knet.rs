@@ -17,8 +17,9 @@
 //!
 //! The recorder has a large offset: acceleration = (count − mean count) · scale factor.
 
-use crate::error::{DAMAGED, Fault, excerpt};
-use crate::fields::{Line, check_count, leading_number, lines, positive};
+use super::header::{number, required};
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{Numbered, check_count, leading_number, lines, positive};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -27,23 +28,25 @@ use crate::vertical::is_vertical;
 
 const HEADER_LINES: usize = 17;
 
+const FREQUENCY: &str = "Sampling Freq(Hz)";
+const DURATION: &str = "Duration Time(s)";
+
 /// Returns whether the first lines are such a header.
 pub(super) fn recognises(head: &[&str]) -> bool {
     let starts = |label: &str| head.iter().take(HEADER_LINES).any(|line| line.starts_with(label));
-    starts("Origin Time") || (starts("Sampling Freq(Hz)") && starts("Scale Factor"))
+    starts("Origin Time") || (starts(FREQUENCY) && starts("Scale Factor"))
 }
 
 /// Reads the text of a K-NET or KiK-net file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
-    let header: Vec<Line<'_>> = lines(text).take(HEADER_LINES).collect();
-    let (frequency_line, frequency) = number(&header, "Sampling Freq(Hz)")?;
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
+    let header: Vec<Numbered<'_>> = lines(text).take(HEADER_LINES).collect();
+    let (frequency_line, frequency) = number(field(&header, FREQUENCY)?, FREQUENCY)?;
     let step = 1.0 / frequency;
     options.check_step(step, frequency_line)?;
-    let (duration_line, duration) = number(&header, "Duration Time(s)")?;
+    let (duration_line, duration) = number(field(&header, DURATION)?, DURATION)?;
     let (factor_line, factor) = field(&header, "Scale Factor")?;
     let Some((numerator, unit, denominator)) = scale(factor) else {
-        let expected = "a scale factor `3920(gal)/6182761`";
-        return Err(Fault::excerpt(factor_line, expected, factor, "correct the header"));
+        return Err(Fault::in_header(factor_line, "a scale factor `3920(gal)/6182761`", factor));
     };
     let unit = options.unit_of(unit, factor_line)?;
 
@@ -56,7 +59,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
             counts.push(count.map_err(|_| Fault::excerpt(number, "a whole number", word, DAMAGED))?);
         }
     }
-    check_duration(counts.len(), [duration, frequency], duration_line, parsed.last_line)?;
+    let stated_by = format!("{DURATION} on line {duration_line}, {duration} s at {frequency} Hz,");
+    check_count(counts.len(), floor_index((duration * frequency).round()), &stated_by, parsed.last_line)?;
     // 2^24 counts of 2^31 stay below 2^56
     let sum: i64 = counts.iter().copied().map(i64::from).sum();
     let mean = sum as f64 / counts.len().max(1) as f64;
@@ -66,45 +70,15 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     parsed.is_vertical =
         field(&header, "Dir.").is_ok_and(|(_, text)| is_vertical(text) || matches!(text, "3" | "6"));
     parsed.keep_header(header.iter().map(|(_, line)| *line));
-    parsed.stated_peak =
-        number(&header, "Max. Acc. (gal)").ok().map(|(_, peak)| Unit::CentimetrePerSecondSquared.to_si(peak));
-    Ok(parsed)
+    let peak = field(&header, "Max. Acc. (gal)").ok().and_then(|(_, text)| positive(leading_number(text).0));
+    parsed.stated_peak = peak.map(|peak| Unit::CentimetrePerSecondSquared.to_si(peak));
+    Ok(vec![parsed])
 }
 
-/// Refuses a number of counts other than the stated duration times the frequency.
-fn check_duration(
-    found: usize,
-    [duration, frequency]: [f64; 2],
-    duration_line: usize,
-    last_line: usize,
-) -> Result<(), Fault> {
-    let stated = (duration * frequency).round();
-    if (found as f64 - stated).abs() < 0.5 {
-        return Ok(());
-    }
-    // More than a file can hold: any other number than the one found says so as well.
-    let stated_by = format!("Duration Time(s) on line {duration_line}, {duration} s at {frequency} Hz,");
-    check_count(found, floor_index(stated), &stated_by, last_line)
-}
-
-/// Finds the value after a label.
-fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
+/// Finds the value after a label, and its line.
+fn field<'a>(header: &[Numbered<'a>], label: &str) -> Result<Numbered<'a>, Fault> {
     let found = header.iter().find_map(|&(number, line)| Some((number, line.strip_prefix(label)?.trim())));
-    found.filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
-        let (line, text) = header.last().copied().unwrap_or((1, ""));
-        let found = if header.is_empty() { "an empty file".to_owned() } else { excerpt(text) };
-        let expected = format!("a value for `{label}` among the first {HEADER_LINES} lines");
-        Fault::new(line, expected, found, "check that this is a K-NET or KiK-net file")
-    })
-}
-
-/// Reads the positive number after a label; a unit may follow.
-fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
-    let (line, value) = field(header, label)?;
-    let number = positive(leading_number(value).0);
-    number.map(|number| (line, number)).ok_or_else(|| {
-        Fault::excerpt(line, format!("a positive number for `{label}`"), value, "correct the header")
-    })
+    required(header, label, found)
 }
 
 /// Reads numerator, unit and denominator of `3920(gal)/6182761`.

@@ -13,9 +13,10 @@
 //! 2011/03/11 14:48:19.00,0.00,0.12,-0.04,0.01
 //! ```
 
-use super::components::{Components, MOST, is_due};
+use super::components::{MOST, components, finish, is_due, push_row};
+use super::header::{number, required};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, find, lines, positive, real};
+use crate::fields::{Numbered, find, lines, real};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -40,7 +41,7 @@ fn names_columns(line: &str) -> bool {
 /// Reads the components of such a file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let end = lines(text).take(HEADER_LINES).position(|(_, line)| names_columns(line));
-    let header: Vec<Line<'_>> = lines(text).take(end.map_or(0, |end| end + 1)).collect();
+    let header: Vec<Numbered<'_>> = lines(text).take(end.map_or(0, |end| end + 1)).collect();
     let Some(&(names_line, names)) = header.last() else {
         let expected = format!("a line that names the columns, `#Time,{TIME},N-S(gal)`");
         return Err(Fault::new(1, expected, "none", "check that this is a K-NET file as CSV"));
@@ -60,11 +61,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let columns: Vec<(&str, &str)> = names.split(',').skip(2).take(MOST + 1).map(name_and_unit).collect();
     let unit = options.unit_of(columns[0].1, names_line)?;
     if let Some((_, other)) = columns.iter().find(|(_, other)| *other != columns[0].1) {
-        let expected = format!("one unit for all components, {unit}");
-        return Err(Fault::excerpt(names_line, expected, other, "correct the header"));
+        return Err(Fault::in_header(names_line, format!("one unit for all components, {unit}"), other));
     }
     let names = columns.iter().map(|(name, _)| *name);
-    let mut components = Components::new([step, 0.0], unit, names, names_line)?;
+    let mut channels = components([step, 0.0], unit, names, names_line)?;
     for (index, (number, line)) in lines(text).skip(header.len()).enumerate() {
         let mut cells = line.split(',').map(str::trim).skip(1);
         let time = cells.next().unwrap_or_default();
@@ -73,9 +73,9 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             let expected = format!("{TIME} of {due:.3} s");
             return Err(Fault::excerpt(number, expected, time, DAMAGED));
         }
-        components.push(cells, number)?;
+        push_row(&mut channels, cells, number)?;
     }
-    let found = components.channels[0].samples.len();
+    let found = channels[0].samples.len();
     let (stated, stated_by) = match below(&header, DURATION)? {
         Some((line, duration)) => {
             let stated = floor_index((duration / step).round());
@@ -85,23 +85,15 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         None => (found, String::new()),
     };
-    components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#')))
+    finish(channels, stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#')))
 }
 
 /// Reads the positive number on the line below a label; `None` without the label.
-fn below(header: &[Line<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
+fn below(header: &[Numbered<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
     let place = header.iter().position(|(_, line)| line.trim_start_matches('#').starts_with(label));
-    if place.is_none() {
-        return Ok(None);
-    }
-    let found = place.and_then(|place| header.get(place + 1)).copied();
-    let number = found.and_then(|(number, line)| {
-        Some((number, positive(line.trim_start_matches('#').trim_end_matches(',').trim())?))
-    });
-    number.map(Some).ok_or_else(|| {
-        let (line, text) = found.or(header.last().copied()).unwrap_or((1, ""));
-        Fault::excerpt(line, format!("a positive number below `{label}`"), text, "correct the header")
-    })
+    let Some(place) = place else { return Ok(None) };
+    let value = header.get(place + 1).map(|(line, value)| (*line, value.trim_start_matches('#').trim()));
+    number(required(header, label, value)?, label).map(Some)
 }
 
 /// Splits `N-S(gal)`.

@@ -9,10 +9,9 @@
 //! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
 //! table.
 
-use super::at2::Touching;
 use crate::columns::COMMENTS;
-use crate::error::Fault;
-use crate::fields::{lines, real};
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{lines, real, touching};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 
@@ -34,7 +33,7 @@ fn values(line: &str) -> Option<Vec<f64>> {
 
 fn words(line: &str) -> impl Iterator<Item = &str> {
     let separated = line.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
-    separated.flat_map(|word| Touching { rest: word })
+    separated.flat_map(touching)
 }
 
 /// Returns whether the first column of a table never falls, as times do not, even if they are rounded.
@@ -51,7 +50,7 @@ fn starts_with_times(rows: &[Vec<f64>]) -> bool {
 }
 
 /// Reads the text of such a file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let content = || lines(text).filter(|(_, line)| !line.starts_with(COMMENTS));
     let Some((first_line, first)) = content().next() else {
         return Err(Fault::new(1, "numbers", "none", "check that this is the right file"));
@@ -78,7 +77,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     for (number, line) in content() {
         let before = parsed.samples.len();
         for word in words(line) {
-            parsed.push(real(word), number, word, "a finite number")?;
+            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
         let is_alike = previous.is_none_or(|previous| columns == Some(previous));
         previous = Some(parsed.samples.len() - before);
@@ -86,7 +85,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     }
     check_order(&parsed, columns.unwrap_or(0), first_line)?;
     parsed.keep_header(lines(text).map(|(_, line)| line));
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Refuses columns that are records of their own: neighbours in a column are then much closer than

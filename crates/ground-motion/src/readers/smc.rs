@@ -15,8 +15,7 @@
 //! 30 and 32 the largest and the smallest sample.
 
 use crate::error::{DAMAGED, Fault, UNEVEN};
-use crate::fields::{Layout, Line, after, find, untrimmed_lines};
-use crate::motion::floor_index;
+use crate::fields::{Layout, Numbered, after, find, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::vertical::is_vertical;
@@ -39,11 +38,9 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 }
 
 /// Reads the text of an SMC file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let mut rest = untrimmed_lines(text).peekable();
-    let Some(&(first_line, first)) = rest.peek() else {
-        return Err(Fault::new(1, "an SMC file", "an empty file", "check that this is the right file"));
-    };
+    let (first_line, first) = rest.peek().copied().unwrap_or((1, ""));
     if find(first, "CORRECTED ACC").is_none() {
         let expected = "an accelerogram, `2 CORRECTED ACCELEROGRAM`";
         return Err(Fault::excerpt(
@@ -54,11 +51,12 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         ));
     }
     let unit = options.unit_of("cm/s2", first_line)?;
-    let header: Vec<Line<'_>> = rest.by_ref().take(TEXT_LINES).collect();
+    let header: Vec<Numbered<'_>> = rest.by_ref().take(TEXT_LINES).collect();
     let text_end = header.last().map_or(1, |(number, _)| *number);
     let (count, layout) = INTEGERS;
     let (integers, _) = layout.numbers(&mut rest, count, text_end)?;
-    let (comments, samples) = (whole(&integers, 16, text_end)?, whole(&integers, 17, text_end)?);
+    let (comments, samples) =
+        (layout.count_among(&integers, 16, text_end)?, layout.count_among(&integers, 17, text_end)?);
     let reals_line = rest.peek().map_or(text_end, |(number, _)| *number);
     let (count, layout) = REALS;
     let (reals, _) = layout.numbers(&mut rest, count, text_end)?;
@@ -68,8 +66,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
             let expected = "evenly spaced samples and their number a second as real 2 of the header";
             return Err(Fault::new(reals_line, expected, "pairs of times and accelerations", UNEVEN));
         }
-        let expected = "the samples a second as real 2 of the header";
-        return Err(Fault::new(reals_line, expected, "none", "complete the header"));
+        return Err(Fault::missing(reals_line, "the samples a second as real 2 of the header"));
     };
     let mut parsed = Parsed::new(1.0 / frequency, unit, text_end);
     options.check_step(parsed.step, reals_line)?;
@@ -88,15 +85,5 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let extremes =
         [29, 31].iter().filter_map(|&place| reals.get(place)).filter(|value| value.abs() < UNKNOWN);
     parsed.stated_peak = extremes.map(|value| unit.to_si(value.abs())).reduce(f64::max);
-    Ok(parsed)
-}
-
-/// Reads integer `place` of the header, from 1, as a count.
-fn whole(integers: &[f64], place: usize, text_end: usize) -> Result<usize, Fault> {
-    let value = integers.get(place - 1).copied().unwrap_or(f64::NAN);
-    if value >= 0.0 && value.fract() == 0.0 {
-        return Ok(floor_index(value));
-    }
-    let line = text_end + place.div_ceil(INTEGERS.1.per_line);
-    Err(Fault::new(line, format!("a count as integer {place}"), value.to_string(), "correct the header"))
+    Ok(vec![parsed])
 }

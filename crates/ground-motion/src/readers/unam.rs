@@ -17,10 +17,11 @@
 //!    -0.0083   -0.0214    0.0000
 //! ```
 
-use super::components::{Components, MOST, value};
+use super::components::{MOST, components, push_row};
+use super::header::value;
 use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Layout, Line, check_count, find, positive, untrimmed_lines};
+use crate::fields::{Layout, Numbered, check_count, find, positive, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
@@ -41,7 +42,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let is_ruler = |line: &&str| line.trim_start().starts_with(RULER);
     let mut rows = untrimmed_lines(text);
-    let (mut header, mut rulers): (Vec<Line<'_>>, usize) = (Vec::new(), 0);
+    let (mut header, mut rulers): (Vec<Numbered<'_>>, usize) = (Vec::new(), 0);
     for (number, line) in rows.by_ref().take(HEADER_LINES) {
         rulers += usize::from(is_ruler(&line));
         header.push((number, line));
@@ -57,14 +58,14 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let (unit_line, unit) = value(&header, "UNIDADES DE LOS DATOS")?;
     let unit = options.unit_of(unit.split_whitespace().next().unwrap_or_default(), unit_line)?;
     let (format_line, format) = value(&header, FORMAT)?;
-    let layout = Layout::of(format)
-        .ok_or_else(|| Fault::excerpt(format_line, "a format `3F10.4`", format, "correct the header"))?;
+    let layout =
+        Layout::of(format).ok_or_else(|| Fault::in_header(format_line, "a format `3F10.4`", format))?;
     let (steps_line, steps) = of_channels(&header, STEP)?;
     let (_, names) = of_channels(&header, "ORIENTACION")?;
     let step = steps.first().and_then(|step| positive(step));
     let Some(step) = step.filter(|_| steps.iter().all(|other| Some(*other) == steps.first().copied())) else {
         let expected = format!("one step for all channels as {STEP}");
-        return Err(Fault::excerpt(steps_line, expected, &steps.join("/"), "correct the header"));
+        return Err(Fault::in_header(steps_line, expected, &steps.join("/")));
     };
     options.check_step(step, steps_line)?;
     let (counts_line, counts) = of_channels(&header, COUNT)?;
@@ -73,14 +74,13 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let found = format!("{} orientations and {} counts", names.len(), counts.len());
         return Err(Fault::new(counts_line, expected, found, "correct the header"));
     }
-    let mut components = Components::new([step, 0.0], unit, names.iter().copied(), last)?;
+    let mut channels = components([step, 0.0], unit, names.iter().copied(), last)?;
     if let Ok((_, peaks)) = of_channels(&header, "ACEL. MAX.(Gal)") {
-        components.channels.iter_mut().zip(peaks).for_each(|(channel, peak)| channel.state_peak(peak));
+        channels.iter_mut().zip(peaks).for_each(|(channel, peak)| channel.state_peak(peak));
     }
     for (number, row) in rows {
-        components.push(layout.fields(row), number)?;
+        push_row(&mut channels, layout.fields(row), number)?;
     }
-    let mut channels = components.channels;
     for (channel, count) in channels.iter_mut().zip(counts) {
         let stated =
             count.parse().map_err(|_| Fault::excerpt(counts_line, "a whole number", count, DAMAGED))?;
@@ -97,7 +97,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 }
 
 /// Finds the values of all channels for a key, and the line of the first of them.
-fn of_channels<'a>(header: &[Line<'a>], key: &str) -> Result<(usize, Vec<&'a str>), Fault> {
+fn of_channels<'a>(header: &[Numbered<'a>], key: &str) -> Result<(usize, Vec<&'a str>), Fault> {
     let (mut first, mut values) = (None, Vec::new());
     for &(number, line) in header {
         let Some((name, listed)) = line.split_once(':') else { continue };
@@ -111,7 +111,7 @@ fn of_channels<'a>(header: &[Line<'a>], key: &str) -> Result<(usize, Vec<&'a str
         _ => {
             let line = header.last().map_or(1, |(number, _)| *number);
             let expected = format!("`{key}, C1-C6` with a value for each channel, `/1/2/3`");
-            Err(Fault::new(first.unwrap_or(line), expected, "none", "complete the header"))
+            Err(Fault::missing(first.unwrap_or(line), expected))
         }
     }
 }

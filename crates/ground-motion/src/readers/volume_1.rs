@@ -18,9 +18,10 @@
 
 use std::iter::Peekable;
 
+use super::one_by_one;
 use crate::check::Warning;
 use crate::error::{CUT_SHORT, Fault, UNEVEN, excerpt};
-use crate::fields::{Layout, Line, after, find, leading_number, positive, real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, after, find, leading_number, positive, real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -43,26 +44,15 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 
 /// Reads the channels of a volume 1 file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-    let mut rest = untrimmed_lines(text).peekable();
-    let mut channels = Vec::new();
-    while rest.peek().is_some() {
-        let mut channel = channel(&mut rest, options)?;
-        let name = channel.channel.take().unwrap_or_default();
-        channel.channel = Some(format!("{}: {name}", channels.len() + 1));
-        channels.push(channel);
-    }
-    if channels.is_empty() {
-        return Err(Fault::new(1, "a volume 1 file", "an empty file", "check that this is the right file"));
-    }
-    Ok(channels)
+    one_by_one(untrimmed_lines(text).peekable(), |rest| channel(rest, options))
 }
 
 /// Reads the next channel.
 fn channel<'a>(
-    rest: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+    rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
     options: &RecordOptions,
 ) -> Result<Parsed, Fault> {
-    let mut header: Vec<Line<'a>> = Vec::new();
+    let mut header: Vec<Numbered<'a>> = Vec::new();
     while let Some(line) = rest.next_if(|(_, line)| header.len() < TEXT_LINES && !is_integers(line)) {
         header.push(line);
     }
@@ -70,9 +60,9 @@ fn channel<'a>(
     let has_times = !header.iter().any(|(_, line)| find(line, BHRC).is_some());
     let units = header.iter().find(|(_, line)| find(line, "UNITS").is_some() && find(line, "G/10").is_some());
     let Some(&(unit_line, units)) = units else {
-        let found =
-            header.iter().find(|(_, line)| find(line, "UNITS").is_some()).map_or("", |(_, line)| line);
-        return Err(Fault::excerpt(count_line, "`UNITS ARE SEC AND G/10`", found, "correct the header"));
+        let units = header.iter().find(|(_, line)| find(line, "UNITS").is_some());
+        let found = units.map_or("", |(_, line)| line);
+        return Err(Fault::in_header(count_line, "`UNITS ARE SEC AND G/10`", found));
     };
     let unit = options.unit_of(Unit::StandardGravity.name(), unit_line)?;
     skip_headers(rest);
@@ -111,7 +101,7 @@ fn channel<'a>(
 }
 
 /// Reads the number of points and the length (s) from their line.
-fn count_and_length(header: &[Line<'_>]) -> Result<(usize, usize, f64), Fault> {
+fn count_and_length(header: &[Numbered<'_>]) -> Result<(usize, usize, f64), Fault> {
     let expected = "the number of points and the length, `NO. OF POINTS = 5652  RECORD LENGTH = 28.260 SEC`";
     let stated = header.iter().find(|(_, line)| find(line, "NO. OF POINTS").is_some());
     let Some(&(number, line)) = stated else {
@@ -123,13 +113,13 @@ fn count_and_length(header: &[Line<'_>]) -> Result<(usize, usize, f64), Fault> {
     let length = length.and_then(|text| positive(leading_number(text).0));
     match (count, length) {
         (Some(count), Some(length)) if count > 1 => Ok((number, count, length)),
-        _ => Err(Fault::excerpt(number, expected, line.trim(), "correct the header")),
+        _ => Err(Fault::in_header(number, expected, line.trim())),
     }
 }
 
 /// Skips the integers, which have no point, and 50 reals, which have one each and are fewer on a line than
 /// the samples. BHRC cuts their lines.
-fn skip_headers<'a>(rest: &mut Peekable<impl Iterator<Item = Line<'a>>>) {
+fn skip_headers<'a>(rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>) {
     while rest.next_if(|(_, line)| is_integers(line)).is_some() {}
     let mut reals = 0;
     while reals < REALS {

@@ -5,7 +5,7 @@ use std::iter::Peekable;
 
 use crate::check::Warning;
 use crate::error::{CUT_SHORT, DAMAGED, Fault, excerpt};
-use crate::fields::{Layout, Line, after, find, leading_number, leading_real, untrimmed_lines};
+use crate::fields::{Layout, Numbered, after, find, leading_number, leading_real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -26,7 +26,7 @@ pub(super) struct Dialect {
     /// Format of a block whose heading states none.
     pub(super) layout: Option<Layout>,
     /// Reads the scale of a number of accelerations from their heading and what precedes it.
-    pub(super) scale: fn(&Channel<'_>, Line<'_>, usize, &RecordOptions) -> Result<Scale, Fault>,
+    pub(super) scale: fn(&Channel<'_>, Numbered<'_>, usize, &RecordOptions) -> Result<Scale, Fault>,
     /// Finds the name of a channel in a line of text.
     pub(super) name: fn(&str) -> Option<&str>,
     /// Start of the line that closes a channel, and that line for messages.
@@ -94,11 +94,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
     }
     if channels.is_empty() {
         let (number, line) = other.unwrap_or(last);
-        let found = match line.trim() {
-            "" => "an empty file".to_owned(),
-            line if number == 1 || other.is_some() => excerpt(line),
-            _ => "none up to the end".to_owned(),
-        };
+        let is_quoted = number == 1 || other.is_some();
+        let found = if is_quoted { excerpt(line.trim()) } else { "none up to the end".to_owned() };
         return Err(Fault::new(number, dialect.data[0], found, dialect.data[1]));
     }
     if let (Some(width), Some(channel)) = (open, channels.last_mut()) {
@@ -127,8 +124,8 @@ impl<'a> Channel<'a> {
 
     fn read_reals(
         &mut self,
-        (number, line): Line<'a>,
-        rest: &mut impl Iterator<Item = Line<'a>>,
+        (number, line): Numbered<'a>,
+        rest: &mut impl Iterator<Item = Numbered<'a>>,
     ) -> Result<(), Fault> {
         let (Ok(count), Some(layout)) = (leading_number(line).0.parse(), Layout::stated_in(line)) else {
             let expected = "`100 Real-header values follow on 20 lines, Format= (5F15.6)`";
@@ -141,8 +138,8 @@ impl<'a> Channel<'a> {
     /// Reads what follows a heading; `None` for a velocity or displacement.
     fn read_block(
         &self,
-        heading: Line<'a>,
-        rest: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+        heading: Numbered<'a>,
+        rest: &mut Peekable<impl Iterator<Item = Numbered<'a>>>,
         options: &RecordOptions,
         dialect: &Dialect,
     ) -> Result<Option<Parsed>, Fault> {
@@ -177,13 +174,13 @@ impl<'a> Channel<'a> {
 }
 
 /// Finds the format of the numbers below a heading.
-fn layout_of(heading: Line<'_>, dialect: &Dialect) -> Result<Layout, Fault> {
+fn layout_of(heading: Numbered<'_>, dialect: &Dialect) -> Result<Layout, Fault> {
     let layout = Layout::stated_in(heading.1).or(dialect.layout);
     layout.ok_or_else(|| in_heading(heading, "a format such as `Format=(8F10.6)`"))
 }
 
 /// Makes a fault in a heading.
-pub(super) fn in_heading((number, line): Line<'_>, expected: &str) -> Fault {
+pub(super) fn in_heading((number, line): Numbered<'_>, expected: &str) -> Fault {
     Fault::excerpt(number, expected, line.trim(), DAMAGED)
 }
 

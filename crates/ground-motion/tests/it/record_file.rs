@@ -198,8 +198,8 @@ fn times_beside_a_record_give_its_step() {
         fs::write(&step, "0.005\n").unwrap();
         assert_eq!(read(&record, &stated).unwrap().motion.step(), 0.005);
         for (times, words) in [
-            ("0.00\n0.01\n0.04\n", ["line 2", "uniform times, here 0.02 s"]),
-            ("\n0.00\n\n0.01\n0.04\n", ["line 4", "uniform times, here 0.02 s"]),
+            ("0.00\n0.01\n0.04\n", ["line 3", "the first step of 0.01 s, found a step of 0.03 s"]),
+            ("\n0.00\n\n0.01\n0.04\n", ["line 5", "the first step of 0.01 s, found a step of 0.03 s"]),
             ("0.03\n0.02\n0.01\n0.00\n", ["line 2", "expected a time after 0.03 s, found 0.02 s"]),
             ("0\n0.01\n\n0.01\n", ["line 4", "expected a time after 0.01 s, found 0.01 s"]),
             ("\n-0.01\n", ["line 2", "expected a step above 0 s, found -0.01 s"]),

@@ -7,10 +7,10 @@ from ._tables import Table
 
 
 def verify() -> Table:
-    """Checks every formula of the model against a reference of its own, as `wall verify` does.
+    """Checks every formula of the model against a reference of its own, as `wall verify formulas` does.
 
     A row is a number: its formula, case, quantity and unit, the reference and the computed number, the error
-    and the bound on it, both relative, and whether it passes.
+    and the bound on it, both over the scale, and whether it passes.
 
     >>> verify()["passes"].all()
     np.True_

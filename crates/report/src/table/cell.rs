@@ -87,7 +87,12 @@ impl Column {
             Cell::Empty if self.is_text => String::new(),
             Cell::Empty => "-".to_owned(),
             Cell::Number(value) => self.digits.of(self.factor * value),
-            Cell::Rounded(value, decimals) => Digits::Decimals(*decimals).of(self.factor * value),
+            Cell::Rounded(value, decimals) => {
+                let text = Digits::Decimals(*decimals).of(self.factor * value);
+                // what shows as zero has no sign
+                let is_zero = text.trim_matches(['-', '0', '.']).is_empty();
+                if is_zero && value.is_finite() { text.replace('-', "") } else { text }
+            }
             Cell::Between(bounds) => between(*bounds, |value| self.digits.of(self.factor * value)),
             Cell::Count(count) => count.to_string(),
             Cell::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),

@@ -216,6 +216,8 @@ mod tests {
             (Cell::Number(0.5), "0.5", "5.0e0"),
             (Cell::Number(0.0), "0.0", "0"),
             (Cell::Rounded(0.5, 2), "0.5", "5.00"),
+            (Cell::Rounded(-1e-4, 1), "-0.0001", "0.0"),
+            (Cell::Rounded(f64::NAN, 1), "NaN", "-"),
         ] {
             assert_eq!((&*cell.field(), &*column.words(&cell)), (field, words));
         }

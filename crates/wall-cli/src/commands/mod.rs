@@ -1,6 +1,5 @@
 //! The commands of `wall`: each reads its arguments, calls the library and reports.
 
-mod accuracy;
 mod building;
 mod calibrate;
 mod check;
@@ -9,13 +8,10 @@ mod ida;
 mod motion;
 mod package;
 mod record;
-mod reproduce;
 mod schema;
 mod simulate;
 mod spectrum;
-mod stability;
 mod tie;
-mod validate;
 mod verify;
 
 use anyhow::Result;
@@ -52,11 +48,6 @@ enum Command {
     /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
     #[command(allow_negative_numbers = true)]
     Motion(motion::Arguments),
-    /// Measure the error of each solver against its run time
-    #[command(allow_negative_numbers = true)]
-    Accuracy(accuracy::Arguments),
-    /// Map the stability of each solver, and run the extremes
-    Stability(stability::Arguments),
     /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
     Record(record::Arguments),
     /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
@@ -68,12 +59,9 @@ enum Command {
     Spectrum(spectrum::Arguments),
     /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
     Calibrate(calibrate::Arguments),
-    /// Compute every table and figure of the paper and compare it with print, on one page
-    Reproduce(reproduce::Arguments),
-    /// Compare the model with a published test: a slow push or a free decay
-    Validate(validate::Arguments),
-    /// Check every formula against a reference of its own, in this program or in an FMU
-    Verify(verify::Arguments),
+    /// Ask whether the program is right: formulas, published tests, the paper, accuracy, stability
+    #[command(subcommand)]
+    Verify(verify::Subject),
     /// Print the JSON schema of scenes, studies or buildings
     Schema(schema::Arguments),
     /// Print a completion script for a shell
@@ -94,16 +82,12 @@ impl Arguments {
             Command::Check(arguments) => check::run(console, arguments),
             Command::Tie(arguments) => tie::run(console, arguments),
             Command::Motion(arguments) => motion::run(console, arguments),
-            Command::Accuracy(arguments) => accuracy::run(console, arguments),
-            Command::Stability(arguments) => stability::run(console, arguments),
             Command::Record(arguments) => record::run(console, arguments),
             Command::Ida(arguments) => ida::run(console, arguments),
             Command::Merge(arguments) => ida::merge(console, arguments),
             Command::Spectrum(arguments) => spectrum::run(console, arguments),
             Command::Calibrate(arguments) => calibrate::run(console, arguments),
-            Command::Reproduce(arguments) => reproduce::run(console, arguments),
-            Command::Validate(arguments) => validate::run(console, arguments),
-            Command::Verify(arguments) => return verify::run(console, arguments),
+            Command::Verify(subject) => return verify::run(console, subject),
             Command::Schema(arguments) => schema::run(console, arguments),
             Command::Completions { shell } => {
                 let mut script = Vec::new();

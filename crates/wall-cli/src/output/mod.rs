@@ -67,20 +67,6 @@ pub(crate) fn written<'a>(label: &str, paths: impl IntoIterator<Item = &'a PathB
     files.map(|path| [label, &path.display().to_string(), "\n"].concat()).collect()
 }
 
-/// Breaks a text into lines of at most `width` characters, if its words are not longer.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                *line = format!("{line} {word}");
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 /// Refuses any ending but .svg for a picture that is written as SVG only. Names without an ending, such as
 /// those of devices, are accepted.
 pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {

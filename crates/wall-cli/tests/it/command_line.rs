@@ -278,8 +278,8 @@ fn bad_arguments() {
     fails(&folder, &["simulate", "--synthetic", "--scale", "0,3"], &["--scale", "0,3", decimal]);
     fails(&folder, &["ida", "s.toml", "--threads", "0"], &["--threads", "expected a number from 1 on"]);
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
-    refused(&folder, &["accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
-    refused(&folder, &["accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);
+    refused(&folder, &["verify", "accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
+    refused(&folder, &["verify", "accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);
     refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
     refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
     let plain = &crate::root().join("scenes/plain_parapet.toml").display().to_string();

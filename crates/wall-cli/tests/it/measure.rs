@@ -1,4 +1,4 @@
-//! `wall accuracy` and `wall stability`.
+//! `wall verify accuracy` and `wall verify stability`.
 
 use crate::command_line::{args, assert_has, content, folder, printed, refused, rows};
 
@@ -12,7 +12,7 @@ fn accuracy_measures_a_scene() {
     let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
     std::fs::write(folder.join("peers.csv"), peers).unwrap();
     let measured = |outputs: &str| {
-        printed(&folder, &[&["accuracy", &scene(), "--budget", "0"], &args(outputs)[..]].concat())
+        printed(&folder, &[&["verify", "accuracy", &scene(), "--budget", "0"], &args(outputs)[..]].concat())
     };
     let table = measured("--peers peers.csv --csv a.csv --html a.html --linearisation l.csv");
     measured("--plot a.svg");
@@ -44,7 +44,8 @@ fn accuracy_measures_a_scene() {
 #[test]
 fn stability_maps_every_solver() {
     let folder = folder("stability");
-    let table = printed(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
+    let table =
+        printed(&folder, &["verify", "stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
     let rows = rows(&folder, "s.csv");
     let maps = 2 * evidence::stability::maps().len();
     assert_eq!(rows.len(), maps * 9 * 2);
@@ -56,23 +57,35 @@ fn stability_maps_every_solver() {
     assert!(of("newmark").any(|row| row[5] == "false"), "a scheme that is known to blow up does");
     let page = content(&folder, "s.html");
     assert_eq!(page.matches("<figure>").count(), maps);
-    assert!(!page.contains("{{") && !page.contains("NaN") && !table.contains("BROKEN"));
+    assert!(!page.contains("{{") && !page.contains("NaN") && !table.contains("FAIL"));
 }
 
 #[test]
 fn bad_input_is_refused_before_anything_is_measured() {
     let folder = folder("accuracy_refused");
-    refused(&folder, &["accuracy", "none.toml"], &["none.toml"]);
-    refused(&folder, &["accuracy", &scene(), "--html", "a.html", "--peers", "none.csv"], &["none.csv"]);
-    refused(&folder, &["accuracy", &scene(), "--peers", "none.csv"], &["add --html FILE or --plot FILE"]);
+    refused(&folder, &["verify", "accuracy", "none.toml"], &["none.toml"]);
+    refused(
+        &folder,
+        &["verify", "accuracy", &scene(), "--html", "a.html", "--peers", "none.csv"],
+        &["none.csv"],
+    );
+    refused(
+        &folder,
+        &["verify", "accuracy", &scene(), "--peers", "none.csv"],
+        &["add --html FILE or --plot FILE"],
+    );
     std::fs::write(folder.join("empty.csv"), "scene,tool,setting,seconds,error_max\n").unwrap();
     refused(
         &folder,
-        &["accuracy", &scene(), "--html", "a.html", "--peers", "empty.csv"],
+        &["verify", "accuracy", &scene(), "--html", "a.html", "--peers", "empty.csv"],
         &["no measurement"],
     );
     std::fs::write(folder.join("bad.toml"), "[geometry]\nheight = -3\n").unwrap();
-    refused(&folder, &["accuracy", &scene(), "bad.toml"], &["bad.toml", "line 2", "-3"]);
+    refused(&folder, &["verify", "accuracy", &scene(), "bad.toml"], &["bad.toml", "line 2", "-3"]);
     std::fs::write(folder.join("fallen.toml"), "[start]\nu_start = 0.21\n").unwrap();
-    refused(&folder, &["accuracy", "fallen.toml"], &["u_start = 0.21 m is beyond u_ins", "set u_start = 0"]);
+    refused(
+        &folder,
+        &["verify", "accuracy", "fallen.toml"],
+        &["u_start = 0.21 m is beyond u_ins", "set u_start = 0"],
+    );
 }

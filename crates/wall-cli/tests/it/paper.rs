@@ -1,4 +1,4 @@
-//! `wall calibrate` and `wall reproduce`.
+//! `wall calibrate` and `wall verify paper`.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -68,7 +68,7 @@ fn reproduce_writes_one_page_of_everything_and_explains_deviations() {
     std::fs::create_dir(folder.join("records")).unwrap();
     record(&folder.join("records/a.AT2"));
     std::fs::write(folder.join("records/notes.md"), "# no record\n").unwrap();
-    let output = succeed(&folder, &["reproduce", "--records", "records", "-o", "paper.html"]);
+    let output = succeed(&folder, &["verify", "paper", "--records", "records", "-o", "paper.html"]);
     assert_has(&text(&output.stderr), &["left out", "notes.md"]);
     let told = text(&output.stdout);
     assert_has(&told, &["Table 1", "Table 5", "Equations (20) to (23)", "Medians"]);
@@ -91,7 +91,7 @@ fn reproduce_writes_one_page_of_everything_and_explains_deviations() {
 #[test]
 fn reproduce_refuses_a_folder_without_records() {
     let folder = folder("reproduce_refused");
-    refused(&folder, &["reproduce", "--records", "none"], &["none", "cannot be read"]);
+    refused(&folder, &["verify", "paper", "--records", "none"], &["none", "cannot be read"]);
     std::fs::create_dir(folder.join("empty")).unwrap();
-    refused(&folder, &["reproduce", "--records", "empty"], &["empty", "AT2"]);
+    refused(&folder, &["verify", "paper", "--records", "empty"], &["empty", "AT2"]);
 }

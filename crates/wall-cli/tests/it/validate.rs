@@ -1,4 +1,4 @@
-//! Tests `wall validate`, and that `docs/validation.md` shows what it computes.
+//! Tests `wall verify tests`, and that `docs/validation.md` shows what it computes.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn the_document_shows_what_the_program_computes() {
         }
         cases += 1;
         let name = path.file_stem().unwrap().to_str().unwrap();
-        let table = printed(&folder, &["validate", path.to_str().unwrap(), "--plot", "plot.svg"]);
+        let table = printed(&folder, &["verify", "tests", path.to_str().unwrap(), "--plot", "plot.svg"]);
         let remedy = "run cargo xtask figures --validation";
         assert!(document.contains(table.trim_matches('\n')), "{name}: {remedy}\n{table}");
         assert!(document.contains(&format!("images/{name}.svg")), "{name}");
@@ -39,7 +39,7 @@ fn the_example_of_the_document_can_be_used() {
         let (_, rest) = document.split_once(&format!("```{language}\n")).unwrap();
         fs::write(folder.join(file), rest.split_once("```").unwrap().0).unwrap();
     }
-    assert_has(&printed(&folder, &["validate", "my_wall.toml"]), &["fitted to the peaks"]);
+    assert_has(&printed(&folder, &["verify", "tests", "my_wall.toml"]), &["fitted to the peaks"]);
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn tests_that_cannot_be_used_are_refused() {
         ("thickness = 0.11", "thickness = -1", &["test.toml, line", "thickness"]),
     ] {
         copy("brick_wall_11.toml", from, to);
-        refused(&folder, &["validate", "test.toml", "--plot", "plot.svg"], words);
+        refused(&folder, &["verify", "tests", "test.toml", "--plot", "plot.svg"], words);
     }
     fs::copy(data.join("brick_wall_12.csv"), folder.join("brick_wall_12.csv")).unwrap();
     for (from, to, words) in [
@@ -79,7 +79,7 @@ fn tests_that_cannot_be_used_are_refused() {
         ("d1 = 0.94", "d1 = 5", &["d1 = 5", "limit"]),
     ] {
         copy("brick_wall_12.toml", from, to);
-        refused(&folder, &["validate", "test.toml"], words);
+        refused(&folder, &["verify", "tests", "test.toml"], words);
     }
     assert!(!Path::new(&folder).join("plot.svg").exists());
 }

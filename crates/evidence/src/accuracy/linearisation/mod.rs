@@ -4,21 +4,22 @@
 //! ones, so that both start at the same θ₀/α of Eq. (5).
 //!
 //! ```
-//! use evidence::accuracy::linearisation::{figure_2_wall, period};
+//! use evidence::accuracy::linearisation::figure_2_wall;
 //! use rocking_wall::variables::Mechanism;
+//! use run::rotations::period;
 //!
 //! let period = period(&figure_2_wall(Mechanism::Parapet), 0.9)?;
 //! assert!((period.ratio() - 0.9975).abs() < 1e-3);
-//! # Ok::<(), evidence::accuracy::AccuracyError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
-pub(crate) mod page;
+pub mod page;
 
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
 use run::rotations::{FreeMotion, Period, SLENDERNESS, both, period};
 
-use super::AccuracyError;
+use crate::EvidenceError;
 
 /// Output step of Figure 2 \[s\].
 const STEP: f64 = 0.01;
@@ -29,16 +30,21 @@ pub const STARTS: [f64; 3] = [0.1, 0.5, 0.9];
 /// Free motions of one wall, released from one fraction of its unstable equilibrium, in small and in full
 /// rotations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
-    /// Output step \[s\].
-    pub step: f64,
+pub struct Histories {
     /// Small rotations, Eq. (1).
     pub linear: FreeMotion,
     /// Full rotations.
     pub trigonometric: FreeMotion,
 }
 
-impl Comparison {
+impl Histories {
+    /// Returns time \[s\] and displacement in small rotations, and in full ones.
+    pub fn points(&self) -> [Vec<(f64, f64)>; 2] {
+        let timed = |(index, u): (usize, &f64)| (index as f64 * STEP, *u);
+        [&self.linear, &self.trigonometric]
+            .map(|motion| motion.history.iter().enumerate().map(timed).collect())
+    }
+
     /// Returns the largest difference between the two histories \[-\].
     pub fn largest_difference(&self) -> f64 {
         largest_difference(&self.linear.history, &self.trigonometric.history)
@@ -77,29 +83,14 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     }
 }
 
-/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in
-/// steps of `step` \[s\].
+/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` \[s\].
 ///
 /// # Errors
-/// [`AccuracyError::Run`] if a run fails.
-pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Comparison, AccuracyError> {
-    compare(&figure_2_wall(mechanism), 0.9, duration, step)
-}
-
-/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it in both
-/// kinematics over `duration` in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its
-/// force law and damping.
-///
-/// # Errors
-/// [`AccuracyError`] if the parameters make no such wall or a run fails.
-pub fn compare(
-    parameters: &Parameters,
-    start: f64,
-    duration: f64,
-    step: f64,
-) -> Result<Comparison, AccuracyError> {
-    let [linear, trigonometric] = both(parameters, |release| release.run(start, duration, step))?;
-    Ok(Comparison { step, linear, trigonometric })
+/// [`EvidenceError::Rotations`] if a run fails.
+pub fn figure_2(mechanism: Mechanism, duration: f64) -> Result<Histories, EvidenceError> {
+    let [linear, trigonometric] =
+        both(&figure_2_wall(mechanism), |release| release.run(0.9, duration, STEP))?;
+    Ok(Histories { linear, trigonometric })
 }
 
 /// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m
@@ -107,8 +98,8 @@ pub fn compare(
 /// start.
 ///
 /// # Errors
-/// [`AccuracyError`] if a slenderness makes no wall or a run fails.
-pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, AccuracyError> {
+/// [`EvidenceError`] if a slenderness makes no wall or a run fails.
+pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, EvidenceError> {
     let wall = figure_2_wall(mechanism);
     let lower = match mechanism {
         Mechanism::Parapet => wall.height,
@@ -130,7 +121,7 @@ pub struct BothRotations {
     /// Its coefficient of restitution \[-\].
     pub restitution: f64,
     /// Figure 2.
-    pub history: Comparison,
+    pub history: Histories,
     /// Figure 3: for each of [`STARTS`] one period for each of [`SLENDERNESS`].
     pub periods: Vec<Vec<Period>>,
 }
@@ -138,8 +129,8 @@ pub struct BothRotations {
 /// Computes Figures 2 and 3 for both mechanisms, the parapet first.
 ///
 /// # Errors
-/// [`AccuracyError::Run`] if a run fails.
-pub fn both_rotations() -> Result<Vec<BothRotations>, AccuracyError> {
+/// [`EvidenceError::Run`] if a run fails.
+pub fn both_rotations() -> Result<Vec<BothRotations>, EvidenceError> {
     let mechanisms = [(Mechanism::Parapet, "parapet", 20.0), (Mechanism::VerticalSpanning, "strip", 12.0)];
     let measured = |(mechanism, name, duration)| {
         let periods = STARTS.iter().map(|&start| figure_3(mechanism, &SLENDERNESS, start));
@@ -147,7 +138,7 @@ pub fn both_rotations() -> Result<Vec<BothRotations>, AccuracyError> {
             name,
             duration,
             restitution: figure_2_wall(mechanism).restitution,
-            history: figure_2(mechanism, duration, STEP)?,
+            history: figure_2(mechanism, duration)?,
             periods: periods.collect::<Result<_, _>>()?,
         })
     };

@@ -1,69 +1,106 @@
-//! What small rotations leave out, on the page of `wall accuracy`: Figures 2 and 3 of the paper.
+//! What small rotations leave out: Figures 2 and 3 of the paper, as tables and on the page of
+//! `wall verify accuracy`.
 
 use std::fmt::Write;
 
 use report::palette::{BLUE, GREY, RED};
 use report::plot::Plot;
+use report::table::{Cell, Column, Digits, Table};
 use run::figure::{both_rotations, period_ratios};
+use run::rotations::SLENDERNESS;
 
-use super::{BothRotations, Comparison, Period};
+use super::{BothRotations, Period, STARTS};
+use crate::accuracy::page::{figure, figures};
 
 /// Size of the plots \[px\].
 const SIZE: [f64; 2] = [440.0, 290.0];
 
-/// The section of the page of `wall accuracy`.
-pub(crate) fn section(both: &[BothRotations]) -> String {
-    let mut section = format!(
-        "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, \
-         h = 4 m, released from 0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio \
-         of the two periods against slenderness, hinge of the strip at mid-height.</p>\n\
-         <p class=\"key\">{}</p>\n<main class=\"figures\">\n",
-        key(&[("full rotations", BLUE), ("small rotations", RED), ("Eq. (1) over Eq. (5), √cos α", GREY)])
-    );
+/// Returns the periods, one a row.
+pub fn table(both: &[BothRotations]) -> Table {
+    let names = [
+        "alpha_rad",
+        "start_over_u_ins",
+        "period_linear_s",
+        "period_trigonometric_s",
+        "period_eq5_s",
+        "ratio",
+        "ratio_eq5",
+    ];
+    let numbers = names.map(|name| Column::number(name, name, Digits::AtMost(6)));
+    let mut table = Table::new([Column::text("mechanism", "mechanism")].into_iter().chain(numbers));
+    for measured in both {
+        for period in measured.periods.iter().flatten() {
+            let Period { slenderness, start, linear, trigonometric, housner, .. } = *period;
+            let known = [slenderness, start, linear, trigonometric].map(Cell::from);
+            let ratios = [housner, Some(period.ratio()), period.over_housner()].map(Cell::from);
+            table.row([measured.name.into()].into_iter().chain(known).chain(ratios));
+        }
+    }
+    table
+}
+
+/// Returns the ratios of periods by slenderness and start, and Figure 2 in numbers.
+pub fn text(both: &[BothRotations]) -> String {
+    let starts = both.iter().flat_map(|measured| STARTS.map(|start| format!("{} {start}", measured.name)));
+    let ratio = |heading: String| Column::number("", heading, Digits::Decimals(5));
+    let alpha = Column::number("", "alpha", Digits::Decimals(2));
+    let columns = [alpha, ratio("Eq. (5)".to_owned())].into_iter().chain(starts.map(ratio));
+    let mut table = Table::new(columns);
+    for (index, alpha) in SLENDERNESS.into_iter().enumerate() {
+        let ratios = both.iter().flat_map(|measured| &measured.periods).map(|row| row[index].ratio().into());
+        table.row([alpha.into(), both[0].periods[0][index].over_housner().into()].into_iter().chain(ratios));
+    }
+    let mut text =
+        String::from("small rotations: their period over that of full rotations, by start over u_ins\n");
+    text += &table.text();
+    let first = |times: &[f64]| times.first().copied().unwrap_or(f64::NAN);
     for BothRotations { name, duration, restitution, history, .. } in both {
+        let (linear, full) = (first(&history.linear.impacts), first(&history.trigonometric.impacts));
         let _ = writeln!(
-            section,
-            "<figure><figcaption><b>{name}, e = {restitution}</b><br>at most {:.3} u<sub>ins</sub> \
-             apart, amplitudes within {:.0e} u<sub>ins</sub></figcaption>{}</figure>",
+            text,
+            "Figure 2, {name}, e = {restitution}: first impact at {linear:.5} s instead of {full:.5} s \
+             ({:.2} % short);\n  over {duration} s at most {:.3} u_ins apart, amplitudes within {:.1e} u_ins",
+            100.0 * (1.0 - linear / full),
             history.largest_difference(),
-            history.largest_amplitude_difference(),
-            histories(history, *duration)
+            history.largest_amplitude_difference()
         );
     }
-    for BothRotations { name, periods, .. } in both {
-        let _ = writeln!(
-            section,
-            "<figure><figcaption><b>{name}</b><br>started at 0.1 (dotted), 0.5 (dashed) and 0.9 (solid) \
-             of u<sub>ins</sub></figcaption>{}</figure>",
-            ratios(periods)
+    text
+}
+
+/// The section of the page.
+pub(crate) fn section(both: &[BothRotations]) -> String {
+    let key = [("full rotations", BLUE), ("small rotations", RED), ("Eq. (1) over Eq. (5), √cos α", GREY)];
+    let chip = |(name, color): (&str, &str)| {
+        (format!("<i class=\"chip\" style=\"background:{color}\"></i>"), name.to_owned())
+    };
+    let moved = both.iter().map(|BothRotations { name, duration, restitution, history, .. }| {
+        let caption = format!(
+            "<b>{name}, e = {restitution}</b><br>at most {:.3} u<sub>ins</sub> apart, amplitudes within \
+             {:.0e} u<sub>ins</sub>",
+            history.largest_difference(),
+            history.largest_amplitude_difference()
         );
-    }
-    section + "</main>\n"
-}
-
-/// A key of colours.
-fn key(entries: &[(&str, &str)]) -> String {
-    let entry = |(name, color): &(&str, &str)| {
-        format!("<span><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>\n")
-    };
-    entries.iter().map(entry).collect()
-}
-
-fn histories(comparison: &Comparison, duration: f64) -> String {
-    let timed = |history: &[f64]| -> Vec<(f64, f64)> {
-        history.iter().enumerate().map(|(index, &u)| (index as f64 * comparison.step, u)).collect()
-    };
-    let (linear, full) = (timed(&comparison.linear.history), timed(&comparison.trigonometric.history));
-    Plot { size: SIZE, ..both_rotations(&full, &linear, duration, SIZE[1]) }.svg()
+        let [small, full] = history.points();
+        figure(&caption, &Plot { size: SIZE, ..both_rotations(&full, &small, *duration, SIZE[1]) })
+    });
+    let periods = both.iter().map(|BothRotations { name, periods, .. }| {
+        let starts = "started at 0.1 (dotted), 0.5 (dashed) and 0.9 (solid) of u<sub>ins</sub>";
+        figure(&format!("<b>{name}</b><br>{starts}"), &ratios(periods))
+    });
+    let words = "<p>The wall of Figure 2 of the paper (b = 0.4 m, h = 4 m, released from 0.9 \
+                 u<sub>ins</sub>) with small and with full rotations, and the ratio of the two periods \
+                 against slenderness, hinge of the strip at mid-height.</p>\n";
+    words.to_owned() + &figures(key.map(chip), moved.chain(periods))
 }
 
 /// Ratios of periods of one mechanism.
-fn ratios(periods: &[Vec<Period>]) -> String {
+fn ratios(periods: &[Vec<Period>]) -> Plot {
     let points = |of: &dyn Fn(&Period) -> Option<f64>, periods: &[Period]| -> Vec<(f64, f64)> {
         let upright = std::iter::once((0.0, 1.0));
         upright.chain(periods.iter().filter_map(|period| Some((period.slenderness, of(period)?)))).collect()
     };
     let curves = periods.iter().map(|periods| points(&|period| Some(period.ratio()), periods)).collect();
     let housner = points(&Period::over_housner, &periods[0]);
-    Plot { size: SIZE, ..period_ratios(curves, housner, None, SIZE[1]) }.svg()
+    Plot { size: SIZE, ..period_ratios(curves, housner, None, SIZE[1]) }
 }

@@ -1,17 +1,17 @@
-//! The times of a table: a uniform step.
+//! Times of samples, which have a uniform step.
 
 use crate::error::Fault;
 
 /// Largest deviation of a time from the uniform grid, in steps. Times are often written with few digits.
 const TIME_TOLERANCE: f64 = 0.01;
 
-/// The lines of a table and the times on them (s).
+/// Times (s), and the lines that have them.
 #[derive(Default)]
-pub(super) struct Times(Vec<(usize, f64)>);
+pub(crate) struct Times(pub(crate) Vec<(usize, f64)>);
 
 impl Times {
     /// Takes the next time; its distance from the last must be the first step.
-    pub(super) fn push(&mut self, time: f64, line: usize) -> Result<(), Fault> {
+    pub(crate) fn push(&mut self, time: f64, line: usize) -> Result<(), Fault> {
         if let Some(&(_, last)) = self.0.last() {
             if time <= last {
                 let expected = format!("a time after {last} s");
@@ -32,7 +32,7 @@ impl Times {
 
     /// Computes the first time and the mean step. Refuses steps that change slowly: they leave the uniform
     /// grid.
-    pub(super) fn uniform(&self) -> Result<Option<(f64, f64)>, Fault> {
+    pub(crate) fn uniform(&self) -> Result<Option<(f64, f64)>, Fault> {
         let [(_, first), .., (_, last)] = self.0[..] else { return Ok(None) };
         let step = rounded((last - first) / (self.0.len() - 1) as f64);
         for (index, &(line, time)) in self.0.iter().enumerate() {
