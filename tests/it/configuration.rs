@@ -10,12 +10,7 @@ use proptest::test_runner::{RngSeed, TestCaseError, TestRunner};
 /// The same cases every time, unless PROPTEST_RNG_SEED names others (or `random` ones) and PROPTEST_CASES how
 /// many.
 pub(crate) fn configuration() -> ProptestConfig {
-    of(200)
-}
-
-/// The same with a number of cases.
-fn of(cases: u32) -> ProptestConfig {
-    let mut configuration = ProptestConfig { cases, ..ProptestConfig::default() };
+    let mut configuration = ProptestConfig { cases: 200, ..ProptestConfig::default() };
     match std::env::var("PROPTEST_RNG_SEED") {
         Ok(_) => configuration.cases = ProptestConfig::default().cases,
         Err(_) => configuration.rng_seed = RngSeed::Fixed(1),
@@ -32,21 +27,22 @@ pub(crate) fn mostly<T: Debug>(
     cases: impl Strategy<Value = T>,
     compare: impl Fn(T) -> Result<[usize; 2], TestCaseError>,
 ) {
-    mostly_of(200, least, cases, compare);
+    mostly_of(1, least, cases, compare);
 }
 
-/// Does the same with a number of cases, where each takes long. Of `count` cases at least one shows, with a
-/// probability of 95 %, what goes wrong in 3/`count` of all.
+/// Does the same with one case of so many, where each takes long. Of n cases at least one shows, with a
+/// probability of 95 %, what goes wrong in 3/n of all.
 #[track_caller]
 #[allow(clippy::print_stdout, reason = "with --nocapture")]
 pub(crate) fn mostly_of<T: Debug>(
-    count: u32,
+    one_of: u32,
     least: f64,
     cases: impl Strategy<Value = T>,
     compare: impl Fn(T) -> Result<[usize; 2], TestCaseError>,
 ) {
     let source_file = Some(Location::caller().file());
-    let configuration = ProptestConfig { source_file, ..of(count) };
+    let every = configuration();
+    let configuration = ProptestConfig { source_file, cases: every.cases / one_of, ..every };
     let (compared, all) = (Cell::new(0), Cell::new(0));
     let outcome = TestRunner::new(configuration).run(&cases, |case| {
         let [part, whole] = compare(case)?;

@@ -79,8 +79,8 @@ fn refuses_two_gigabytes_without_reading_them() {
     assert_eq!(MAX_FILE_BYTES, 67_108_864);
 }
 
-/// Half a megabyte of blanks is read, and refused with one message in each format: what looks at every rest of
-/// the file again would take minutes.
+/// Half a megabyte of blanks is read, and refused with one message in each format: what looks at the rest of
+/// the file again for each blank would take minutes.
 #[test]
 fn refuses_a_file_of_blanks() {
     for format in Format::ALL {
