@@ -19,7 +19,7 @@ const EDITS: [[u8; 8]; 8] = [
 /// accepted.
 pub(crate) fn are_refused_or_work<M: Model>(unit: &M, other: &M, from: usize) -> usize {
     let mut state = Vec::new();
-    unit.clone().transfer_state(&mut StateCodec::writing(&mut state)).unwrap();
+    unit.clone().transfer_state(&mut StateCodec::writing(&mut state)).expect("a state can be written");
     let goes_on = |bytes: &[u8]| {
         let (mut read, mut codec) = (other.clone(), StateCodec::reading(bytes));
         let accepted = read.transfer_state(&mut codec).is_ok() && codec.finish().is_ok();

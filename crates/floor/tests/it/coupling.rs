@@ -203,9 +203,10 @@ fn edited_states_are_refused_or_work() {
 fn a_parameter_of_a_state_beyond_its_limits_is_named() {
     let mut bytes = Vec::new();
     let mut driven = Driven::new(&[("yield_force", 54321.0)], Hysteresis::Bilinear, Coupling::Reactions);
-    driven.unit.transfer_state(&mut StateCodec::writing(&mut bytes)).unwrap();
-    let at = bytes.windows(8).position(|found| found == 54321.0_f64.to_le_bytes()).unwrap();
+    driven.unit.transfer_state(&mut StateCodec::writing(&mut bytes)).expect("it can be written");
+    let at = bytes.windows(8).position(|found| found == 54321.0_f64.to_le_bytes()).expect("it is there");
     bytes[at..at + 8].copy_from_slice(&(-1.0_f64).to_le_bytes());
-    let error = Unit::new().unwrap().transfer_state(&mut StateCodec::reading(&bytes)).unwrap_err();
+    let mut other = Unit::new().expect("the start values make a floor");
+    let error = other.transfer_state(&mut StateCodec::reading(&bytes)).unwrap_err();
     assert!(error.to_string().contains("yield_force = -1.0 N is below its minimum"), "{error}");
 }
