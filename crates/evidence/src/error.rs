@@ -1,6 +1,6 @@
 //! The error of all comparisons.
 
-use check::points::CheckError;
+use check::CheckError;
 use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;

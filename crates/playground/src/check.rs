@@ -2,15 +2,12 @@
 
 use std::fmt::Write;
 
-use check::circolare::figure::governing_over_demand;
-use check::circolare::{
-    ActivationCheck, CheckError, Deciding, DisplacementCheck, LimitState, Records, SideVerdict, Statement,
-    Verdict, check, demands, read_table,
-};
-use report::number;
+use check::CheckError;
+use check::code::{Given, Subject, Verdict, read};
 use report::plot::Plot;
+use report::table::Cell;
 use rocking_wall::scene::{Place, SceneError};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::Parameters;
 use serde_json::{Value, json};
 
 use crate::request::{Fields, fault_of, field_of};
@@ -37,6 +34,8 @@ fn value(text: &str) -> String {
         Ok(number) if number.fract() == 0.0 && number.abs() < 1e15 => format!("{number:.0}"),
         Ok(number) if number.is_finite() => format!("{number:?}"),
         _ if text == "true" || text == "false" => text.to_owned(),
+        // points of a spectrum
+        _ if text.starts_with('[') => text.to_owned(),
         // a string of JSON is one of TOML
         _ => Value::from(text).to_string(),
     }
@@ -44,120 +43,59 @@ fn value(text: &str) -> String {
 
 /// Checks a wall: its verdict and its picture of a width \[px\], or what is wrong, field by field. There is
 /// nothing where no code is chosen.
-pub(crate) fn checked(fields: &Fields, wall: &Wall, parameters: &Parameters, width: f64) -> Value {
+pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> Value {
     let text = table(fields);
-    if text.is_empty() {
-        return Value::Null;
-    }
-    match outcome(&text, wall, parameters, width) {
-        Ok(outcome) => outcome,
-        Err(error) => {
-            let (field, message) = fault(fields, error);
-            json!({ "faults": fault_of(field, message) })
-        }
-    }
+    let checked = || -> Result<Value, CheckError> {
+        let Some(code) = read(&Place::new(NO_FIELD, &text), Given::default())? else {
+            return Ok(Value::Null);
+        };
+        let subject = Subject { title: "", parameters, floors: None, is_tried: false };
+        Ok(outcome(&code.check(&subject)?, code.plot(&subject)?, width))
+    };
+    checked().unwrap_or_else(|error| {
+        let (field, message) = fault(fields, error);
+        json!({ "faults": fault_of(field, message) })
+    })
 }
 
-fn outcome(text: &str, wall: &Wall, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {
-    let Some(table) = read_table(&Place::new(NO_FIELD, text))? else { return Ok(Value::Null) };
-    let (statement, records) = (table.statement()?, Records::default());
-    let verdict = check(parameters, None, &statement, &records)?;
-    let plot = governing_over_demand(&statement, &demands(wall, None, &statement, &records)?, &verdict)?;
+fn outcome(verdict: &Verdict, plot: Plot, width: f64) -> Value {
     let plot = Plot { size: [width, (0.5 * width).clamp(200.0, 270.0)], ..plot };
-    let sides = &verdict.sides;
-    let governing = sides.iter().find(|(side, _)| *side == verdict.governs.side);
-    let (state, passed) = if verdict.passed { ("stands", "passed") } else { ("falls", "not passed") };
-    let (zeta, limit_state) = (number(verdict.governs.zeta, 3), verdict.governs.limit_state.name());
-    Ok(json!({
-        "state": state,
-        "headline": format!("Circolare 7/2019: {passed}, ζ_E = {zeta} ({limit_state})"),
-        "detail": detail(&statement, &verdict),
-        "zeta_E": verdict.governs.zeta,
-        "side": verdict.governs.side.name(),
-        "facts": governing.map(|(_, side)| facts(side)),
+    json!({
+        "state": if verdict.passed { "stands" } else { "falls" },
+        "headline": verdict.headline,
+        "detail": verdict.detail,
+        "zeta_E": verdict.zeta,
+        "side": verdict.side,
+        "facts": facts(verdict),
+        "notes": verdict.notes,
         "warnings": verdict.warnings,
         "svg": plot.svg(),
-    }))
+    })
 }
 
-/// The ground acceleration that just passes, beside that of the site.
-fn detail(statement: &Statement, verdict: &Verdict) -> String {
-    let governs = verdict.governs;
-    let state = match governs.limit_state {
-        Deciding::Sld => LimitState::Sld,
-        Deciding::SlvWithQ | Deciding::Slv => LimitState::Slv,
-        Deciding::Slc => LimitState::Slc,
+/// The numbers of the side that governs, as names and values for people.
+fn facts(verdict: &Verdict) -> Vec<[String; 2]> {
+    let columns = &verdict.numbers.columns;
+    let side = columns.iter().position(|column| column.name == verdict.side).unwrap_or(2);
+    let fact = |row: &Vec<Cell<'_>>| {
+        let [name, unit] = [0, 1].map(|place| columns[place].words(&row[place]));
+        [name, format!("{} {}", columns[side].words(&row[side]), unit.replace('-', "")).trim().to_owned()]
     };
-    let site = statement.state(state).map_or(f64::NAN, |given| given.ag);
-    let held = format!(
-        "It holds up to a_g = {} g; the site has {} g.",
-        number(governs.zeta * site, 3),
-        number(site, 3)
-    );
-    let breaks = verdict.sides.iter().any(|(side, verdict)| {
-        side == governs.side && state == LimitState::Slv && verdict.slv.is_some_and(|slv| slv.limited_by_tie)
-    });
-    held + if breaks { " The tie breaks at d_SLV." } else { "" }
-}
-
-/// The numbers of a side, as names and values for people.
-fn facts(side: &SideVerdict) -> Vec<[String; 2]> {
-    let mut rows = vec![
-        ["activation α0".to_owned(), number(side.alpha0, 3)],
-        ["elastic period T0".to_owned(), format!("{} s", number(side.t0, 3))],
-    ];
-    let mut row = |name: &str, [capacity, demand, zeta]: [f64; 3], unit: &str| {
-        let [capacity, demand, zeta] = [capacity, demand, zeta].map(|value| number(value, 3));
-        rows.push([name.to_owned(), format!("{capacity} / {demand} {unit}: ζ_E {zeta}")]);
-    };
-    let activation = |check: ActivationCheck| [check.capacity, check.demand, check.ratio];
-    let displacement = |check: DisplacementCheck| [1000.0 * check.d, 1000.0 * check.demand, check.zeta];
-    if let Some(check) = side.sld {
-        row("SLD, a / S_e", activation(check), "m/s²");
-    }
-    if let Some(check) = side.slv_q {
-        row("SLV with q, a / S_e", activation(check), "m/s²");
-    }
-    for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-        if let Some(check) = check {
-            row(&format!("{state}, d / S_d"), displacement(check), "mm");
-        }
-    }
-    for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-        rows.extend(
-            check.map(|check| [format!("period T_{state}"), format!("{} s", number(check.period, 3))]),
-        );
-    }
-    rows
+    verdict.numbers.rows.iter().map(fact).collect()
 }
 
 /// The field that an error is about, and its message.
 fn fault(fields: &Fields, error: CheckError) -> (String, String) {
-    let names = || fields.keys().map(String::as_str);
-    match error {
-        CheckError::Value { keys, message } => {
-            let path = keys.join(".");
-            if fields.contains_key(&path) {
-                return (path, message);
-            }
-            // a key that is missing below the one that is named
-            let last = |name: &&str| name.rsplit('.').next().is_some_and(|last| message.contains(last));
-            let below = names().filter(|name| name.starts_with(&path) && name.contains('.')).find(last);
-            (below.unwrap_or(NO_FIELD).to_owned(), message)
-        }
-        CheckError::Scene(SceneError::Line { line, message, .. }) => {
+    let message = error.to_string();
+    let field = match (error.keys(), error) {
+        (Some(keys), _) => fields.contains_key(&keys.join(".")).then(|| keys.join(".")),
+        (None, CheckError::Scene(SceneError::Line { line, message, .. })) => {
             let text = table(fields);
             let field = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next());
-            (field.filter(|field| fields.contains_key(*field)).unwrap_or(NO_FIELD).to_owned(), message)
+            let field = field.filter(|field| fields.contains_key(*field)).unwrap_or(NO_FIELD);
+            return (field.to_owned(), message);
         }
-        CheckError::Improbable { doubts, error } => {
-            let (field, message) = fault(fields, *error);
-            let doubts: Vec<_> = doubts.iter().map(ToString::to_string).collect();
-            (field, format!("{}; as given, {message}", doubts.join("; ")))
-        }
-        other => {
-            let message = other.to_string();
-            (field_of(&message, names(), NO_FIELD), message)
-        }
-    }
+        (None, _) => Some(field_of(&message, fields.keys().map(String::as_str), NO_FIELD)),
+    };
+    (field.unwrap_or_else(|| NO_FIELD.to_owned()), message)
 }

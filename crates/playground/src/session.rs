@@ -85,7 +85,7 @@ impl Session {
             "warnings": warnings,
             "computed": parameters::computed(wall),
             "notes": scene.motion_notes,
-            "check": check::checked(&inputs.check, wall, &scene.parameters, inputs.width),
+            "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
             "charts": Charts::new(wall, &response, inputs.width).inline(),
             "wall": {
                 "height": body.height,

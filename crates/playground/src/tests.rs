@@ -287,13 +287,32 @@ fn the_check_has_the_numbers_of_the_code() {
 fn a_thicker_wall_passes_the_check() {
     let check = |thickness: &str| checked(&json!({ "thickness": thickness }), &json!({}))["check"].clone();
     let [thin, thick] = ["0.4", "0.6"].map(check);
-    assert_eq!(thin["headline"], "Circolare 7/2019: not passed, ζ_E = 0.856 (SLV)");
+    assert_eq!(thin["headline"], "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
     assert_eq!(thin["detail"], "It holds up to a_g = 0.128 g; the site has 0.15 g.");
-    assert!(thick["headline"].as_str().unwrap().contains(": passed, ζ_E = 1.28"), "{thick}");
+    assert!(
+        thick["headline"].as_str().unwrap().starts_with("PASSED: SLV governs with zeta_E = 1.28"),
+        "{thick}"
+    );
     assert_ne!(thin["svg"], thick["svg"]);
     let (tie, roof) = tied_on_the_roof();
-    let detail = checked(&tie, &roof)["check"]["detail"].clone();
-    assert!(detail.as_str().unwrap().ends_with("The tie breaks at d_SLV."), "{detail}");
+    let notes = checked(&tie, &roof)["check"]["notes"].clone();
+    assert!(notes.as_array().unwrap().contains(&"u > 0: the tie breaks at d_SLV".into()), "{notes}");
+}
+
+/// Another code has other statements, and the same answer.
+#[test]
+fn a_check_by_fractions_takes_a_spectrum() {
+    let fractions = |spectrum: &str| {
+        let check = json!({ "code": "fractions", "spectrum": spectrum });
+        let motion = json!({ "kind": "none" });
+        let inputs = json!({ "parameters": {}, "motion": motion, "check": check, "width": 600 });
+        ask(&mut Session::default(), &json!({ "run": inputs }))["answer"]["check"].clone()
+    };
+    let check = fractions("[[0, 2], [0.5, 5], [1, 2.5], [4, 0.3]]");
+    assert!(check["headline"].as_str().unwrap().contains("displacement governs"), "{check}");
+    assert_eq!(check["facts"][0][0], "onset a0*");
+    let refused = fractions("[[1, 2], [4, 0.3]]");
+    assert!(refused["faults"]["spectrum"].as_str().unwrap().contains("no T = 0"), "{refused}");
 }
 
 /// What is wrong with a check stands beside its field, and the wall runs all the same.

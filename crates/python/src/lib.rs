@@ -53,7 +53,7 @@ mod _native {
     #[pymodule_export]
     use crate::calibrations::calibrate_wall;
     #[pymodule_export]
-    use crate::checks::{check_wall, check_wall_by_code};
+    use crate::checks::check_wall;
     #[pymodule_export]
     use crate::folders::Folder;
     #[pymodule_export]

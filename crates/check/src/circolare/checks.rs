@@ -5,15 +5,15 @@ use rocking_wall::wall::{Parameters, Wall, Warning};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
-use super::error::CheckError;
 use super::floor::Mode;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, UseClass};
 use super::verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Side, SideVerdict, SideVerdicts,
-    TieBreak, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Outcome, Side, SideVerdict,
+    SideVerdicts, TieBreak,
 };
 use super::{CODE, LimitState, Records};
+use crate::error::CheckError;
 
 /// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
 fn period_factor(state: LimitState) -> f64 {
@@ -52,7 +52,7 @@ pub fn check(
     floors: Option<&Floors>,
     statement: &Statement,
     records: &Records,
-) -> Result<Verdict, CheckError> {
+) -> Result<Outcome, CheckError> {
     let doubts = || {
         let of_wall = Warning::unusual(parameters);
         of_wall.chain(super::warnings::improbable(statement, floors)).collect()
@@ -65,7 +65,7 @@ fn checked(
     floors: Option<&Floors>,
     statement: &Statement,
     records: &Records,
-) -> Result<Verdict, CheckError> {
+) -> Result<Outcome, CheckError> {
     let wall = Wall::new(parameters)?;
     let mut warnings = super::warnings::of_statement(statement, parameters, floors, &wall);
     let demands = demands(&wall, floors, statement, records)?;
@@ -89,7 +89,7 @@ fn checked(
     let passed = governs.zeta >= 1.0
         && dynamic.as_ref().is_none_or(|d| statement.method != Method::Dynamic || d.passed());
     let alike = wall.has_equal_sides();
-    Ok(Verdict { code: CODE, passed, governs, alike, sides, dynamic, warnings })
+    Ok(Outcome { code: CODE, passed, governs, alike, sides, dynamic, warnings })
 }
 
 /// Makes the demands of SLD, SLV and SLC at the place of a wall; `None` for one that is not stated.
@@ -268,13 +268,13 @@ fn displacement(
     let (u, limited_by_tie) = limit(curve, given)?;
     let (d, a) = (curve.stretch * u, curve.tied(u));
     if a <= 0.0 {
-        return Err(CheckError::NotPositive { state, displacement: d });
+        return Err(CheckError::NotPositive { state: state.key(), displacement: d });
     }
     let period = Curve::period(period_factor(state), d, a);
     let t0 = curve.elastic.period;
     let elastic = curve.elastic.displacement;
     if elastic >= d || t0 >= period {
-        return Err(CheckError::Elastic { state, elastic, t0, displacement: d, period });
+        return Err(CheckError::Elastic { state: state.key(), elastic, t0, displacement: d, period });
     }
     let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
         demand.displacement(state, [t0, period], given.damping)?;

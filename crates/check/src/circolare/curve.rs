@@ -18,10 +18,10 @@ use std::f64::consts::{PI, TAU};
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Kinematics, Parameters, Tie, Wall};
 
-use super::error::CheckError;
 use super::statement::Statement;
 use super::table::Activation;
 use super::verdict::TieBreak;
+use crate::error::CheckError;
 
 /// κ of [C8.7.1.7] for a cantilever and for vertical bending \[-\].
 const CANTILEVER: f64 = 6.2;

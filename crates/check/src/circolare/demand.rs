@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use ground_motion::{GroundMotion, Maxima, Spectrum};
 
 use super::LimitState;
-use super::error::CheckError;
 use super::floor::FloorSpectrum;
 use super::ground::GroundSpectrum;
+use crate::error::CheckError;
 use crate::site::interpolated;
 
 /// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.
@@ -71,11 +71,11 @@ impl Demand {
             Self::Points(points, given) => {
                 if (given - xi).abs() > 1e-9 {
                     let (needed, given) = (100.0 * xi, 100.0 * given);
-                    return Err(CheckError::Damping { state, needed, given });
+                    return Err(CheckError::Damping { state: state.key(), needed, given });
                 }
                 interpolated(points, period).ok_or_else(|| {
                     let [from, to] = [points[0].0, points[points.len() - 1].0];
-                    CheckError::Period { state, period, from, to }
+                    CheckError::Period { state: state.key(), period, from, to }
                 })
             }
             Self::Records(records) => {

@@ -11,12 +11,12 @@ use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Tie, Wall};
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::error::CheckError;
 use super::records::Records;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
+use crate::error::CheckError;
 use run::bisection::begins_at;
 use run::shaking::Shaking;
 

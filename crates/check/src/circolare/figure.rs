@@ -1,4 +1,4 @@
-//! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
+//! Spectra, and capacity over demand.
 //!
 //! ```
 //! use check::circolare::figure::{Drawn, spectra};
@@ -8,40 +8,17 @@
 //! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
 //! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
 //! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
-//! # Ok::<(), check::circolare::CheckError>(())
+//! # Ok::<(), check::CheckError>(())
 //! ```
 
 use crate::circolare::{
-    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, StateStatement, Statement,
-    Verdict,
+    Demand, DisplacementCheck, LimitState, Outcome, SideVerdict, StateStatement, Statement,
 };
+use crate::error::CheckError;
 
-use report::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
+use report::palette::{BLACK, BLUE, GREEN, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::points::{simplified, within};
-
-/// Draws `ζ_E` over the values that were tried up to three times the one found, the limit 1, and that value.
-pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
-    let [left, right] = found.range;
-    let right = found.value.map_or(right, |value| right.min(3.0 * value));
-    let shown = found.curve.iter().copied().filter(|point| point.1.is_finite() && point.0 <= right);
-    let points: Vec<(f64, f64)> = shown.collect();
-    // far beyond the demand nothing is to be seen
-    let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
-    let inside = points.into_iter().filter(|point| point.1 <= top).collect();
-    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
-    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
-    if let Some(value) = found.value {
-        let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
-        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
-        series.push(named(name, Look::Dashed, line));
-    }
-    let axes = [
-        Axis::over(&format!("{} ({})", sought.name(), sought.unit()), [left.min(right), right]),
-        Axis::over("ζ_E", [0.0, 1.05 * top]),
-    ];
-    Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
-}
 
 /// Size of spectra and of capacity over demand \[px\].
 const SIZE: [f64; 2] = [820.0, 400.0];
@@ -168,7 +145,7 @@ pub fn over_demand(
 pub fn governing_over_demand(
     statement: &Statement,
     demands: &[Option<Demand>; 3],
-    verdict: &Verdict,
+    verdict: &Outcome,
 ) -> Result<Plot, CheckError> {
     let mut sides = verdict.sides.iter();
     let governing = sides.find(|(side, _)| *side == verdict.governs.side);

@@ -6,7 +6,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `table` | the table `[check]` as it is written |
-//! | `statement` | the same, in its limits |
+//! | `statement` | the table `[check]`, validated |
 //! | `ground`, `floor` | spectra on the ground and at a height |
 //! | `curve` | a(d) of one side of a wall |
 //! | `demand` | what a limit state demands |
@@ -15,43 +15,109 @@
 //! | `verdict` | the outcome |
 //! | `dynamic` | runs under records |
 //! | `warnings` | what the engineer should know |
-//! | `find` | the smallest wall that passes |
-//! | `walls` | many walls |
+//! | `rows` | the outcome as the verdict that every code has |
+//! | `figure`, `report` | spectra and curves; the page for a calculation file |
 
 mod checks;
 mod curve;
 mod demand;
 mod dynamic;
-mod error;
 pub mod figure;
-mod find;
 mod floor;
 mod ground;
 mod records;
-pub mod report;
+mod report;
+mod rows;
 mod statement;
 mod table;
 mod verdict;
-mod walls;
 mod warnings;
+
+use std::path::PathBuf;
+
+use ::report::plot::Plot;
+use rocking_wall::scene::{Place, SceneError};
+use rocking_wall::wall::Wall;
+
+use crate::code::{Code, Document, Given, Subject, Verdict};
+use crate::error::CheckError;
 
 pub use checks::{LARGEST_LOSS, check, demands};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
-pub use error::CheckError;
-pub use find::{Found, Sought, find};
-pub use floor::{FloorSpectrum, Mode, frame_acceleration};
+pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
 pub use table::{
     Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
-    UseClass, in_table, read_table,
+    UseClass, read_table,
 };
 pub use verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs, Side,
-    SideVerdict, SideVerdicts, TieBreak, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs, Outcome,
+    Side, SideVerdict, SideVerdicts, TieBreak,
 };
-pub use walls::{WallVerdict, Walls};
+
+/// What the engineer states, and the records.
+#[derive(Clone, Debug)]
+struct Circolare {
+    statement: Statement,
+    records: Records,
+}
+
+/// Reads the table `[check]` of this code.
+///
+/// # Errors
+/// [`CheckError`] of a value, with its keys, or of a record.
+pub fn read(place: &Place<'_>, given: Given<'_>) -> Result<Box<dyn Code>, CheckError> {
+    let missing = || SceneError::Value { message: "there is no table [check]".into() };
+    let table = read_table(place)?.ok_or_else(missing)?;
+    let statement = table.statement()?;
+    let records = if given.records.is_empty() {
+        Records::read(&table, place, given.folder)?
+    } else {
+        Records::new(given.records)?
+    };
+    Ok(Box::new(Circolare { statement, records }))
+}
+
+impl Circolare {
+    fn outcome(&self, subject: &Subject<'_>) -> Result<Outcome, CheckError> {
+        let none = Records::default();
+        let records = if subject.is_tried && !self.takes_runs() { &none } else { &self.records };
+        check(subject.parameters, subject.floors, &self.statement, records)
+    }
+}
+
+impl Code for Circolare {
+    fn check(&self, subject: &Subject<'_>) -> Result<Verdict, CheckError> {
+        Ok(rows::verdict(&self.outcome(subject)?, &self.statement))
+    }
+
+    fn plot(&self, subject: &Subject<'_>) -> Result<Plot, CheckError> {
+        let wall = Wall::new(subject.parameters)?;
+        let demands = demands(&wall, subject.floors, &self.statement, &self.records)?;
+        figure::governing_over_demand(&self.statement, &demands, &self.outcome(subject)?)
+    }
+
+    fn report(&self, subject: &Subject<'_>, document: &Document<'_>) -> Result<String, CheckError> {
+        let Self { statement, records } = self;
+        let verdict = &self.outcome(subject)?;
+        report::page(&report::Report { subject, document, statement, records, verdict })
+    }
+
+    fn files(&self) -> &[PathBuf] {
+        &self.records.files
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.records.warnings
+    }
+
+    fn takes_runs(&self) -> bool {
+        let mut states = self.statement.states.iter().flatten();
+        self.statement.method == Method::Dynamic || states.any(|given| given.source == Source::Records)
+    }
+}
 
 /// The code, in `[check]`.
 pub const CODE: &str = "circolare-2019";

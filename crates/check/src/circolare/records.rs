@@ -6,8 +6,8 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::{Floors, Place, SceneError};
 use rocking_wall::wall::Wall;
 
-use super::error::CheckError;
 use super::table::CheckTable;
+use crate::error::CheckError;
 use crate::site::felt;
 use run::records::NamedRecord;
 use run::records::records;
@@ -49,7 +49,7 @@ impl Records {
         let files = record_files(&entry, folder, place.name())?;
         let mut warnings = Vec::new();
         let records = all_records(&entry, &files, place.name(), &mut warnings)?;
-        let records = Self::new(records).map_err(|error| super::in_table(error, place))?;
+        let records = Self::new(records).map_err(|error| crate::code::in_table(error, place))?;
         let files = files.into_iter().map(|file| file.path).collect();
         Ok(Self { files, warnings, ..records })
     }

@@ -1,13 +1,13 @@
 //! What the engineer states, checked.
 
-use super::error::CheckError;
+use super::LimitState;
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};
 use super::table::{
     Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
     UseClass,
 };
-use super::{CODE, LimitState};
+use crate::error::CheckError;
 
 /// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
 pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
@@ -80,9 +80,6 @@ impl CheckTable {
     /// [`CheckError::Value`] of the first that cannot be used.
     pub fn statement(&self) -> Result<Statement, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        if self.code != CODE {
-            return refused("code", format!("code = {:?} is unknown; the code is {CODE:?}", self.code));
-        }
         let q = self.behaviour_factor.unwrap_or(2.0);
         if !(q >= 1.0 && q.is_finite()) {
             return refused("behaviour_factor", format!("behaviour_factor = {q} must be at least 1"));
@@ -141,7 +138,7 @@ impl Statement {
         if slv || (slc && self.method != Method::Linear) {
             return Ok(());
         }
-        Err(CheckError::value(&[], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
+        Err(CheckError::value(&["SLV", "ag"], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
     }
 }
 
@@ -274,7 +271,7 @@ fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Res
 
 fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
     let Some(given) = &table.soil else {
-        return Err(CheckError::value(&[], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
+        return Err(CheckError::value(&["soil"], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
     };
     Soil::ALL.into_iter().find(|soil| soil.name() == given).ok_or_else(|| {
         let letter = given.to_uppercase();
@@ -357,7 +354,7 @@ impl StateStatement {
                 "{name}: state building_damping, the damping of the building in this limit state \
                  (C8.7.1.2.1.4)"
             );
-            return Err(CheckError::value(&[name], message));
+            return Err(CheckError::value(&[name, "building_damping"], message));
         };
         let floor = FloorSpectrum::new(ground, modes, xi);
         if floor.peak_acceleration() <= 0.0 {

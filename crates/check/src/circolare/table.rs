@@ -3,9 +3,7 @@
 use rocking_wall::scene::{Place, SceneError, parse_toml};
 use serde::Deserialize;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
 
-use super::error::CheckError;
 use super::floor::Mode;
 
 /// What the engineer states, as it is written.
@@ -169,38 +167,11 @@ struct WithCheck {
     check: Option<CheckTable>,
 }
 
-/// Reads the table `[check]` of a scene's or a study's text; `None` without one.
+/// Reads the table `[check]` of a text as this code has it; `None` without one.
 ///
 /// # Errors
 /// [`SceneError::Line`] with the line, the value, the limit and the remedy.
 pub fn read_table(place: &Place<'_>) -> Result<Option<CheckTable>, SceneError> {
     let WithCheck { check } = parse_toml(place)?;
     Ok(check)
-}
-
-/// Adds file and line of a key of the table to an error that names one.
-pub fn in_table(error: CheckError, place: &Place<'_>) -> SceneError {
-    let message = error.to_string();
-    match (error.keys(), error) {
-        (_, CheckError::Scene(error)) => error,
-        (Some(keys), _) => match line_of(place.text(), &keys) {
-            Some(span) => place.error(span, format!("[check] {message}")),
-            None => SceneError::File { file: place.name().to_owned(), reason: format!("[check] {message}") },
-        },
-        (None, _) => SceneError::File { file: place.name().to_owned(), reason: message },
-    }
-}
-
-/// The span of the last of the keys below `[check]` that is there.
-fn line_of(text: &str, keys: &[&str]) -> Option<std::ops::Range<usize>> {
-    let document = DeTable::parse(text).ok()?;
-    let mut at = document.get_ref().get("check")?;
-    for key in keys {
-        let DeValue::Table(table) = at.get_ref() else { break };
-        match table.get(*key) {
-            Some(value) => at = value,
-            None => break,
-        }
-    }
-    Some(at.span())
 }

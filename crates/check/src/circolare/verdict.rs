@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// The outcome of a check. Serialized it is what `wall check --json` prints: SI units, `a_g` in g.
 #[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
+pub struct Outcome {
     /// [`CODE`](super::CODE).
     pub code: &'static str,
     /// Whether every limit state that decides holds on every side.
@@ -21,6 +21,23 @@ pub struct Verdict {
     pub dynamic: Option<DynamicCheck>,
     /// What the engineer should know; none of it stops the check.
     pub warnings: Vec<String>,
+}
+
+impl Outcome {
+    /// Returns the sides that differ, with their names.
+    pub fn shown(&self) -> impl Iterator<Item = (&'static str, &SideVerdict)> + Clone {
+        let name = |side: Side| if self.alike { "both sides" } else { side.name() };
+        let sides = self.sides.iter().take(if self.alike { 1 } else { 2 });
+        sides.map(move |(side, verdict)| (name(side), verdict))
+    }
+
+    /// Returns the verdict in one line.
+    pub fn headline(&self) -> String {
+        let Governs { side, limit_state, zeta } = self.governs;
+        let side = if self.alike { "both sides alike" } else { side.name() };
+        let passed = if self.passed { "PASSED" } else { "NOT PASSED" };
+        format!("{passed}: {} governs with zeta_E = {zeta:.3} ({side})", limit_state.name())
+    }
 }
 
 /// What governs a verdict.
@@ -102,7 +119,7 @@ pub struct SideVerdicts {
 
 impl SideVerdicts {
     /// The sides there are.
-    pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> + Clone {
         let sides = [(Side::Positive, &self.positive), (Side::Negative, &self.negative)];
         sides.into_iter().filter_map(|(side, verdict)| Some((side, verdict.as_ref()?)))
     }

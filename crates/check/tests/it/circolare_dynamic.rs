@@ -48,7 +48,7 @@ fn the_confidence_factor_divides_forces() {
     let with = checked(&table(9.81, "confidence_factor = 1.35")).unwrap();
     let unity = "confidence_factor = 1\ncompression_considered = true";
     let without = checked(&table(9.81 / 1.35, unity)).unwrap();
-    let runs = |verdict: &check::circolare::Verdict| {
+    let runs = |verdict: &check::circolare::Outcome| {
         verdict.dynamic.as_ref().unwrap().slv.as_ref().unwrap().runs.clone()
     };
     for (one, other) in runs(&with).into_iter().zip(runs(&without)) {

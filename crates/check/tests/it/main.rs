@@ -10,4 +10,5 @@ mod circolare_cases;
 mod circolare_dynamic;
 mod circolare_properties;
 mod circolare_refusals;
+mod codes;
 mod messages;

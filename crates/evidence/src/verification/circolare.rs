@@ -7,8 +7,9 @@ use rocking_wall::scene::{Place, Scene, SceneError};
 use super::studies::{SIX_DIGITS, within};
 use crate::{Comparison, EvidenceError};
 use check::circolare::{
-    GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
+    GroundSpectrum, Hazard, Outcome, Records, SideVerdict, Soil, check, damping_factor, read_table,
 };
+use check::code::in_table;
 
 /// The site of the examples, and walls: a parapet, the same with a tie, a strip wall under the roof.
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
@@ -20,7 +21,7 @@ const STRIP: &str = "geometry.mechanism = \"vertical_spanning\"\ngeometry.height
                      force_law = { a1 = 0.03 }\n";
 
 /// Checks a wall on the ground, or at z/H of a building of three storeys.
-fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, EvidenceError> {
+fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Outcome, EvidenceError> {
     let (mut building, mut damping) = (String::new(), [""; 2]);
     if let Some(ratio) = height_ratio {
         building = format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio:?} }}\n");

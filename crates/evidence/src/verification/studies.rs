@@ -10,7 +10,7 @@ use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::{circolare, paper};
 use crate::{Comparison, EvidenceError};
-use check::points::{Demand, Fractions, check};
+use check::fractions::{Demand, Fractions, check};
 use run::bisection::begins_at;
 use serde::Deserialize;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
@@ -109,7 +109,7 @@ fn capacity_curve() -> Comparisons {
 /// The spectrum and the walls of docs/model.md, worked by hand there to six digits.
 fn capacity_against_demand() -> Comparisons {
     let points = vec![(0.0, 2.0), (0.1, 5.0), (0.5, 5.0), (1.0, 2.5), (2.0, 1.25), (4.0, 0.3)];
-    let demand = Demand::of_points(points)?;
+    let demand = Demand::of_points(points, |index| format!("point {index}"))?;
     let parapet = Parameters::default();
     let strip = Parameters {
         mechanism: Mechanism::VerticalSpanning,

@@ -4,7 +4,8 @@
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
 const parapet = v => v.mechanism === "parapet";
-const code = v => v.code !== "";
+const code = v => v.code === "circolare-2019";
+const fractions = v => v.code === "fractions";
 const high = v => code(v) && v.place === "building";
 const CHECK = "Check by the code";
 // a limit state; SLD and SLC are checked where their a_g is given
@@ -60,7 +61,12 @@ const GROUPS = [
   ]],
   [CHECK, [
     { name: "code", label: "Code", start: "circolare-2019",
-      names: { "circolare-2019": "Circolare 7/2019", "": "none" } },
+      names: { "circolare-2019": "Circolare 7/2019", fractions: "a spectrum", "": "none" } },
+    { name: "spectrum", label: "Points [T, Sa]", unit: "s, m/s²", when: fractions,
+      start: "[[0, 2], [0.1, 5], [0.5, 5], [1, 2.5], [4, 0.3]]" },
+    { name: "displacement_fraction", label: "Displacement capacity", start: "0.4", range: [0.1, 1, 0.05],
+      when: fractions },
+    { name: "secant_fraction", label: "Secant", start: "0.4", range: [0.1, 1, 0.05], when: fractions },
     { name: "before_activation", label: "Before it rocks", start: "law", when: code,
       names: { law: "free: as its force law", beam: "free: an elastic beam",
         rigid: "held by transverse walls" } },

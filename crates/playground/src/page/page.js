@@ -241,7 +241,8 @@ function showCheck(check) {
   at("check_side").textContent = check.side;
   at("check_facts").replaceChildren(...check.facts.map(pair =>
     make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
-  at("check_warnings").replaceChildren(...check.warnings.map(textContent => make("li", { textContent })));
+  const said = [...check.notes, ...check.warnings];
+  at("check_warnings").replaceChildren(...said.map(textContent => make("li", { textContent })));
   at("plane").innerHTML = check.svg;
 }
 

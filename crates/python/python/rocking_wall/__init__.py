@@ -14,19 +14,7 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 from . import dask
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
 from ._calibration import Calibration
-from ._checks import Check, CheckedSide
-from ._codes import (
-    ActivationCheck,
-    DisplacementCheck,
-    DynamicCheck,
-    DynamicRun,
-    DynamicState,
-    Governs,
-    SideVerdict,
-    SideVerdicts,
-    Statements,
-    Verdict,
-)
+from ._checks import Verdict
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -48,31 +36,20 @@ from ._verification import verify
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
-    "ActivationCheck",
     "Building",
     "BuildingResponse",
     "BuildingWallResponse",
     "Calibration",
-    "Check",
-    "CheckedSide",
     "Demands",
     "Description",
-    "DisplacementCheck",
-    "DynamicCheck",
-    "DynamicRun",
-    "DynamicState",
     "Extremes",
     "FloorResponse",
-    "Governs",
     "Instant",
     "Parameters",
     "Peaks",
     "Record",
     "Response",
     "RockingSpectrum",
-    "SideVerdict",
-    "SideVerdicts",
-    "Statements",
     "Storey",
     "Study",
     "StudyResults",

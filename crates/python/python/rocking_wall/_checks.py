@@ -1,77 +1,69 @@
-"""Static capacity against demand."""
+"""The check of a wall by a code."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
 
-from ._tables import Table, shown
+from . import _native
+from ._tables import Table, toml
 
-
-@dataclass(frozen=True)
-class CheckedSide:
-    """The check of one side, in d* = u/λ and a* = F/(λ m_eff)."""
-
-    sign: float
-    """1 for u > 0, -1 for u < 0."""
-    onset_acceleration: float
-    """a0*, the acceleration of the onset of rocking [m/s²]."""
-    zero_displacement: float
-    """d* at which the force of the wall alone vanishes [m]."""
-    displacement_capacity: float
-    """Displacement capacity d_u* [m]."""
-    limited_by_tie: bool
-    """Whether the strength of the tie limits it."""
-    secant_displacement: float
-    """Displacement of the secant [m]."""
-    secant_acceleration: float
-    """Acceleration of the secant [m/s²]."""
-    secant_period: float
-    """Period of the secant T_s [s]."""
-    peak_acceleration: float
-    """Sa(0) of the demand [m/s²]."""
-    displacement_demand: float
-    """Sd(T_s) of the demand [m]."""
-    acceleration_ratio: float
-    """a0*/Sa(0) [-]."""
-    displacement_ratio: float
-    """d_u*/Sd(T_s) [-]."""
+FRACTIONS = {"spectrum", "unit", "damping", "displacement_fraction", "secant_fraction"}
+"""Statements of the code "fractions"."""
 
 
 @dataclass(frozen=True, repr=False)
-class Check:
-    """The check of a wall, side by side."""
+class Verdict:
+    """The check of a wall by a code."""
 
-    sides: tuple[CheckedSide, ...]
-    """The sides to which the wall can rock, u > 0 first."""
-    _picture: str = field(compare=False)
+    code: str
+    """The code."""
+    passed: bool
+    """Whether the wall passes."""
+    governs: str
+    """The limit state that governs."""
+    side: str
+    """The side that governs: "u > 0", "u < 0" or "both sides"."""
+    zeta_E: float
+    """ζ_E, capacity over demand of what governs [-]."""
+    headline: str
+    """The verdict in a line."""
+    values: Mapping[str, Any]
+    """All numbers, as `wall check --json` prints them: SI units, a_g in g."""
+    warnings: tuple[str, ...]
+    """What the engineer should know; none of it stops the check."""
+    table: Table = field(compare=False)
+    """A row for each limit state of each side: ζ_E, capacity and demand [m/s² or m]."""
+    _picture: str = field(default="", compare=False)
 
     def __repr__(self) -> str:
-        onset, displacement = self.onset, self.displacement
-        return (
-            f"Check(onset {shown(onset.acceleration_ratio)} at {name_of(onset)}, "
-            f"displacement {shown(displacement.displacement_ratio)} at {name_of(displacement)})"
-        )
-
-    @property
-    def onset(self) -> CheckedSide:
-        """The side with the smallest acceleration_ratio: below 1 the wall rocks."""
-        return min(self.sides, key=lambda side: side.acceleration_ratio)
-
-    @property
-    def displacement(self) -> CheckedSide:
-        """The side with the smallest displacement_ratio: below 1 it goes beyond its capacity."""
-        return min(self.sides, key=lambda side: side.displacement_ratio)
-
-    @property
-    def table(self) -> Table:
-        """All numbers, a row for each side."""
-        rows = [asdict(side) for side in self.sides]
-        return Table({name: [row[name] for row in rows] for name in rows[0]})
+        return f"Verdict({self.headline})"
 
     def _repr_html_(self) -> str:
-        return self.table._repr_html_() + self._picture
+        warnings = "".join(f"<p>warning: {escape(warning)}</p>" for warning in self.warnings)
+        return f"<p><b>{escape(self.headline)}</b></p>{self.table._repr_html_()}{warnings}{self._picture}"
 
 
-def name_of(side: CheckedSide) -> str:
-    """Returns the name of a side."""
-    return "u > 0" if side.sign > 0 else "u < 0"
+def checked(
+    wall: _native.Wall, records: Sequence[tuple[str, Any]], statements: Mapping[str, Any]
+) -> Verdict:
+    """Checks a wall by the keys of a table `[check]`, with records by their names."""
+    table = dict(statements)
+    if "spectrum" in table:
+        periods, accelerations = table["spectrum"]
+        if len(periods) != len(accelerations):
+            found = f"{len(periods)} periods and {len(accelerations)} values of Sa"
+            raise ValueError(f"the spectrum has {found}; give one Sa for each period")
+        table["spectrum"] = [[float(t), float(sa)] for t, sa in zip(periods, accelerations)]
+    if records and table["code"] != "fractions":
+        # their motions are handed over beside the text
+        table["records"] = {}
+    text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
+    values, rows, picture = _native.check_wall(wall, text, list(records))
+    made = json.loads(values)
+    return Verdict(
+        **{**made, "warnings": tuple(made["warnings"])}, table=Table(rows), _picture=picture
+    )

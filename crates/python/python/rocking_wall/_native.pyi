@@ -29,7 +29,6 @@ __all__ = [
     "calculated",
     "calibrate_wall",
     "check_wall",
-    "check_wall_by_code",
     "in_si",
     "picture",
     "picture_of_building",
@@ -99,13 +98,8 @@ def picture_of_building(
 ) -> str: ...
 def picture_of_response(time: ArrayLike, a_bottom: ArrayLike, u_ratio: ArrayLike) -> str: ...
 def check_wall(
-    wall: Wall,
-    records: list[_Motion],
-    spectrum: list[ArrayLike] | None,
-    damping: float,
-    fractions: list[float],
-) -> tuple[list[dict[str, Any]], str]: ...
-def check_wall_by_code(wall: Wall, text: str, records: list[tuple[str, _Motion]]) -> tuple[str, str]: ...
+    wall: Wall, text: str, records: list[tuple[str, _Motion]]
+) -> tuple[str, dict[str, Any], str]: ...
 def spectrum_over_walls(
     wall: Wall,
     record: _Given | None,

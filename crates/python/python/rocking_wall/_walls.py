@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
@@ -15,8 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._calibration import Calibration
-from ._checks import Check, CheckedSide
-from ._codes import Place, Site, Statements, Verdict, verdict
+from ._checks import FRACTIONS, Verdict, checked
 from ._given import Given
 from ._parameters import Calculated, Parameters
 from ._records import Record, motion_of, scaled
@@ -227,119 +226,50 @@ class Wall(Given, Calculated):
         u_max, u_ratio_max, overturn_time = self._native.peaks(motion_of(record), factors, tail)
         return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
 
-    @overload
     def check(
         self,
         records: Sequence[Record] | Record = (),
         *,
-        spectrum: tuple[ArrayLike, ArrayLike] | None = None,
-        damping: float | None = None,
-        displacement_fraction: float | None = None,
-        secant_fraction: float | None = None,
-    ) -> Check: ...
-    @overload
-    def check(
-        self,
-        records: Sequence[Record] | Record = (),
-        *,
-        code: Literal["circolare-2019"] = "circolare-2019",
-        site: Site,
-        building: Place | None = None,
-        **statements: Unpack[Statements],
-    ) -> Verdict: ...
-    def check(
-        self,
-        records: Sequence[Record] | Record = (),
-        *,
-        spectrum: tuple[ArrayLike, ArrayLike] | None = None,
-        damping: float | None = None,
-        displacement_fraction: float | None = None,
-        secant_fraction: float | None = None,
         code: str | None = None,
-        site: Site | None = None,
-        building: Place | None = None,
+        site: Mapping[str, Any] | None = None,
+        building: Mapping[str, Any] | None = None,
         **statements: Any,
-    ) -> Check | Verdict:
-        """Checks the wall by a code, or compares its static capacity with a demand.
+    ) -> Verdict:
+        """Checks the wall by a code.
 
-        With `site` the wall is checked by Circolare 7/2019. The arguments are the keys of the table `[check]`
-        of a scene. On storeys the building is theirs.
+        The arguments are the keys of the table `[check]` of a scene; `wall schema check` lists them. With
+        `site` the code is Circolare 7/2019, "circolare-2019". On storeys the building is theirs.
 
-        :param code: The code, "circolare-2019".
+        :param code: The code, "circolare-2019" or "fractions".
         :param site: SLD, SLV and SLC: a_g [g], F0 [-], T_C* [s], and what else is known of each.
         :param building: The building, for a wall at a height: its storeys, its period [s] and z/H, or modes.
-        :param statements: `before_activation`, `soil`, `confidence_factor` and the others of `Statements`.
         :param records: Records for the dynamic check, at least 3.
+        :param statements: `before_activation`, `soil`, `confidence_factor`, `method` and others.
 
         >>> wall = Wall(height=4, thickness=0.4)
         >>> site = {"SLV": {"ag": 0.15, "F0": 2.45, "TC": 0.32}}
         >>> wall.check(site=site, soil="B", before_activation="rigid")
-        Verdict(not passed: SLV governs with zeta_E = 0.856, u > 0)
+        Verdict(NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike))
 
-        Without it the demand is that of records or of a spectrum, and there are two verdicts: whether the
-        wall rocks, and whether it stays within its capacity.
+        With records or a spectrum alone the code is "fractions": the capacity curve, read at fractions of the
+        displacement at which the force vanishes, over the spectrum. Its statements are `spectrum`, periods
+        [s] from 0 on and Sa [m/s²] of what the wall stands on; `damping` of the spectra of records, by
+        default 0.05; `displacement_fraction` and `secant_fraction`, by default 0.4.
 
-        :param records: Records whose median spectrum is the demand; a wall on storeys feels its floors.
-        :param spectrum: Periods [s], rising from 0, and Sa [m/s²] instead, of what the wall stands on.
-        :param damping: Damping ratio of the spectra of the records; by default 0.05.
-        :param displacement_fraction: Displacement capacity over that at which the force of the wall vanishes;
-            by default 0.4.
-        :param secant_fraction: Displacement of the secant period over the displacement capacity; by default
-            0.4.
-
-        Raises `ValueError` for what cannot be checked: a statement that is missing, a demand without the
-        secant period, fractions outside their limits.
-
-        >>> wall = Wall(height=3, thickness=0.25)
-        >>> round(wall.check(spectrum=([0.0, 4.0], [1.0, 1.0])).onset.acceleration_ratio, 9)
+        >>> verdict = Wall(height=3, thickness=0.25).check(spectrum=([0.0, 4.0], [1.0, 1.0]))
+        >>> round(verdict.values["governs"]["onset"]["ratio"], 9)
         0.792975
+
+        Raises `ValueError` for what cannot be checked: a statement that is missing or outside its limits.
         """
         given = [records] if isinstance(records, Record) else records
-        of_spectrum = {
-            "spectrum": spectrum,
-            "damping": damping,
-            "displacement_fraction": displacement_fraction,
-            "secant_fraction": secant_fraction,
-        }
-        if code is not None or site is not None or building is not None or statements:
-            for name in (name for name, value in of_spectrum.items() if value is not None):
-                raise ValueError(f"{name} is for a check without a code; leave it out")
-            return self._check_by_code(given, code, site, building, statements)
-        if (spectrum is None) == (len(given) == 0):
-            raise ValueError("a check takes a site with a code, or either records or a spectrum")
-        if spectrum is not None and self._native.has_storeys:
-            warn("the storeys are not applied to the spectrum; it must be that of the floor", stacklevel=2)
-        sides, picture = _native.check_wall(
-            self._native,
-            [motion_of(record) for record in given],
-            None if spectrum is None else list(spectrum),
-            0.05 if damping is None else damping,
-            [0.4 if given is None else given for given in (displacement_fraction, secant_fraction)],
-        )
-        return Check(tuple(CheckedSide(**side) for side in sides), picture)
-
-    def _check_by_code(
-        self,
-        records: Sequence[Record],
-        code: str | None,
-        site: Site | None,
-        building: Place | None,
-        statements: dict[str, Any],
-    ) -> Verdict:
-        table: dict[str, Any] = {"code": code or "circolare-2019", **statements, **(site or {})}
+        is_alone = site is None and building is None and statements.keys() <= FRACTIONS
+        default = "fractions" if is_alone else "circolare-2019"
+        table: dict[str, Any] = {"code": code or default, **statements, **(site or {})}
         if building is not None:
             table["building"] = building
-        if len(records) > 0:
-            # their motions are handed over beside the text
-            table["records"] = {}
-        text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
-        named = [(getattr(record, "name", ""), motion_of(record)) for record in records]
-        try:
-            return verdict(*_native.check_wall_by_code(self._native, text, named))
-        except ValueError as error:
-            if statements.keys() - Statements.__annotations__.keys():
-                raise TypeError(str(error)) from None
-            raise
+        named = [(getattr(record, "name", ""), motion_of(record)) for record in given]
+        return checked(self._native, named, table)
 
     def rocking_spectrum(
         self,

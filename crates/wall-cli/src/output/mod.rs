@@ -30,6 +30,11 @@ impl Console<'_> {
         Ok(study::folder::file::to_file(path, content)?)
     }
 
+    /// Prints a value as JSON.
+    pub(crate) fn json(&self, value: &serde_json::Value) -> Result<()> {
+        self.print(&(serde_json::to_string_pretty(value)? + "\n"))
+    }
+
     /// Writes a text to the file that an option names, if it is given.
     pub(crate) fn save(&self, path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
         path.map_or(Ok(()), |path| self.write(path, text().as_bytes()))

@@ -34,7 +34,7 @@ fn a_check_is_that_by_hand() {
             assert_eq!(value, row[2 + column], "{}: {text}", row[0]);
         }
     }
-    let value = json(&folder, &[&["check", "--json", "--html", "check.html"], &spectrum[..]].concat());
+    let value = json(&folder, &[&["check", "--json", "--report", "check.html"], &spectrum[..]].concat());
     assert_eq!(value["secant_fraction"], 0.4);
     assert!(content(&folder, "check.html").contains("<svg"));
 }
@@ -64,7 +64,7 @@ fn a_spectrum_states_its_unit() {
     // and so is its damping
     let two = [&check[..], &["--column", "Sa 2%"]].concat();
     assert_has(&printed(&folder, &two), &["2 % damping"]);
-    let words = ["s.csv: expected the damping ratio", "0.02, found --damping 0.05"];
+    let words = ["s.csv: expected the damping ratio", "0.02, found 0.05"];
     refused(&folder, &[&two[..], &["--damping", "0.05"]].concat(), &words);
 }
 
@@ -98,7 +98,7 @@ fn a_check_reads_the_records_of_a_folder() {
     let output = succeed(&folder, &["check", "--records", "records", "--json"]);
     assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
     assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
-    let over = ["check", "--records", "records", "--html", "records/a.csv"];
+    let over = ["check", "--records", "records", "--report", "records/a.csv"];
     refused(&folder, &over, &["the input records/a.csv"]);
     std::fs::create_dir(folder.join("empty")).unwrap();
     refused(&folder, &["check", "--records", "empty"], &["empty: a folder without horizontal records"]);
@@ -126,7 +126,7 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n4,0.3\n").unwrap();
     let output =
         wall(&folder, &["check", scene.to_str().unwrap(), "--spectrum", "spectrum.csv", "--unit", "m/s2"]);
-    assert!(text(&output.stderr).contains("storeys are not applied to --spectrum"));
+    assert!(text(&output.stderr).contains("storeys are not applied to the spectrum"));
 }
 
 /// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.

@@ -230,8 +230,8 @@ fn a_report_is_refused_without_one_wall_and_the_code() {
     let refuses = |arguments: &[&str], words: &[&str]| {
         refused(&folder, &[&["check"], arguments, &report[..]].concat(), words);
     };
-    refuses(&["plain.toml"], &["plain.toml", "--report needs a table [check]"]);
-    refuses(&[], &["--report needs a table [check]"]);
+    refuses(&["plain.toml"], &["plain.toml", "there is no demand", "a table [check]"]);
+    refuses(&[], &["there is no demand", "a table [check]"]);
     refuses(&["walls.toml"], &["--report", "take one wall"]);
     refuses(&["scene.toml", "--find", "thickness"], &["--report covers the wall as given"]);
     refused(&folder, &["check", "scene.toml", "--report", "scene.toml"], &["scene.toml"]);

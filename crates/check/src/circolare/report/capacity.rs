@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
-use crate::circolare::{Activation, CheckError, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::error::CheckError;
 use ::report::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 
@@ -51,7 +52,7 @@ pub(super) fn section(case: &Case<'_>) -> Result<String, CheckError> {
 
 /// The numbers of one side, from the force to the curve.
 fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let body = case.wall.body();
     let r = case.report.statement.overburden_mass.unwrap_or(0.0);
     let o = body.overburden;
@@ -105,7 +106,7 @@ fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
 
 /// The formula of `F_act` and the numbers put in, where it is F0 of Eq. (1).
 fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let body = case.wall.body();
     let sign = if side == Side::Negative { -1.0 } else { 1.0 };
     let strength = body.strength.of(sign);
@@ -130,7 +131,7 @@ fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
 
 /// Adds T0, `d_y` and `a_y`.
 fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let SideVerdict { t0, dy, ay, a0, d0, .. } = *verdict;
     match case.report.statement.before_activation {
         None | Some(Activation::Rigid) => {
@@ -165,7 +166,7 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
 
 /// Adds where the tie breaks, and what the curve loses there.
 fn tie(case: &Case<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let [n_s, k, g0, h, y] = [
         parameters.tie_strength,
         parameters.tie_stiffness,

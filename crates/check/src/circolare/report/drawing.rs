@@ -34,7 +34,7 @@ struct Drawing<'a> {
 /// The figure, with what its marks mean.
 pub(super) fn figure(case: &Case<'_>) -> String {
     let body = case.wall.body();
-    let thickness = case.report.scene.parameters.thickness;
+    let thickness = case.report.subject.parameters.thickness;
     let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
     let mut drawing = Drawing { case, scale, svg: String::new() };
     drawing.supports();
@@ -57,7 +57,7 @@ pub(super) fn figure(case: &Case<'_>) -> String {
     if case.wall.free_side().is_some() {
         said += " Grey beside the wall: transverse walls.";
     }
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     if parameters.eccentricity_mode == EccentricityMode::FollowsPivot
         && parameters.overburden_eccentricity != 0.0
     {
@@ -82,7 +82,7 @@ pub(super) fn figure(case: &Case<'_>) -> String {
 impl Drawing<'_> {
     /// Half the thickness \[px\].
     fn half(&self) -> f64 {
-        0.5 * self.scale * self.case.report.scene.parameters.thickness
+        0.5 * self.scale * self.case.report.subject.parameters.thickness
     }
 
     /// The place of a height above the base \[px\].
@@ -179,7 +179,7 @@ impl Drawing<'_> {
             self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
         }
         if overburden > 0.0 {
-            let c = self.case.report.scene.parameters.overburden_eccentricity;
+            let c = self.case.report.subject.parameters.overburden_eccentricity;
             let (x, top) = (AXIS + self.scale * c, self.top());
             let top = if self.hinge().is_some() { top - 10.0 } else { top };
             self.weight([x, top], 36.0);
@@ -193,7 +193,7 @@ impl Drawing<'_> {
 
     fn tie(&mut self) {
         let Some(tie) = self.case.wall.tie() else { return };
-        let parameters = &self.case.report.scene.parameters;
+        let parameters = self.case.report.subject.parameters;
         let y = self.y(parameters.tie_height);
         let half = self.half();
         for sign in [1.0, -1.0] {
@@ -240,11 +240,11 @@ impl Drawing<'_> {
             self.height(INNER, hinge, "h₁");
         }
         if self.case.wall.tie().is_some() {
-            self.height(INNER, self.case.report.scene.parameters.tie_height, "y");
+            self.height(INNER, self.case.report.subject.parameters.tie_height, "y");
         }
         let (half, y) = (self.half(), FOOT + 24.0);
         self.dimension([AXIS - half, y], [AXIS + half, y]);
-        let text = format!("b = {} m", number(self.case.report.scene.parameters.thickness));
+        let text = format!("b = {} m", number(self.case.report.subject.parameters.thickness));
         self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
         let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);
         let y = SIZE[1] - 12.0;

@@ -64,7 +64,7 @@ const DYNAMIC: [&str; 3] = ["damping", "impact", "solver"];
 
 /// The parameters of the wall that matter.
 pub(super) fn wall(case: &Case<'_>) -> String {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let is_dynamic = case.report.verdict.dynamic.is_some();
     let is_law = case.report.statement.before_activation == Some(Activation::Law);
     let mut rows = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn wall(case: &Case<'_>) -> String {
 }
 
 fn parameter(case: &Case<'_>, group: &str, name: &str) -> Option<[String; 3]> {
-    let parameters = &case.report.scene.parameters;
+    let parameters = case.report.subject.parameters;
     let real = RealVariable::from_name(name).map(VariableId::variable);
     let variable = real.or(IntegerVariable::from_name(name).map(VariableId::variable))?;
     let unit = variable.unit.filter(|unit| *unit != "1").unwrap_or_default().replace("m/s2", "m/s²");
@@ -126,7 +126,7 @@ pub(super) fn statements(case: &Case<'_>) -> String {
     let mut rows = Vec::new();
     let mut state = |said: String, keys: &[&str]| rows.push([said, given.statement(keys)]);
     state(activation(case), &["before_activation"]);
-    if case.report.scene.parameters.overburden > 0.0 {
+    if case.report.subject.parameters.overburden > 0.0 {
         state(overburden(case), &["overburden_mass"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
@@ -212,7 +212,7 @@ fn activation(case: &Case<'_>) -> String {
 }
 
 fn overburden(case: &Case<'_>) -> String {
-    if case.report.scene.parameters.mechanism == Mechanism::VerticalSpanning {
+    if case.report.subject.parameters.mechanism == Mechanism::VerticalSpanning {
         return "The top is held: the mass of the overburden does not move with the wall.".into();
     }
     let r = case.report.statement.overburden_mass.unwrap_or(0.0);

@@ -10,32 +10,24 @@ mod runs;
 mod site;
 mod verdict;
 
-use crate::circolare::{CheckError, Demand, Records, Side, SideVerdict, Statement, Verdict, demands};
+use crate::circolare::{Demand, Outcome, Records, Side, SideVerdict, Statement, demands};
+use crate::error::CheckError;
 use ::report::{escaped, template};
-use rocking_wall::scene::{Scene, SceneError, fingerprint};
+use rocking_wall::scene::{SceneError, fingerprint};
+
+use crate::code::{Document, Subject};
 use rocking_wall::wall::Wall;
 
 use inputs::Given;
 use markup::{section, table};
 
 /// What a report is about.
-pub struct Report<'a> {
-    /// Scene of the wall.
-    pub scene: &'a Scene,
-    /// Name of the scene file, and its text.
-    pub file: (&'a str, &'a str),
-    /// What `--set` replaces.
-    pub set: &'a [String],
-    /// Statements of the engineer.
-    pub statement: &'a Statement,
-    /// Records.
-    pub records: &'a Records,
-    /// Outcome.
-    pub verdict: &'a Verdict,
-    /// The verdict in one line.
-    pub headline: &'a str,
-    /// Date or place of the report, as the user gives it.
-    pub date: Option<&'a str>,
+pub(super) struct Report<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    pub(super) document: &'a Document<'a>,
+    pub(super) statement: &'a Statement,
+    pub(super) records: &'a Records,
+    pub(super) verdict: &'a Outcome,
 }
 
 /// What the sections of a report share.
@@ -68,12 +60,12 @@ impl Case<'_> {
 ///
 /// # Errors
 /// Of a demand, or of a record that cannot be read again.
-pub fn page(report: &Report<'_>) -> Result<String, CheckError> {
-    let wall = Wall::new(&report.scene.parameters)?;
-    let floors = report.scene.floors.as_ref();
+pub(super) fn page(report: &Report<'_>) -> Result<String, CheckError> {
+    let wall = Wall::new(report.subject.parameters)?;
+    let floors = report.subject.floors;
     let case = Case {
         report,
-        given: Given::new(report.file.1, report.set),
+        given: Given::new(report.document.file.1, report.document.set),
         demands: demands(&wall, floors, report.statement, report.records)?,
         wall,
     };
@@ -97,10 +89,10 @@ pub fn page(report: &Report<'_>) -> Result<String, CheckError> {
         section("Warnings", &warnings),
         section("Document", &document(report)?),
     ];
-    let title = escaped(&report.scene.title);
+    let title = escaped(report.subject.title);
     let passed = if report.verdict.passed { "holds" } else { "fails" };
-    let headline = verdict::headline(report.headline);
-    let date = report.date.map_or_else(String::new, escaped);
+    let headline = verdict::headline(&report.verdict.headline());
+    let date = report.document.date.map_or_else(String::new, escaped);
     let parts = [
         ("title", &*title),
         ("date", &date),
@@ -113,7 +105,7 @@ pub fn page(report: &Report<'_>) -> Result<String, CheckError> {
 
 /// Program, version, date, and the fingerprints of what was read.
 fn document(report: &Report<'_>) -> Result<String, CheckError> {
-    let (name, text) = report.file;
+    let (name, text) = report.document.file;
     let scene = fingerprint(text.as_bytes());
     let mut files = vec![(name.to_owned(), scene)];
     for path in &report.records.files {
@@ -124,15 +116,18 @@ fn document(report: &Report<'_>) -> Result<String, CheckError> {
         files.push((path.display().to_string(), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
-    let inputs: Vec<&str> =
-        files.iter().map(|(_, hash)| hash.as_str()).chain(report.set.iter().map(String::as_str)).collect();
+    let inputs: Vec<&str> = files
+        .iter()
+        .map(|(_, hash)| hash.as_str())
+        .chain(report.document.set.iter().map(String::as_str))
+        .collect();
     let mut rows = vec![
         ["program".to_owned(), format!("wall (rocking-wall) {}", env!("CARGO_PKG_VERSION"))],
-        ["date".to_owned(), report.date.map_or_else(|| "not given".to_owned(), escaped)],
+        ["date".to_owned(), report.document.date.map_or_else(|| "not given".to_owned(), escaped)],
         ["fingerprint of the inputs".to_owned(), fingerprint(inputs.join("\n").as_bytes())],
     ];
     rows.extend(files.into_iter().map(|(file, hash)| [escaped(&file), hash]));
-    rows.extend(report.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
+    rows.extend(report.document.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
     Ok(table(&[], &rows)
         + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
            against deliberate changes.</p>\n")

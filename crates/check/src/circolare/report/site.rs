@@ -2,9 +2,9 @@
 
 use crate::circolare::figure::{DEMAND, Drawn, color, spectra};
 use crate::circolare::{
-    CheckError, Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source,
-    StateStatement,
+    Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source, StateStatement,
 };
+use crate::error::CheckError;
 use ::report::palette::sign;
 use ::report::plot::Plot;
 
@@ -114,7 +114,7 @@ fn place(case: &Case<'_>) -> String {
         ));
     } else if case.report.statement.has_building {
         said.push("modes of the building as given in [check.building]".into());
-    } else if let Some(floors) = &case.report.scene.floors {
+    } else if let Some(floors) = case.report.subject.floors {
         said.push(format!("the motion of the ground is {}", ::report::escaped(&floors.note())));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {
         said.push("the wall stands on the ground".into());

@@ -1,11 +1,13 @@
 //! The smallest thickness or tie, or the largest height, with which a wall passes.
 
-use rocking_wall::scene::Floors;
+use report::palette::{BLUE, DARK_GREY, RED};
+use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::wall::Parameters;
-
-use super::error::CheckError;
-use super::{Method, Records, Source, Statement, check};
 use run::bisection::begins_at;
+use serde::Serialize;
+
+use crate::code::{Code, Subject};
+use crate::error::CheckError;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 121;
@@ -67,14 +69,17 @@ impl Sought {
     }
 }
 
-/// What was found.
-#[derive(Clone, Debug, PartialEq)]
+/// What was found. Serialized it is what `wall check --find --json` prints.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
+    /// Name of the parameter.
+    pub parameter: &'static str,
     /// The value at which the wall begins to pass; `None` if it passes nowhere in the range.
     pub value: Option<f64>,
     /// The range that was searched.
     pub range: [f64; 2],
     /// The wall passes all over the range: `value` is its end.
+    #[serde(rename = "passes_everywhere")]
     pub everywhere: bool,
     /// There are values beyond the one found with which the wall fails.
     pub fails_beyond: bool,
@@ -85,9 +90,10 @@ pub struct Found {
 /// Finds the smallest value, or the largest height, with which a wall passes its check.
 ///
 /// ```
+/// use check::code::{Given, Subject, read};
+/// use check::find::{Sought, find};
 /// use rocking_wall::scene::Place;
 /// use rocking_wall::wall::Parameters;
-/// use check::circolare::{Records, Sought, find, read_table};
 ///
 /// let text = r#"
 /// [check]
@@ -96,9 +102,10 @@ pub struct Found {
 /// soil = "B"
 /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
 /// "#;
-/// let statement = read_table(&Place::new("scene.toml", text))?.unwrap().statement()?;
-/// let found =
-///     find(&Parameters::default(), None, &statement, &Records::default(), Sought::Thickness)?;
+/// let code = read(&Place::new("scene.toml", text), Given::default())?.expect("there is a table [check]");
+/// let parameters = Parameters::default();
+/// let subject = Subject { title: "", parameters: &parameters, floors: None, is_tried: true };
+/// let found = find(&*code, &subject, Sought::Thickness)?;
 /// assert!((0.4..0.6).contains(&found.value.unwrap()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -106,13 +113,8 @@ pub struct Found {
 /// # Errors
 /// [`CheckError`] of the wall as it is, so that a statement that is missing is named; and of a tie that is
 /// sought for a wall without one.
-pub fn find(
-    parameters: &Parameters,
-    floors: Option<&Floors>,
-    statement: &Statement,
-    records: &Records,
-    sought: Sought,
-) -> Result<Found, CheckError> {
+pub fn find(code: &dyn Code, subject: &Subject<'_>, sought: Sought) -> Result<Found, CheckError> {
+    let parameters = subject.parameters;
     let is_tie = matches!(sought, Sought::TieStrength | Sought::TieStiffness);
     if is_tie
         && !(parameters.tie_height > 0.0
@@ -122,20 +124,20 @@ pub fn find(
             format!("{} is sought, but the wall has no tie; set tie_height and tie_stiffness", sought.name());
         return Err(CheckError::wall(message));
     }
-    let none = Records::default();
-    let demanded = statement.states.iter().flatten().any(|given| given.source == Source::Records);
-    let is_dynamic = demanded || statement.method == Method::Dynamic;
-    let (records, tried) = if is_dynamic { (records, TRIED_DYNAMIC) } else { (&none, TRIED) };
-    let run = |value: f64| check(&sought.applied(parameters, value), floors, statement, records);
-    let zeta =
-        |value: f64| run(value).map_or((f64::NAN, false), |verdict| (verdict.governs.zeta, verdict.passed));
+    let tried = if code.takes_runs() { TRIED_DYNAMIC } else { TRIED };
+    let zeta = |value: f64| {
+        let parameters = sought.applied(parameters, value);
+        let verdict = code.check(&Subject { parameters: &parameters, is_tried: true, ..*subject });
+        verdict.map_or((f64::NAN, false), |verdict| (verdict.zeta, verdict.passed))
+    };
     let range = sought.range(parameters);
     let at = |index: u32| range[0] * libm::pow(range[1] / range[0], f64::from(index) / f64::from(tried - 1));
     let mut tries: Vec<(f64, (f64, bool))> = (0..tried).map(|index| (at(index), zeta(at(index)))).collect();
     if tries.iter().all(|(_, (zeta, _))| zeta.is_nan()) {
         // whatever is wrong is wrong with the wall as it is
-        check(parameters, floors, statement, records)?;
+        code.check(subject)?;
     }
+    let parameter = sought.name();
     let curve = tries.iter().map(|&(value, (zeta, _))| (value, zeta)).collect();
     // of heights the largest is sought
     if sought == Sought::Height {
@@ -143,15 +145,58 @@ pub fn find(
     }
     let passes = |&(_, (_, passed)): &(f64, (f64, bool))| passed;
     let Some(first) = tries.iter().position(passes) else {
-        return Ok(Found { value: None, range, everywhere: false, fails_beyond: false, curve });
+        return Ok(Found { parameter, value: None, range, everywhere: false, fails_beyond: false, curve });
     };
     let fails = |&(_, (zeta, passed)): &(f64, (f64, bool))| zeta.is_finite() && !passed;
     let fails_beyond = tries[first..].iter().any(fails);
     let Some(before) = first.checked_sub(1) else {
         let value = Some(tries[0].0);
-        return Ok(Found { value, range, everywhere: !fails_beyond, fails_beyond, curve });
+        return Ok(Found { parameter, value, range, everywhere: !fails_beyond, fails_beyond, curve });
     };
     let bracket = [tries[before].0, tries[first].0];
     let value = begins_at(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
-    Ok(Found { value: Some(value), range, everywhere: false, fails_beyond, curve })
+    Ok(Found { parameter, value: Some(value), range, everywhere: false, fails_beyond, curve })
+}
+
+impl Found {
+    /// Returns what was found, in lines.
+    pub fn text(&self, sought: Sought) -> String {
+        let (name, unit) = (sought.name(), sought.unit());
+        let [from, to] = self.range.map(|end| format!("{end:.4}"));
+        let [extreme, beyond] =
+            if sought == Sought::Height { ["largest", "smaller"] } else { ["smallest", "larger"] };
+        let text = match self.value {
+            None if name.starts_with("tie") => format!(
+                "no {name} from {from} to {to} {unit} passes; a side without a tie may govern: see tie_side\n"
+            ),
+            None => format!("no {name} from {from} to {to} {unit} passes\n"),
+            Some(_) if self.everywhere => format!("every {name} from {from} to {to} {unit} passes\n"),
+            Some(value) => format!("{extreme} {name} that passes: {value:.6} {unit}\n"),
+        };
+        let look = format!("some {beyond} values fail; look at the chart (--plot)\n");
+        text + if self.fails_beyond { &look } else { "" }
+    }
+}
+
+/// Draws `ζ_E` over the values that were tried up to three times the one found, the limit 1, and that value.
+pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
+    let [left, right] = found.range;
+    let right = found.value.map_or(right, |value| right.min(3.0 * value));
+    let shown = found.curve.iter().copied().filter(|point| point.1.is_finite() && point.0 <= right);
+    let points: Vec<(f64, f64)> = shown.collect();
+    // far beyond the demand nothing is to be seen
+    let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
+    let inside = points.into_iter().filter(|point| point.1 <= top).collect();
+    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
+    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
+    if let Some(value) = found.value {
+        let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
+        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
+        series.push(named(name, Look::Dashed, line));
+    }
+    let axes = [
+        Axis::over(&format!("{} ({})", sought.name(), sought.unit()), [left.min(right), right]),
+        Axis::over("ζ_E", [0.0, 1.05 * top]),
+    ];
+    Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
 }

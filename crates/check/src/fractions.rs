@@ -1,8 +1,9 @@
-//! Static capacity of a wall against a response spectrum, by its own capacity curve.
+//! The code `fractions`: the capacity curve of a wall read at fractions of the displacement at which its
+//! force vanishes, over a response spectrum.
 //!
 //! ```
+//! use check::fractions::{Fractions, check};
 //! use rocking_wall::wall::{Parameters, Wall};
-//! use check::points::{Fractions, check};
 //!
 //! // 1 m/s² at every period
 //! let wall = Wall::new(&Parameters::default())?;
@@ -12,19 +13,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod inputs;
+mod rows;
+
 use std::f64::consts::TAU;
 
-use ground_motion::{GroundMotion, GroundMotionError, Maxima, Spectrum};
-use rocking_wall::scene::{Floors, SceneError};
-use rocking_wall::wall::{Tie, Wall};
-
+use ground_motion::{GroundMotion, Maxima, Spectrum};
 use report::palette::{BLUE, DARK_GREY, RED};
 use report::plot::{Axis, Look, Plot, Series};
+use rocking_wall::scene::Floors;
+use rocking_wall::wall::{Tie, Wall};
 use run::sample::sample_median;
 
+use crate::error::CheckError;
 use crate::site::{felt, interpolated};
 
-/// Displacements of a check, as fractions that the user chooses.
+pub use inputs::{FractionsTable, SpectrumTable, read};
+
+/// The code, in `[check]`.
+pub const CODE: &str = "fractions";
+
+/// The displacements at which capacity is read, as fractions of `u_ins`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
     /// `d_u*` over the d* at which the force of the wall alone vanishes \[-\].
@@ -38,38 +47,6 @@ impl Default for Fractions {
     fn default() -> Self {
         Self { displacement: 0.4, secant: 0.4 }
     }
-}
-
-/// Why a check is impossible.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the fields are the numbers of the message")]
-pub enum CheckError {
-    /// A fraction outside its limits.
-    #[error("{name} = {value} must be above 0 and at most 1")]
-    Fraction { name: &'static str, value: f64 },
-    /// The force at the secant displacement is not positive.
-    #[error(
-        "the force at d* = {displacement} m is not positive: it has no secant period; reduce the fractions"
-    )]
-    NoSecant { displacement: f64 },
-    /// The spectrum ends before a period.
-    #[error("the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period")]
-    Period { period: f64, from: f64, to: f64 },
-    /// A point of a spectrum, the first with the number 1.
-    #[error("point {number} of the spectrum: expected {expected}, found {found}")]
-    Point { number: usize, expected: String, found: String },
-    /// A spectrum without its first point.
-    #[error("the spectrum has no T = 0, the peak acceleration; give it with that point")]
-    NoPeak,
-    /// A spectrum of no records.
-    #[error("the demand needs at least one record")]
-    NoRecords,
-    /// A spectrum of a record.
-    #[error(transparent)]
-    Motion(#[from] GroundMotionError),
-    /// A wall that does not go with its floors.
-    #[error(transparent)]
-    Floors(#[from] SceneError),
 }
 
 /// The demand of a check.
@@ -87,12 +64,14 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError::Point`] of the first whose period does not rise or whose `S_a` is not above 0, and
-    /// [`CheckError::NoPeak`] if the first is not that of T = 0.
-    pub fn of_points(points: Vec<(f64, f64)>) -> Result<Self, CheckError> {
+    /// [`CheckError::Value`] of the first whose period does not rise or whose `S_a` is not above 0, or if the
+    /// first is not that of T = 0; `place` names a point, the first with the number 0.
+    pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
         let mut before: Option<f64> = None;
         for (index, &(period, acceleration)) in points.iter().enumerate() {
-            let fault = |expected, found| Err(CheckError::Point { number: index + 1, expected, found });
+            let fault = |expected: String, found: String| {
+                Err(refused(format!("{}: expected {expected}, found {found}", place(index))))
+            };
             let rises = before.map_or(period >= 0.0, |before| period > before);
             if !(rises && period.is_finite()) {
                 let expected = before.map_or_else(
@@ -108,7 +87,9 @@ impl Demand {
         }
         match points.first() {
             Some(first) if first.0 == 0.0 => Ok(Self(Of::Points(points))),
-            _ => Err(CheckError::NoPeak),
+            _ => Err(refused(
+                "the spectrum has no T = 0, the peak acceleration; give it with that point".into(),
+            )),
         }
     }
 
@@ -125,7 +106,8 @@ impl Demand {
         damping: f64,
     ) -> Result<Self, CheckError> {
         if records.is_empty() {
-            return Err(CheckError::NoRecords);
+            let message = "the demand needs at least one record";
+            return Err(CheckError::value(&["records"], message));
         }
         let spectrum = Spectrum::new(damping, Maxima::Everywhere)?;
         let records = records.into_iter().map(|record| felt(record, floors, wall));
@@ -141,7 +123,11 @@ impl Demand {
         match &self.0 {
             Of::Points(points) => interpolated(points, period).ok_or_else(|| {
                 let end = |point: Option<&(f64, f64)>| point.map_or(f64::NAN, |point| point.0);
-                CheckError::Period { period, from: end(points.first()), to: end(points.last()) }
+                let [from, to] = [points.first(), points.last()].map(end);
+                refused(format!(
+                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that \
+                     period"
+                ))
             }),
             Of::Records(spectrum, motions) => {
                 let at = |motion| spectrum.acceleration(motion, period);
@@ -254,10 +240,10 @@ pub fn check(
     demand: impl Fn(f64) -> Result<f64, CheckError>,
 ) -> Result<Vec<SideCheck>, CheckError> {
     let Fractions { displacement, secant } = fractions;
-    for (name, value) in [("the fraction of the displacement", displacement), ("that of the secant", secant)]
-    {
+    for (name, value) in [("displacement_fraction", displacement), ("secant_fraction", secant)] {
         if !(value > 0.0 && value <= 1.0) {
-            return Err(CheckError::Fraction { name, value });
+            let message = format!("{name} = {value} must be above 0 and at most 1");
+            return Err(CheckError::value(&[name], message));
         }
     }
     wall.sides().map(|sign| check_side(wall, sign, fractions, &demand)).collect()
@@ -301,6 +287,10 @@ fn check_side(
         acceleration_ratio: onset / peak_acceleration,
         displacement_ratio: displacement_capacity / displacement_demand,
     })
+}
+
+fn refused(message: String) -> CheckError {
+    CheckError::value(&["spectrum"], message)
 }
 
 /// Draws a capacity curve over the demand.
