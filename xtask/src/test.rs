@@ -1,6 +1,6 @@
 //! `cargo xtask test`: every test, and a summary that names what did not run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -209,11 +209,20 @@ fn masters() -> Result<()> {
 }
 
 fn conformance() -> Result<()> {
+    let (unit, floor) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?);
     let clang = Environment::of(CLANG.0, CLANG.1)?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let mut test = build();
     test.args(["test", "--locked", "--no-fail-fast", "--package", "conformance"]);
-    test.env("LIBCLANG_PATH", libclang).env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()));
+    test.env("LIBCLANG_PATH", libclang)
+        .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
+        .env("ROCKING_WALL_FMU", absolute(&unit))
+        .env("ROCKING_FLOOR_FMU", absolute(&floor))
+        .env("ROCKING_WALL_BIN", absolute(&programs().join("wall")));
     run_tests(&mut test)
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -1,0 +1,270 @@
+"""Compares reactions, impulses and the energy through the supports with an independent two-body model."""
+
+import math
+
+import numpy as np
+import pytest
+
+import two_body
+from unit import Unit
+
+PARAPET = {"height": 3.0, "thickness": 0.4, "overburden": 8000.0, "overburden_eccentricity": 0.05}
+STRIP = {"mechanism": "vertical_spanning", "height": 2.75, "thickness": 0.12, "hinge_ratio": 0.6,
+         "overburden": 6000.0, "overburden_eccentricity": 0.02}  # fmt: skip
+LAWS = {
+    "rocking": {"a1": 0.05, "damping_model": "constant_ratio", "xi": 0.03,
+                "u_start": 0.03},
+    "trilinear": {"force_law": "trilinear", "d1": 0.7, "a1": 0.05, "damping_model": "stiffness_proportional",
+                  "xi": 0.05, "u_start": 0.03},
+    "impacts": {"a1": 0.03, "damping_model": "none", "impact": "restitution",
+                "restitution": 0.8, "u_start": 0.05},
+    "rigid": {"force_law": "rigid_linear", "damping_model": "none", "impact": "restitution",
+              "restitution": 0.85, "u_start": 0.0},
+}  # fmt: skip
+# Motions that make the walls rock, rest and impact without overturning, which would end the contact.
+FACTORS = {"parapet": 1.0, "strip": 0.3, "strip rigid": 1.7}
+# Sums of a dozen products, each of the size of the result: 64 roundings are enough.
+ROUNDING = 64 * 2.2e-16
+
+
+def factor_of(shape, law):
+    return FACTORS.get(f"{shape.split()[0]} {law}", FACTORS[shape.split()[0]])
+
+
+class Supports:
+    """Accelerations of the supports, linear within each step; velocities and displacements follow exactly."""
+
+    def __init__(self, step, drift, factor=1.0):
+        self.step = step
+        self.factor = factor
+        self.drift = drift
+        self.velocity = np.zeros(2)
+        self.displacement = np.zeros(2)
+        self.acceleration = self.at(0.0)
+        self.time = 0.0
+
+    def at(self, time):
+        bottom = 1.6 * math.sin(9.0 * time) + 0.9 * math.sin(17.0 * time + 0.4)
+        top = bottom + (0.8 * math.sin(11.0 * time) if self.drift else 0.0)
+        return self.factor * np.array([bottom, top])
+
+    def advance(self):
+        """Sets the rates of this step and moves to its end."""
+        end = self.at(self.time + self.step)
+        rate = (end - self.acceleration) / self.step
+        h, a, v = self.step, self.acceleration, self.velocity
+        self.displacement = self.displacement + v * h + a * h**2 / 2 + rate * h**3 / 6
+        self.velocity = v + a * h + rate * h**2 / 2
+        self.acceleration = end
+        self.time += h
+        return rate
+
+    @property
+    def relative(self):
+        return self.displacement[1] - self.displacement[0]
+
+
+def drive(unit, supports, parapet):
+    """Advances unit and supports by one step; the drift is linear within a step."""
+    before = supports.acceleration.copy(), supports.relative
+    rate = supports.advance()
+    inputs, rates = {"a_bottom": before[0][0]}, {"a_bottom": rate[0]}
+    if not parapet:
+        inputs |= {"a_top": before[0][1]}
+        rates |= {"a_top": rate[1]}
+        if supports.drift:
+            inputs |= {"drift": before[1]}
+            rates |= {"drift": (supports.relative - before[1]) / supports.step}
+    unit.set(**inputs)
+    unit.rates(**rates)
+    unit.step(supports.step)
+
+
+def facts(unit):
+    names = ["mass", "height", "hinge_ratio", "gravity", "overburden", "effective_mass"]
+    return dict(zip(names, unit.get(*names)))
+
+
+def drift_couple(wall, u, drift, given):
+    """Returns G, from the potential -W u d/(2h) - (W/2 + O) d²/(2h), once a drift is given."""
+    weight = wall["mass"] * wall["gravity"]
+    return -(weight * u / 2 + (weight / 2 + wall["overburden"]) * drift) / wall["height"] if given else 0.0
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
+def test_reactions(unpacked, law, shape):
+    parapet, drift = shape == "parapet", shape.endswith("drift")
+    with Unit(unpacked) as unit:
+        unit.start(**(PARAPET if parapet else STRIP), **LAWS[law])
+        wall, supports, kinds = facts(unit), Supports(0.002, drift, factor_of(shape, law)), set()
+        for _ in range(1500):
+            drive(unit, supports, parapet)
+            names = [
+                "u",
+                "u_dot",
+                "u_ddot",
+                "restoring_force",
+                "damping_force",
+                "reaction_bottom",
+                "reaction_top",
+            ]
+            u, speed, acceleration, restoring, damping, bottom, top = unit.get(*names)
+            kinds.add("rest" if u == speed == acceleration == 0.0 else "motion")
+            # force of the wall against u, as one rod or as half of Eq. (12)
+            force, scale = restoring + damping, wall["mass"] * (10.0 + abs(acceleration)) + abs(restoring)
+            if parapet:
+                expected, couple = two_body.parapet(
+                    wall["mass"], wall["height"], supports.acceleration[0], acceleration
+                )
+                assert bottom == pytest.approx(expected, abs=ROUNDING * scale)
+                assert top == 0.0
+                # moment about the base: -(F + C u') h/2
+                assert -couple * 2 / wall["height"] == pytest.approx(force, abs=ROUNDING * scale)
+                continue
+            couple = drift_couple(wall, u, supports.relative, drift and unit.time > supports.step / 2)
+            expected = two_body.strip(
+                wall["mass"],
+                wall["height"],
+                wall["hinge_ratio"] * wall["height"],
+                supports.acceleration,
+                acceleration,
+                couple,
+            )
+            assert bottom == pytest.approx(expected[0], abs=ROUNDING * scale)
+            assert top == pytest.approx(expected[1], abs=ROUNDING * scale)
+            # the equation of motion is twice Lagrange's
+            assert 2 * expected[3] == pytest.approx(force, abs=ROUNDING * scale)
+        assert "motion" in kinds
+        assert "rest" in kinds or law != "rigid"
+        assert unit.get("overturned") is False
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
+def test_impulses(unpacked, law, shape):
+    """Impulses equal the change of momentum of the bodies over each step, impacts included.
+
+    With drift, ∫G dt contributes, and with it ∫u dt. Simpson's rule integrates it over two steps h of 1 ms.
+    The error is at most h⁴/36 of a jump of the third derivative, at a corner of the force (ω₁² u') or of the
+    motion (100 m/s³). At an impact it is h² of the jump of u'. With drift, steps with impacts are left out,
+    and only those.
+    """
+    parapet, drift = shape == "parapet", shape.endswith("drift")
+    with Unit(unpacked) as unit:
+        unit.start(**(PARAPET if parapet else STRIP), **LAWS[law])
+        wall, supports = facts(unit), Supports(0.001, drift, factor_of(shape, law))
+        omega = unit.get("omega1")
+        compared = jumps = 0
+        for _ in range(1000):
+            velocities, speeds, places, drifts = (
+                [supports.velocity.copy()],
+                [unit.get("u_dot")],
+                [unit.get("u")],
+                [supports.relative],
+            )
+            totals = np.zeros(2)
+            for _ in range(2):
+                drive(unit, supports, parapet)
+                totals += unit.get("impulse_bottom", "impulse_top")
+                velocities.append(supports.velocity.copy())
+                speeds.append(unit.get("u_dot"))
+                places.append(unit.get("u"))
+                drifts.append(supports.relative)
+            change, jump = velocities[2] - velocities[0], speeds[2] - speeds[0]
+            scale = wall["mass"] * (1.0 + abs(jump))
+            # or bounces so low that it may have passed 0 twice between two steps
+            near = min(map(abs, places)) < supports.step * max(map(abs, speeds))
+            passed = near or any(a * b < 0 for a, b in zip(places, places[1:]))
+            jumps += passed and law in ("impacts", "rigid")
+            if parapet:
+                expected = two_body.parapet(wall["mass"], wall["height"], change[0], jump)[0], 0.0
+                tolerance = ROUNDING * scale
+            else:
+                third = supports.step / 3
+                simpson = lambda values: third * (values[0] + 4 * values[1] + values[2])  # noqa: E731
+                # the drift is linear within each step of the unit
+                trapezoid = supports.step / 2 * (drifts[0] + 2 * drifts[1] + drifts[2])
+                couple = drift_couple(wall, simpson(places), trapezoid, drift)
+                if drift and passed:
+                    continue
+                expected = two_body.strip(
+                    wall["mass"], wall["height"], wall["hinge_ratio"] * wall["height"], change, jump, couple
+                )[:2]
+                kink = omega**2 * max(map(abs, speeds)) + 100.0
+                simpson_error = (
+                    supports.step**4 / 36 * kink * wall["mass"] * wall["gravity"] / (2 * wall["height"])
+                )
+                tolerance = ROUNDING * scale + (simpson_error if drift else 0.0)
+            assert totals == pytest.approx(expected, abs=tolerance)
+            compared += 1
+        assert compared > 500
+        assert law not in ("impacts", "rigid") or jumps > 2, "impacts were among them"
+
+
+def stored(wall, law, u, u_ins, f0):
+    """Returns ∫F du [J] from 0, for a bilinear law with softening parallel to the rigid law."""
+    u1, k0 = law["a1"] * u_ins, f0 / u_ins
+    top = k0 * (u_ins - u1)
+    if abs(u) <= u1:
+        return 0.5 * top / u1 * u * u
+    return 0.5 * top * u1 + k0 * (u_ins * (abs(u) - u1) - (u * u - u1 * u1) / 2)
+
+
+@pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
+def test_power_through_the_supports(unpacked, shape):
+    """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 1e-8 of the energy exchanged.
+
+    Simpson's rule over 2.4e-5 s has an error at each corner of the force: about (ω₁ h)²/30 of the energy that
+    passes within the step, which is 1e-8 of it. The drift is linear within the unit's steps; its error is h²
+    a/8, 1e-10 m.
+    """
+    parapet, drift = shape == "parapet", shape.endswith("drift")
+    law = LAWS["rocking"] | {"damping_model": "constant_coefficient", "overburden_eccentricity": 0.0}
+    with Unit(unpacked) as unit:
+        unit.start(**(PARAPET if parapet else STRIP) | law)
+        wall, supports = facts(unit), Supports(1.2e-5, drift, factor_of(shape, "rocking"))
+        u_ins, f0, xi, omega = unit.get("u_ins", "F0", "xi", "omega1")
+        h, h1 = wall["height"], wall["hinge_ratio"] * wall["height"]
+        part = 1.0 if parapet else 0.5
+        damper = part * 2 * wall["effective_mass"] * omega * xi
+
+        def energy(u, speed):
+            bottom, top = supports.velocity
+            potential = part * stored(wall, law, u, u_ins, f0)
+            if parapet:
+                return two_body.rod_energy(wall["mass"], bottom, bottom + 2 * speed) + potential
+            middle = bottom * (1 - h1 / h) + top * h1 / h + speed
+            rods = two_body.rod_energy(wall["mass"] * h1 / h, bottom, middle)
+            rods += two_body.rod_energy(wall["mass"] * (1 - h1 / h), middle, top)
+            if drift:
+                weight, d = wall["mass"] * wall["gravity"], supports.relative
+                potential -= weight * u * d / (2 * h) + (weight / 2 + wall["overburden"]) * d * d / (2 * h)
+            return rods + potential
+
+        def rates():
+            u, speed, bottom, top = unit.get("u", "u_dot", "reaction_bottom", "reaction_top")
+            return u, bottom * supports.velocity[0] + top * supports.velocity[1], damper * speed**2
+
+        if drift:
+            # the drift is given from the start, so that its couple does not begin within the run
+            unit.set(drift=1e-300)
+        u, power, loss = rates()
+        start, work, dissipated, exchanged = energy(u, unit.get("u_dot")), 0.0, 0.0, 0.0
+        corners = 0
+        for _ in range(30_000):
+            powers, losses, places = [power], [loss], [u]
+            for _ in range(2):
+                drive(unit, supports, parapet)
+                u, power, loss = rates()
+                powers.append(power)
+                losses.append(loss)
+                places.append(u)
+            weights = np.array([1, 4, 1]) * supports.step / 3
+            work += weights @ powers
+            dissipated += weights @ losses
+            exchanged += weights @ np.abs(powers)
+            corners += (abs(places[0]) - law["a1"] * u_ins) * (abs(places[2]) - law["a1"] * u_ins) < 0
+        change = energy(u, unit.get("u_dot")) - start
+        assert corners >= 2 and dissipated > 0.0
+        assert work == pytest.approx(change + dissipated, abs=1e-8 * (exchanged + dissipated))
