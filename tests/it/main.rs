@@ -21,6 +21,7 @@ mod closed_forms;
 mod configuration;
 mod demands;
 mod description;
+mod edited_states;
 mod floor_motion;
 mod model_exchange;
 mod numerics;
