@@ -1,11 +1,217 @@
-//! A wall in time: the state, the supports' motion, the outputs.
+//! A wall in time: the state and the steps that change it, the supports' motion, the outputs.
 
 mod events;
 mod excitation;
 mod outputs;
-mod stepping;
+
+use std::sync::Arc;
+
+use crate::choices::Mechanism;
+use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, State, Work};
+use crate::wall::{Ends, ParameterError, Parameters, Support, Wall, Warning};
 
 pub use events::Handled;
 pub use excitation::{Excitation, segment_of};
 pub use outputs::Outputs;
-pub use stepping::{Progress, RunError, Simulation, Step};
+
+/// A wall in time.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    pub(super) motion: Arc<Motion>,
+    pub(super) progress: Progress,
+    memo: Memo,
+}
+
+/// All that changes during a simulation: plain data, copied to save it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time \[s\].
+    pub time: f64,
+    /// State of the wall.
+    pub state: State,
+    /// Time of overturning \[s\]; `None` before.
+    pub overturn_time: Option<f64>,
+    /// A drift has been given, so that its couple acts on the supports.
+    pub drift: bool,
+    /// Work so far.
+    pub work: Work,
+}
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Impulses of the supports on the wall \[N s\].
+    pub impulses: Ends,
+    /// The wall overturned in this step.
+    pub overturned: bool,
+    /// The wall left its supports in this step.
+    pub departed: bool,
+    /// The limit on impacts was reached, and the wall was put to rest.
+    pub put_to_rest: bool,
+}
+
+/// Why a wall could not be moved to the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the numbers of the message")]
+pub enum RunError {
+    /// The motion could not be followed in the segment from `time` on.
+    #[error("at t = {time:?} s: {source}")]
+    Solver { time: f64, source: SolverError },
+    /// The step is too long for its excitation.
+    #[error("the step spans more than {limit} samples; use smaller steps")]
+    TooManySegments { limit: usize },
+    /// The segments of the step have too many pieces together.
+    #[error("more than {limit} pieces of motion in one step, at t = {time:?} s; use smaller steps")]
+    TooManyPieces { time: f64, limit: u64 },
+}
+
+/// Most segments in one step.
+const MOST_SEGMENTS: usize = 2_000_000;
+
+impl Simulation {
+    /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. The tighter of
+    /// the importer's `tolerance` and the parameter applies.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn new(
+        parameters: &Parameters,
+        tolerance: Option<f64>,
+        time: f64,
+        support: Support,
+    ) -> Result<Self, ParameterError> {
+        let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
+        let motion = Motion::of(parameters, tolerance)?;
+        let doubts = |error: ParameterError| error.with_doubts(Warning::unusual(parameters).collect());
+        motion.wall().check_start(parameters.u_start).map_err(doubts)?;
+        let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
+        let overturn_time = state.overturned.then_some(time);
+        let drift = support.drift != 0.0;
+        let progress = Progress { time, state, overturn_time, drift, work: Work::default() };
+        Ok(Self { motion: Arc::new(motion), progress, memo: Memo::default() })
+    }
+
+    /// The wall.
+    pub fn wall(&self) -> &Wall {
+        self.motion.wall()
+    }
+
+    /// The method in use.
+    pub fn method(&self) -> &Method {
+        self.motion.method()
+    }
+
+    /// Returns the progress of the simulation.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
+    /// Restores the progress of a simulation of the same wall.
+    ///
+    /// # Panics
+    /// If the branch is not one of the wall's.
+    pub fn restore(&mut self, progress: Progress) {
+        assert!(progress.state.branch < self.wall().branches().len(), "a branch of this wall");
+        self.progress = progress;
+    }
+
+    /// Moves the wall through a segment.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation is then as it was.
+    pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
+        let mut step = Step::default();
+        self.add_segment(segment, None, &mut step).map(|()| step)
+    }
+
+    /// Moves the wall through a segment, and adds its demands to `demands`.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation is then as it was, and `demands` may hold the motion up to the
+    /// failure.
+    pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
+        let mut step = Step::default();
+        self.add_segment(segment, Some(demands), &mut step).map(|()| step)
+    }
+
+    /// Moves the wall through the segments of a step, and adds their demands to `demands`. `next` receives
+    /// the present time and the length of the step that is done \[s\]. It returns the next segment and the
+    /// length that is left \[s\].
+    ///
+    /// # Errors
+    /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
+    pub fn advance_through(
+        &mut self,
+        mut next: impl FnMut(f64, f64) -> (Segment, f64),
+        mut demands: Option<&mut Demands>,
+    ) -> Result<Step, RunError> {
+        let (mut whole, mut done) = (Step::default(), 0.0);
+        let (before, limit) = (self.progress.work.pieces, self.motion.most_pieces());
+        for _ in 0..MOST_SEGMENTS {
+            let time = self.progress.time;
+            if self.progress.work.pieces - before > limit {
+                return Err(RunError::TooManyPieces { time, limit });
+            }
+            let (segment, remaining) = next(time, done);
+            if remaining <= 0.0 {
+                return Ok(whole);
+            }
+            let moved = self.add_segment(&segment, demands.as_deref_mut(), &mut whole);
+            moved.map_err(|source| RunError::Solver { time, source })?;
+            done += segment.duration;
+            if segment.duration >= remaining {
+                return Ok(whole);
+            }
+        }
+        Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
+    }
+
+    /// Moves the wall through a segment, and adds what happens in it to `step`.
+    #[inline]
+    fn add_segment(
+        &mut self,
+        segment: &Segment,
+        demands: Option<&mut Demands>,
+        step: &mut Step,
+    ) -> Result<(), SolverError> {
+        let body = self.motion.wall().body();
+        let before = self.progress;
+        let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
+        let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
+        let mut state = before.state;
+        let watch = demands.map(|demands| (demands, before.time, drift));
+        let report = self.motion.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
+        step.overturned |= report.overturning.is_some();
+        step.departed |= report.departure.is_some();
+        step.put_to_rest |= report.put_to_rest;
+        if !before.state.departed {
+            let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
+            // ∫ of a quantity linear over the segment, up to `length`
+            let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
+            let integrate = |from: f64, to: f64| length * (from + 0.5 * (to - from) * fraction);
+            let (from, to) = (segment.from, segment.to);
+            let supports = [integrate(from.bottom, to.bottom), integrate(from.top, to.top)];
+            let couple = if integral {
+                body.couple(report.displacement_integral, integrate(from.drift, to.drift))
+            } else {
+                0.0
+            };
+            let Ends { bottom, top } = body.impulses(supports, velocity - before.state.velocity, couple);
+            step.impulses.bottom += bottom;
+            step.impulses.top += top;
+        }
+        self.progress.time += segment.duration;
+        self.progress.state = state;
+        self.progress.drift = drift;
+        self.progress.work.add(report.work);
+        if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
+            self.progress.overturn_time = Some(before.time + offset);
+        }
+        Ok(())
+    }
+
+    /// Sets the time \[s\] to the importer's, from which the sum of steps differs by rounding.
+    pub fn set_time(&mut self, time: f64) {
+        self.progress.time = time;
+    }
+}

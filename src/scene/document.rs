@@ -4,58 +4,73 @@ use std::path::Path;
 
 use fmu_export::VariableId;
 use ground_motion::columns::Fault;
-use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
+use crate::tables;
 use crate::variables::RealVariable;
 
 use super::error::{Place, SceneError};
 use super::motion::MotionTable;
 use super::nearest::suggestion;
 use super::parameter::{Group, input_names};
+use super::schema::{fraction, one_of};
 use super::storeys::{StoreyTable, SupportsTable};
+use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
 
 /// Largest scene file that is read.
 pub(super) const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// A scene file.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Document {
-    /// Title, for people; else the file's name.
-    pub title: Option<String>,
-    /// Inputs that stay variables of the scene's FMU: by default `a_g`, and none for a scene with its own
-    /// motion.
-    pub inputs: Option<Vec<Spanned<String>>>,
-    /// End of the run \[s\]; by default the motion's duration and tail, or 30 s.
-    pub stop_time: Option<Spanned<f64>>,
-    /// Step of the output \[s\]; by default the motion's own, or 0.01 s.
-    pub output_step: Option<Spanned<f64>>,
-    /// Limit states as fractions of `u_ins`; by default 0.1, 0.4, 0.6 and 1.
-    pub thresholds: Option<Spanned<Vec<f64>>>,
-    /// Shape, mass and loads.
-    pub geometry: Group,
-    /// Restoring force.
-    pub force_law: Group,
-    /// Viscous damping.
-    pub damping: Group,
-    /// Restitution.
-    pub impact: Group,
-    /// Tie of a parapet.
-    pub tie: Group,
-    /// Initial displacement and velocity.
-    pub start: Group,
-    /// Solver and tolerance.
-    pub solver: Group,
-    /// Storeys between the ground and the wall, the lowest first.
-    pub storeys: Vec<Spanned<StoreyTable>>,
-    /// The floors that support the wall.
-    pub supports: Option<Spanned<SupportsTable>>,
-    /// What moves the supports, or the ground below the storeys.
-    pub motion: Option<Spanned<MotionTable>>,
-    /// A check by a code, which a run does not need.
-    pub check: Option<IgnoredAny>,
+tables! {
+    /// A scene.
+    #[derive(Debug, Default)]
+    pub struct Document {
+        /// Title, for people; else the file's name.
+        pub title: Option<String>,
+        /// Inputs that stay variables of the scene's FMU: by default `a_g`, and none for a scene with its own
+        /// motion.
+        #[key(items = one_of(input_names()), uniqueItems = true)]
+        pub inputs: Option<Vec<Spanned<String>>>,
+        /// End of the run \[s\]; by default the motion's duration and tail, or 30 s.
+        #[key(exclusiveMinimum = 0, maximum = LONGEST_RUN)]
+        pub stop_time: Option<Spanned<f64>>,
+        /// Step of the output \[s\]; by default the motion's own, or 0.01 s.
+        #[key(exclusiveMinimum = 0, maximum = LONGEST_OUTPUT_STEP)]
+        pub output_step: Option<Spanned<f64>>,
+        /// Limit states as fractions of `u_ins`, whose first crossings a run reports.
+        #[key(items = fraction(), maxItems = MOST_THRESHOLDS, default = DEFAULT_THRESHOLDS.to_vec())]
+        pub thresholds: Option<Spanned<Vec<f64>>>,
+        /// Shape, mass and loads.
+        #[serde(default)]
+        pub geometry: Group,
+        /// Restoring force.
+        #[serde(default)]
+        pub force_law: Group,
+        /// Viscous damping.
+        #[serde(default)]
+        pub damping: Group,
+        /// Restitution.
+        #[serde(default)]
+        pub impact: Group,
+        /// Tie of a parapet.
+        #[serde(default)]
+        pub tie: Group,
+        /// Initial displacement and velocity.
+        #[serde(default)]
+        pub start: Group,
+        /// Solver and tolerance.
+        #[serde(default)]
+        pub solver: Group,
+        /// Storeys between the ground and the wall, the lowest first; the motion shakes the ground.
+        #[serde(default)]
+        pub storeys: Vec<Spanned<StoreyTable>>,
+        /// The floors that support the wall.
+        pub supports: Option<Spanned<SupportsTable>>,
+        /// What moves the supports, or the ground below the storeys.
+        pub motion: Option<Spanned<MotionTable>>,
+        /// A check by a code, which a run does not need.
+        pub check: Option<IgnoredAny>,
+    }
 }
 
 impl Document {
@@ -104,6 +119,7 @@ pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneErr
     let file = path.display().to_string();
     let unread = |error| SceneError::File { file: file.clone(), reason: format!("cannot be read: {error}") };
     let bytes = ground_motion::read_file(path, what, limit).map_err(unread)?;
-    let in_file = |fault: Fault| SceneError::Line { file, line: fault.line(), message: fault.to_string() };
+    let in_file =
+        |fault: Fault| SceneError::Line { file, line: fault.line(), key: None, message: fault.to_string() };
     ground_motion::utf8_text(bytes, what).map_err(in_file)
 }

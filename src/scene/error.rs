@@ -16,9 +16,10 @@ pub enum SceneError {
     /// The file cannot be read.
     #[error("{file}: {reason}")]
     File { file: String, reason: String },
-    /// A line that is not TOML, an unknown key, a value of the wrong kind or outside its limits.
+    /// A line that is not TOML, an unknown key, a value of the wrong kind or outside its limits. `key` is the
+    /// one that the line begins with, if it has one.
     #[error("{file}, line {line}: {message}")]
-    Line { file: String, line: usize, message: String },
+    Line { file: String, line: usize, key: Option<String>, message: String },
     /// A value given on its own.
     #[error("{message}")]
     Value { message: String },
@@ -37,6 +38,18 @@ pub enum SceneError {
          output_step or shorten the run"
     )]
     TooLong { stop: f64, step: f64, limit: f64 },
+}
+
+impl SceneError {
+    /// Returns the key or the parameter that the error is about, if it is about one.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Line { key, .. } => key.as_deref(),
+            Self::Motion { source, .. } => source.key(),
+            Self::Parameters(error) => error.keys().first().copied(),
+            _ => None,
+        }
+    }
 }
 
 /// A scene's file and text, to turn byte ranges into lines.
@@ -69,7 +82,14 @@ impl<'a> Place<'a> {
 
     /// Returns an error that names the file and the line of a byte range.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
-        SceneError::Line { file: self.name.to_owned(), line: self.line(span), message: message.into() }
+        self.error_on(self.line(span), message)
+    }
+
+    /// Returns an error that names the file and a line of it.
+    pub(super) fn error_on(&self, line: usize, message: impl Into<String>) -> SceneError {
+        let key = self.text.lines().nth(line - 1).and_then(|text| text.split_once('='));
+        let key = key.map(|(key, _)| key.trim().to_owned());
+        SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }
     }
 
     /// Returns the number given, which must be above 0 and at most `limit`, or `natural` where none is given.

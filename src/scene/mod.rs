@@ -10,6 +10,7 @@ mod error;
 mod motion;
 mod nearest;
 mod parameter;
+mod schema;
 mod storeys;
 mod syntax;
 mod toml_text;
@@ -37,6 +38,12 @@ use error::check_duration;
 pub use error::{Place, SceneError};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
+pub use schema::{
+    Described, Schema, file_schema, fraction, names, object, one_of, parameter, parameters, positive, text,
+    with,
+};
+#[doc(hidden)]
+pub use schema::{Field, describe_table};
 pub use storeys::read_floors;
 pub use toml_text::{parse_document, parse_toml, refusal};
 
@@ -87,7 +94,7 @@ impl Default for Scene {
 /// Limit states of a scene that states none, as fractions of `u_ins`.
 pub const DEFAULT_THRESHOLDS: [f64; 4] = [0.1, 0.4, 0.6, 1.0];
 /// Most limit states.
-pub const MOST_THRESHOLDS: usize = 100;
+pub const MOST_THRESHOLDS: u32 = 100;
 
 /// Checks limit states: each must be a fraction of `u_ins`, above 0 and at most 1. Their order does not
 /// matter.
@@ -99,7 +106,7 @@ pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
         Some(fraction) => {
             format!("thresholds: {fraction} is not a fraction of u_ins; give numbers above 0 and at most 1")
         }
-        None if fractions.len() > MOST_THRESHOLDS => {
+        None if fractions.len() > MOST_THRESHOLDS as usize => {
             format!("thresholds: {} fractions of u_ins; give at most {MOST_THRESHOLDS}", fractions.len())
         }
         None => return Ok(()),

@@ -3,10 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use toml::Spanned;
 
 use crate::simulation::Excitation;
+use crate::tables;
 use ground_motion::{
     Acceleration, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion,
     Unit, read,
@@ -19,112 +19,117 @@ pub const DEFAULT_TAIL: f64 = 10.0;
 /// Longest free vibration after a motion \[s\].
 pub const LONGEST_TAIL: f64 = 1e6;
 
-/// `[motion]`: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MotionTable {
-    /// Record file, beside the scene file: in any format the library reads.
-    pub record: Option<PathBuf>,
-    /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
-    pub unit: Option<Unit>,
-    /// Time between samples (s), for a record that does not state it.
-    pub step: Option<f64>,
-    /// Column of a table (CSV or text).
-    pub column: Option<String>,
-    /// Channel of a record with several, by its number.
-    pub channel: Option<String>,
-    /// Format of the record, found from its content if none is given.
-    pub format: Option<Format>,
-    /// Ricker pulse.
-    pub ricker: Option<RickerTable>,
-    /// Harmonic motion.
-    pub harmonic: Option<HarmonicTable>,
-    /// One cycle of a sine.
-    pub sine_cycle: Option<SineTable>,
-    /// Half a cycle of a sine.
-    pub half_sine: Option<SineTable>,
-    /// The project's synthetic motion.
-    pub synthetic: Option<SyntheticTable>,
-    /// Factor on the motion (-).
-    pub scale: Option<f64>,
-    /// Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
-    pub pga: Option<Acceleration>,
-    /// Start of the part to use (s).
-    pub from: Option<f64>,
-    /// End of the part to use (s).
-    pub to: Option<f64>,
-    /// Free vibration after the motion (s); 10 s if none is given.
-    pub tail: Option<f64>,
-    /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
-    pub fingerprint: Option<String>,
-    /// Another record for the top support (a wall in an upper storey).
-    pub top: Option<TopTable>,
-}
+tables! {
+    /// The motion: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
+    #[derive(Debug, Default)]
+    pub struct MotionTable {
+        /// Record file, beside the scene file: in any format the library reads.
+        pub record: Option<PathBuf>,
+        /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
+        pub unit: Option<Unit>,
+        /// Time between samples (s), for a record that does not state it.
+        pub step: Option<f64>,
+        /// Column of a table (CSV or text).
+        pub column: Option<String>,
+        /// Channel of a record with several, by its number.
+        pub channel: Option<String>,
+        /// Format of the record, found from its content if none is given.
+        pub format: Option<Format>,
+        /// Ricker pulse.
+        pub ricker: Option<RickerTable>,
+        /// Harmonic motion.
+        pub harmonic: Option<HarmonicTable>,
+        /// One cycle of a sine.
+        pub sine_cycle: Option<SineTable>,
+        /// Half a cycle of a sine.
+        pub half_sine: Option<SineTable>,
+        /// The project's synthetic motion.
+        pub synthetic: Option<SyntheticTable>,
+        /// Factor on the motion (-).
+        pub scale: Option<f64>,
+        /// Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
+        pub pga: Option<Acceleration>,
+        /// Start of the part to use (s).
+        pub from: Option<f64>,
+        /// End of the part to use (s).
+        pub to: Option<f64>,
+        /// Free vibration after the motion (s).
+        #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_TAIL)]
+        pub tail: Option<f64>,
+        /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
+        pub fingerprint: Option<String>,
+        /// Another record for the top support (a wall in an upper storey).
+        pub top: Option<TopTable>,
+    }
 
-/// `[motion.top]`: the record of the top support; trimmed and timed like the bottom one.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[allow(missing_docs, reason = "as in MotionTable")]
-pub struct TopTable {
-    pub record: PathBuf,
-    pub unit: Option<Unit>,
-    pub step: Option<f64>,
-    pub column: Option<String>,
-    /// Channel of a record with several, by its number.
-    pub channel: Option<String>,
-    pub format: Option<Format>,
-    pub scale: Option<f64>,
-    pub pga: Option<Acceleration>,
-    pub fingerprint: Option<String>,
-}
+    /// The record of the top support; trimmed and timed like the bottom one.
+    #[derive(Debug)]
+    pub struct TopTable {
+        /// Record file, beside the scene file.
+        pub record: PathBuf,
+        /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
+        pub unit: Option<Unit>,
+        /// Time between samples (s), for a record that does not state it.
+        pub step: Option<f64>,
+        /// Column of a table (CSV or text).
+        pub column: Option<String>,
+        /// Channel of a record with several, by its number.
+        pub channel: Option<String>,
+        /// Format of the record, found from its content if none is given.
+        pub format: Option<Format>,
+        /// Factor on the motion (-).
+        pub scale: Option<f64>,
+        /// Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
+        pub pga: Option<Acceleration>,
+        /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
+        pub fingerprint: Option<String>,
+    }
 
-/// Ricker pulse a = A (1 − 2z²) exp(−z²), z = π f (t − t₀).
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RickerTable {
-    /// A (m/s²).
-    pub amplitude: f64,
-    /// f (Hz).
-    pub frequency: f64,
-    /// t₀ (s).
-    pub centre: f64,
-}
+    /// Ricker pulse a = A (1 − 2z²) exp(−z²), z = π f (t − t₀).
+    #[derive(Debug)]
+    pub struct RickerTable {
+        /// A (m/s²).
+        pub amplitude: f64,
+        /// f (Hz).
+        pub frequency: f64,
+        /// t₀ (s).
+        pub centre: f64,
+    }
 
-/// Harmonic motion a = A sin(2π f t + φ).
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct HarmonicTable {
-    /// A (m/s²).
-    pub amplitude: f64,
-    /// f (Hz).
-    pub frequency: f64,
-    /// φ (rad).
-    #[serde(default)]
-    pub phase: f64,
-    /// Length (s).
-    pub duration: f64,
-}
+    /// Harmonic motion a = A sin(2π f t + φ).
+    #[derive(Debug)]
+    pub struct HarmonicTable {
+        /// A (m/s²).
+        pub amplitude: f64,
+        /// f (Hz).
+        pub frequency: f64,
+        /// φ (rad).
+        #[serde(default)]
+        #[key(default = 0)]
+        pub phase: f64,
+        /// Length (s).
+        pub duration: f64,
+    }
 
-/// One or half a cycle of a = A sin(2π f t).
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SineTable {
-    /// A (m/s²).
-    pub amplitude: f64,
-    /// f (Hz).
-    pub frequency: f64,
-}
+    /// One or half a cycle of a = A sin(2π f t).
+    #[derive(Debug)]
+    pub struct SineTable {
+        /// A (m/s²).
+        pub amplitude: f64,
+        /// f (Hz).
+        pub frequency: f64,
+    }
 
-/// The project's synthetic motion; every key has a default.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SyntheticTable {
-    /// Seed of the noise; each seed gives a different motion.
-    pub seed: Option<u64>,
-    /// Length (s).
-    pub duration: Option<f64>,
-    /// Step (s).
-    pub step: Option<f64>,
+    /// The project's synthetic motion; every key has a default.
+    #[derive(Debug, Default)]
+    pub struct SyntheticTable {
+        /// Seed of the noise; each seed gives a different motion.
+        pub seed: Option<u64>,
+        /// Length (s).
+        pub duration: Option<f64>,
+        /// Step (s).
+        pub step: Option<f64>,
+    }
 }
 
 /// A motion ready to use.

@@ -21,9 +21,9 @@ pub const POINTS: &str = "points";
 pub const KINEMATICS: &str = "kinematics";
 
 /// The name in `force_law` that stands for a law of points.
-const MULTILINEAR: &str = "multilinear";
+pub(super) const MULTILINEAR: &str = "multilinear";
 /// The table that holds the kinematics.
-const KINEMATICS_GROUP: &str = "geometry";
+pub(super) const KINEMATICS_GROUP: &str = "geometry";
 
 /// Returns the names of the inputs of the model description.
 pub fn input_names() -> impl Iterator<Item = &'static str> {

@@ -6,11 +6,11 @@
 use std::f64::consts::TAU;
 
 use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
-use serde::Deserialize;
 use toml::Spanned;
 
 use crate::choices::Mechanism;
 use crate::simulation::Excitation;
+use crate::tables;
 use crate::wall::{Usual, Wall, Warning};
 
 use super::error::{Place, SceneError};
@@ -20,30 +20,35 @@ const DAMPING: f64 = 0.05;
 /// Largest ratio of a wall's mass to that of its floor that needs no warning.
 const LIGHT: f64 = 1.0 / 20.0;
 
-/// An item of `[[storeys]]`, the lowest first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StoreyTable {
-    /// Mass of the floor \[kg\]; not needed for a single storey with a period.
-    pub mass: Option<f64>,
-    /// Lateral stiffness of the storey \[N/m\].
-    pub stiffness: Option<f64>,
-    /// Period that the storey alone would have on the ground \[s\], instead of the stiffness.
-    pub period: Option<f64>,
-    /// Damping ratio (-), 0.05 by default.
-    pub damping_ratio: Option<f64>,
-}
+tables! {
+    /// A storey: a floor, and the spring below it.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct StoreyTable {
+        /// Mass of the floor \[kg\]; not needed for a single storey with a period.
+        #[key(exclusiveMinimum = 0)]
+        pub mass: Option<f64>,
+        /// Lateral stiffness of the storey \[N/m\].
+        #[key(exclusiveMinimum = 0)]
+        pub stiffness: Option<f64>,
+        /// Period that the storey alone would have on the ground \[s\], instead of the stiffness.
+        #[key(exclusiveMinimum = 0)]
+        pub period: Option<f64>,
+        /// Damping ratio (-).
+        #[key(default = DAMPING)]
+        pub damping_ratio: Option<f64>,
+    }
 
-/// `[supports]`: the floors that a wall stands on and leans on, counted from 1; 0 is the ground.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SupportsTable {
-    /// Floor that the wall stands on: by default the roof, for a strip wall the floor below the roof.
-    pub bottom: Option<usize>,
-    /// Floor that a strip wall leans on: by default the one above the bottom.
-    pub top: Option<usize>,
-    /// Whether the drift between the supports acts on a strip wall; by default it does.
-    pub drift: Option<bool>,
+    /// The floors that a wall stands on and leans on, counted from 1; 0 is the ground.
+    #[derive(Clone, Copy, Debug, Default)]
+    pub struct SupportsTable {
+        /// Floor that the wall stands on: by default the roof, for a strip wall the floor below the roof.
+        pub bottom: Option<usize>,
+        /// Floor that a strip wall leans on: by default the one above the bottom.
+        pub top: Option<usize>,
+        /// Whether the drift between the supports acts on a strip wall.
+        #[key(default = true)]
+        pub drift: Option<bool>,
+    }
 }
 
 /// Storeys, and the floors that support a wall.

@@ -44,7 +44,7 @@ pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> 
             return place.error(span, format!("{name} is given twice; leave one out"));
         }
         let (line, message) = explained(place, span.start);
-        SceneError::Line { file: place.name().to_owned(), line, message }
+        place.error_on(line, message)
     })
 }
 

@@ -1,6 +1,6 @@
 //! A wall that an importer's solver moves: it sets the state, and events are handled here.
 
-use super::stepping::Simulation;
+use super::Simulation;
 use crate::solver::{Event, INDICATORS, State};
 use crate::wall::{Ends, Support};
 

@@ -1,6 +1,6 @@
 //! The outputs of a wall, and their derivatives.
 
-use super::stepping::Simulation;
+use super::Simulation;
 use crate::solver::{Demands, Phase, State};
 use crate::wall::{Ends, Support};
 

@@ -87,12 +87,12 @@ pub(super) fn find_ending<P: Piece>(
     let right = Node { time: horizon, motion: piece.at(horizon) };
     match search.settle(left, right, false, peaks) {
         // the ordinary step
-        Verdict::Quiet => {
+        Shape::Quiet => {
             peaks.include(right.motion.displacement);
             Ok(Ending::Horizon(right.motion))
         }
-        Verdict::Split => Ok(ending(search.by_halves(left, right, peaks)?, right)),
-        verdict => Ok(ending(search.settled(left, right, &verdict, peaks), right)),
+        Shape::Split => Ok(ending(search.by_halves(left, right, peaks)?, right)),
+        shape => Ok(ending(search.settled(left, right, &shape, peaks), right)),
     }
 }
 
@@ -100,7 +100,8 @@ fn ending(exit: Option<Exit>, end: Node) -> Ending {
     exit.map_or(Ending::Horizon(end.motion), Ending::Exit)
 }
 
-pub(super) enum Verdict {
+/// What the motion between two instants looks like.
+pub(super) enum Shape {
     /// No bound or peak can be reached inside.
     Quiet,
     /// u̇ keeps its sign.
@@ -120,26 +121,26 @@ pub(super) fn settle(
     (most_acceleration, most_jerk): (f64, f64),
     [lower, upper]: [f64; 2],
     peaks: &Peaks,
-) -> Verdict {
+) -> Shape {
     // |u(t) − chord| ≤ L²/8 max|ü|
     let sag = 0.125 * length * length * most_acceleration;
     let highest = from.displacement.max(to.displacement) + sag;
     let lowest = from.displacement.min(to.displacement) - sag;
     if highest <= upper && lowest >= lower && peaks.cover(lowest, highest) {
-        return Verdict::Quiet;
+        return Shape::Quiet;
     }
     let (v0, v1) = (from.velocity, to.velocity);
     let apart = v0 * v1 < 0.0;
     // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero where the two values add up to more than max|ü| L
     if !apart && v0.abs() + v1.abs() > most_acceleration * length {
-        return Verdict::Monotone;
+        return Shape::Monotone;
     }
     let (a0, a1) = (from.acceleration, to.acceleration);
     let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
     match (steady, apart) {
-        (true, true) => Verdict::Turning,
-        (true, false) => Verdict::Monotone,
-        (false, _) => Verdict::Split,
+        (true, true) => Shape::Turning,
+        (true, false) => Shape::Monotone,
+        (false, _) => Shape::Split,
     }
 }
 
@@ -157,15 +158,15 @@ impl<P: Piece> Search<'_, P> {
         for _ in 0..MOST_INTERVALS {
             let Some(index) = usize::checked_sub(count, 1) else { return Ok(None) };
             let (right, depth) = pending[index];
-            let verdict = self.settle(left, right, depth == DEEPEST, peaks);
-            if let Verdict::Split = verdict {
+            let shape = self.settle(left, right, depth == DEEPEST, peaks);
+            if let Shape::Split = shape {
                 let time = 0.5 * (left.time + right.time);
                 pending[index].1 = depth + 1;
                 pending[count] = (Node { time, motion: self.piece.at(time) }, depth + 1);
                 count += 1;
                 continue;
             }
-            if let Some(exit) = self.settled(left, right, &verdict, peaks) {
+            if let Some(exit) = self.settled(left, right, &shape, peaks) {
                 return Ok(Some(exit));
             }
             left = right;
@@ -175,15 +176,15 @@ impl<P: Piece> Search<'_, P> {
     }
 
     /// Returns the exit in an interval that needs no more halving.
-    fn settled(&self, left: Node, right: Node, verdict: &Verdict, peaks: &mut Peaks) -> Option<Exit> {
-        match verdict {
-            Verdict::Quiet | Verdict::Split => {}
-            Verdict::Monotone => {
+    fn settled(&self, left: Node, right: Node, shape: &Shape, peaks: &mut Peaks) -> Option<Exit> {
+        match shape {
+            Shape::Quiet | Shape::Split => {}
+            Shape::Monotone => {
                 if let Some(exit) = self.monotone(left, right) {
                     return Some(exit);
                 }
             }
-            Verdict::Turning => {
+            Shape::Turning => {
                 let turn = self.turning_point(left, right);
                 if let Some(exit) = self.monotone(left, turn) {
                     return Some(exit);
@@ -198,12 +199,12 @@ impl<P: Piece> Search<'_, P> {
         None
     }
 
-    fn settle(&self, left: Node, right: Node, deepest: bool, peaks: &Peaks) -> Verdict {
+    fn settle(&self, left: Node, right: Node, deepest: bool, peaks: &Peaks) -> Shape {
         let length = right.time - left.time;
         let bounds = self.piece.bounds(left.motion, length);
         match settle([left.motion, right.motion], length, bounds, self.bounds, peaks) {
-            Verdict::Split if deepest => Verdict::Monotone,
-            verdict => verdict,
+            Shape::Split if deepest => Shape::Monotone,
+            shape => shape,
         }
     }
 

@@ -9,7 +9,6 @@ mod event;
 mod exact;
 mod indicators;
 mod motion;
-mod newmark;
 mod run;
 mod scaled;
 pub mod secant;

@@ -16,7 +16,7 @@ const LOCAL_SHARE: f64 = 1e-4;
 
 /// Most pieces of motion in one step. An ordinary computer evaluates them in about half a second.
 const MOST_PIECES: u64 = 200_000;
-/// Most Newmark steps in one step. Each takes about a tenth of the time of another piece.
+/// Bound on Newmark sub-steps per step; one costs a tenth of a closed-form piece.
 const MOST_NEWMARK_STEPS: u64 = 2_000_000;
 
 /// How the motion between events is found.

@@ -2,12 +2,11 @@
 
 use oscillator::KinematicState;
 
-use super::adaptive::{Series, Viscous};
+use super::adaptive::{Series, Viscous, newmark_step};
 use super::demand::Demands;
-use super::event::{self, Ending, Exit, Piece, Verdict};
+use super::event::{self, Ending, Exit, Piece, Shape};
 use super::exact::{ClosedForm, Memo};
 use super::motion::{Method, Motion};
-use super::newmark;
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
 use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
@@ -105,7 +104,7 @@ impl Motion {
         let end = memo.end(index, oscillator, start, rate, duration);
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
-        let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Verdict::Quiet);
+        let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Shape::Quiet);
         // if the motion has overflowed, a run reports where
         (is_quiet && end.displacement.is_finite() && end.velocity.is_finite()).then_some(end)
     }
@@ -224,7 +223,7 @@ impl<'a> Run<'a> {
             // equal steps, none longer than `step`
             let steps = (remaining / step - 1e-9).ceil().max(1.0);
             let step = remaining / steps;
-            return self.follow_piece(&newmark::step(branch, start, self.rate * step, step));
+            return self.follow_piece(&newmark_step(branch, start, self.rate * step, step));
         }
         if let Some(rotations) = motion.wall.rotations() {
             let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);

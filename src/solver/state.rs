@@ -137,7 +137,7 @@ impl Work {
     }
 }
 
-/// The motion could not be followed to the end of a segment; the state is as it was.
+/// Integration failed inside a segment; the state is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum SolverError {

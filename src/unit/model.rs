@@ -16,8 +16,8 @@ use crate::variables::{
 };
 use crate::wall::{Kinematics, Parameters, Support};
 
+use super::Unit;
 use super::exchange::Exchange;
-use super::instance::Unit;
 
 impl Model for Unit {
     type Real = RealVariable;

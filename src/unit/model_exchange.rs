@@ -5,8 +5,8 @@ use fmu_export::{Failure, Log, ModelExchange, Update};
 use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, GROUPS, RealVariable};
 use crate::wall::{Usage, usage};
 
+use super::Unit;
 use super::exchange::OwnMotion;
-use super::instance::Unit;
 
 // the description says how many indicators the motion has
 const _: () = assert!(EVENT_INDICATORS == crate::solver::INDICATORS);

@@ -7,8 +7,7 @@ use crate::solver::{Peaks, Phase, State, Work};
 use crate::wall::{Ends, Support};
 
 use super::exchange::{Exchange, OwnMotion};
-use super::inputs::Inputs;
-use super::instance::Unit;
+use super::{Inputs, Unit};
 
 impl Unit {
     /// Writes or reads the state. A unit that has read a state continues exactly like the unit that wrote it.

@@ -232,7 +232,7 @@ impl<const N: usize> DampingSeries<N> {
 
 /// The damping of a wall with the numbers in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DampingInUse {
+pub(super) struct DampingLaw {
     pub(super) asked: Damping,
     /// ξ in use \[-\]: for a free-standing block its equivalent at ω₁, and 0 where there is none.
     pub(super) ratio: f64,
@@ -242,7 +242,7 @@ pub(super) struct DampingInUse {
     pub(super) rocking: BranchDamping,
 }
 
-impl DampingInUse {
+impl DampingLaw {
     /// # Errors
     /// [`ParameterError::NoElasticBranch`] where a ratio ξ meets the rigid-linear law;
     /// [`ParameterError::Computed`] where e = 0 leaves none to compute.

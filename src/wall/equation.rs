@@ -3,7 +3,7 @@
 use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
-use super::damping::{Damping, DampingInUse, RATIO_CUTOFF};
+use super::damping::{Damping, DampingLaw, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
 use super::layout;
@@ -21,7 +21,7 @@ pub struct Wall {
     pub(super) force: RestoringForce,
     rotations: Option<FullRotations>,
     tie: Option<Tie>,
-    damping: DampingInUse,
+    damping: DampingLaw,
     restitution: f64,
     impact: bool,
     rocking: Rocking,
@@ -52,7 +52,7 @@ impl Wall {
             Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
         };
         let force = RestoringForce::new(parameters, &body)?;
-        let damping = DampingInUse::new(asked, parameters, &body, &force, restitution)?;
+        let damping = DampingLaw::new(asked, parameters, &body, &force, restitution)?;
         let impact = parameters.impact == Impact::Restitution;
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);

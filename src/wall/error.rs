@@ -112,6 +112,30 @@ pub enum ParameterError {
 }
 
 impl ParameterError {
+    /// Returns the parameters that the error is about, the first to change first.
+    pub fn keys(&self) -> Vec<&'static str> {
+        match self {
+            Self::NoStrength { .. } => vec!["overburden_eccentricity", "overburden"],
+            Self::ElasticBranchTooLong { .. } => vec!["a1", "a3"],
+            Self::PlateauTooHigh { .. } => vec!["d1", "a1", "softening"],
+            Self::Points { .. } => vec!["points"],
+            Self::Restitution { .. } => vec!["restitution_source", "restitution"],
+            Self::NoElasticBranch { .. } => vec!["damping_model", "force_law"],
+            Self::Computed { name, .. } | Self::NotGiven { name, .. } => vec![name],
+            Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
+            Self::TieHeight { .. } => vec!["tie_height", "height"],
+            Self::OneSided { conflicts, .. } => {
+                std::iter::once("rocking").chain(conflicts.iter().map(|conflict| conflict.name)).collect()
+            }
+            Self::StartsBehindWalls { .. } => vec!["u_start", "rocking"],
+            Self::StartsOverturned { .. } | Self::NothingMoves { .. } => vec!["u_start"],
+            Self::Trigonometric { name, .. } => vec!["kinematics", name],
+            Self::NoFall { .. } => vec!["kinematics"],
+            Self::NotExact { .. } => vec!["solver", "damping_model"],
+            Self::Improbable { error, .. } => error.keys(),
+        }
+    }
+
     /// Adds the numbers that may be the cause.
     pub(crate) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
         if doubts.is_empty() { self } else { Self::Improbable { doubts, error: Box::new(self) } }

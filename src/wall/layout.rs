@@ -1,7 +1,7 @@
 //! Lays out the branches and corners of a wall.
 
 use super::branch::{Branch, Corner};
-use super::damping::DampingInUse;
+use super::damping::DampingLaw;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
 use super::tie::Tie;
@@ -11,7 +11,7 @@ use super::tie::Tie;
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,
-    damping: &DampingInUse,
+    damping: &DampingLaw,
     tie: Option<&Tie>,
     impact: bool,
     fully: bool,
@@ -55,7 +55,7 @@ pub(super) fn branches(
     corners: &[Corner],
     body: &Body,
     force: &RestoringForce,
-    damping: &DampingInUse,
+    damping: &DampingLaw,
     tie: Option<&Tie>,
 ) -> Vec<Branch> {
     let m = body.effective_mass;

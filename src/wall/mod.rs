@@ -10,7 +10,6 @@
 
 mod branch;
 mod capacity;
-mod continuation;
 mod damping;
 mod equation;
 pub mod equivalence;

@@ -2,7 +2,7 @@
 
 use crate::choices::{Mechanism, Solver};
 
-use super::damping::DampingInUse;
+use super::damping::DampingLaw;
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
@@ -102,7 +102,7 @@ impl Warning {
         body: &Body,
         force: &RestoringForce,
         tie: Option<&Tie>,
-        damping: &DampingInUse,
+        damping: &DampingLaw,
         restitution: Option<f64>,
     ) -> Vec<Self> {
         let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);

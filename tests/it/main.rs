@@ -21,6 +21,7 @@ mod closed_forms;
 mod configuration;
 mod demands;
 mod description;
+mod edited_states;
 mod floor_motion;
 mod model_exchange;
 mod numerics;
@@ -36,7 +37,6 @@ mod ties;
 mod trigonometric;
 mod unit;
 mod warnings;
-mod wiring;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {

@@ -25,7 +25,7 @@ pub(crate) fn one_sided() -> impl Strategy<Value = Parameters> {
 
 #[test]
 fn one_sided_rocking_is_alike_in_batches() {
-    batches_agree(one_sided());
+    batches_agree(1, one_sided());
 }
 
 #[test]

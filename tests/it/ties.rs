@@ -124,7 +124,8 @@ proptest! {
 
 #[test]
 fn a_tied_wall_moves_alike_in_batches() {
-    batches_agree(tied());
+    // stiff ties take small steps, and the other walls have all their batches
+    batches_agree(4, tied());
 }
 
 fn tied_parapet() -> Parameters {

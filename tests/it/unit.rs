@@ -10,7 +10,7 @@ use rocking_wall::variables::{
 };
 use rocking_wall::wall::{Parameters, Wall};
 
-use crate::instantiated;
+use crate::{edited_states, instantiated};
 
 /// Outputs that depend on the present state and inputs.
 const OUTPUTS: [V; 9] = [
@@ -326,6 +326,25 @@ fn a_unit_goes_on_from_a_saved_state() {
             step(&mut read, n);
             step(&mut written, n);
         }
+    }
+}
+
+#[test]
+fn edited_states_are_refused_or_work() {
+    let strip = [
+        (I::Mechanism, Mechanism::VerticalSpanning.value()),
+        (I::Impact, rocking_wall::variables::Impact::Restitution.value()),
+    ];
+    for (from, interface, start, choices) in
+        [(0, Interface::CoSimulation, 0.1, &[][..]), (1, Interface::ModelExchange, 0.02, &strip)]
+    {
+        let mut at = unit(interface, &[(V::UStart, start)], choices);
+        if interface == Interface::CoSimulation {
+            let step = Step { from: 0.0, duration: 0.03, may_end_early: false };
+            at.do_step(step, &mut Log::silent()).unwrap();
+        }
+        let other = instantiated(interface, None, &mut Log::silent());
+        assert!(edited_states::are_refused_or_work(&at, &other, from) > 100);
     }
 }
 

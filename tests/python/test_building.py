@@ -19,7 +19,7 @@ from monolith import Monolith, Wall
 
 SCENES = ROOT / "scenes/building"
 EL_CENTRO = Path(os.environ.get("ROCKING_WALL_RECORDS", "no records")) / "RSN6_IMPVALL.I_I-ELC180.AT2"
-END = 4.0
+END = 2.5
 SCALE = 0.5
 
 

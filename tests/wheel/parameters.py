@@ -1,8 +1,9 @@
 """Writes `_parameters.py`, the parameters of a wall and what follows from them, from the model description.
 
-Run it in an environment with the wheel: python tests/wheel/parameters.py
+`cargo xtask generate python` runs it; with --check it says what is stale.
 """
 
+import sys
 import textwrap
 from pathlib import Path
 
@@ -16,7 +17,7 @@ GIVEN_HEAD = "    _native: _native.Wall\n"
 
 HEAD = '''"""The parameters of a wall, and what follows from them.
 
-Written by `tests/wheel/parameters.py` from the model description.
+Written by `cargo xtask generate python` from the model description.
 """
 
 from collections.abc import Sequence
@@ -79,8 +80,8 @@ def text() -> str:
 def given() -> str:
     """Returns the text of the file of the attributes."""
     head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
-    names = [(each["name"], "Name" if each["choices"] else "Number") for each in _native.variables()]
-    lines = [f"    {name} = {kind}()\n" for name, kind in [*names, ("kinematics", "Name")]]
+    names = [(each["name"], "str" if each["choices"] else "float") for each in _native.variables()]
+    lines = [f"    {name} = Parameter[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
     return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
 
 
@@ -101,6 +102,15 @@ def calculated() -> str:
     return "\n".join(lines) + "\n"
 
 
+def stale() -> list[Path]:
+    """Returns the files that are not what they should be."""
+    return [file for file, made in FILES.items() if file.read_text(encoding="utf-8") != made()]
+
+
+FILES = {FILE: text, GIVEN: given}
+
 if __name__ == "__main__":
-    FILE.write_text(text(), encoding="utf-8")
-    GIVEN.write_text(given(), encoding="utf-8")
+    if "--check" in sys.argv:
+        sys.exit("\n".join(f"{file}: run `cargo xtask generate python`" for file in stale()) or None)
+    for file, made in FILES.items():
+        file.write_text(made(), encoding="utf-8")

@@ -38,7 +38,7 @@ def assert_stops(*arguments):
     """Starts Python, sends Ctrl-C and waits for its end, which would otherwise come minutes later."""
     with subprocess.Popen([sys.executable, "-c", *arguments], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "started\n"
-        time.sleep(0.5)
+        time.sleep(0.2)
         assert process.poll() is None, "the work is not long enough"
         process.send_signal(signal.SIGINT)
         told, _ = process.communicate(timeout=30)

@@ -1,4 +1,4 @@
-//! `cargo xtask codemeta`: `codemeta.json`, from `Cargo.toml` and `CITATION.cff`.
+//! `codemeta.json`, from `Cargo.toml` and `CITATION.cff`.
 
 use crate::command::{Result, root};
 
@@ -15,7 +15,7 @@ pub(crate) fn run(check: bool) -> Result<()> {
     if read("codemeta.json")? == text {
         return Ok(());
     }
-    Err("codemeta.json is not what Cargo.toml and CITATION.cff say: run `cargo xtask codemeta`".to_owned())
+    Err("codemeta.json is not what Cargo.toml and CITATION.cff say: run `cargo xtask generate`".to_owned())
 }
 
 fn read(name: &str) -> Result<String> {

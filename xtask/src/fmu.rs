@@ -5,7 +5,6 @@ use std::process::Command;
 
 use crate::command::{Result, cargo, program, root, succeed, target};
 use crate::platform::{self, Platform, check_rust_library, reproducible};
-use crate::universal;
 
 /// The linker of the library.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -93,7 +92,7 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
         match libraries.iter_mut().find(|(other, _)| *other == folder) {
             Some((_, joined)) => {
                 let universal = library.with_extension("universal");
-                universal::join(&[joined, &library], &universal)?;
+                platform::join(&[joined, &library], &universal)?;
                 *joined = universal;
             }
             None => libraries.push((folder, library)),

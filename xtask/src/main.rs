@@ -14,18 +14,16 @@ mod demo;
 mod figures;
 mod fmu;
 mod fuzz;
+mod generate;
 mod images;
 mod mutants;
-mod package;
 mod platform;
 mod playground;
 mod portable;
 mod python;
 mod release;
 mod test;
-mod universal;
 mod wheel;
-mod workflows;
 
 use std::process::ExitCode;
 
@@ -56,8 +54,9 @@ The jobs of the project.
                                    checksums; and target/fmi-compatibility/; TAG is checked;
                                    --platforms as for fmu, to compare a part
   cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
-  cargo xtask codemeta [--check]   write codemeta.json from Cargo.toml and CITATION.cff
-                                   --check: fail if it is stale
+  cargo xtask generate [PART]      write what is derived: metadata (codemeta.json), documents (their marked
+                                   parts), python (the parameters in the package); or one of these
+                                   --check: say what is stale instead
   cargo xtask fuzz                 feed mutated inputs to five readers for a minute each, and call the FMI
                                    functions 10^6 times at random, and 50,000 times under AddressSanitizer
                                    (nightly)
@@ -104,14 +103,14 @@ fn main() -> ExitCode {
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
         ["portable"] => portable::run(),
-        ["package"] => package::run(),
+        ["package"] => release::package(),
         ["release"] => release::run(None, fmu::PORTABLE),
         ["release", "--platforms", names] => release::run(None, names),
         ["release", tag] => release::run(Some(tag), fmu::PORTABLE),
         ["fuzz"] => fuzz::run(),
-        ["workflows"] => workflows::check(),
-        ["codemeta"] => codemeta::run(false),
-        ["codemeta", "--check"] => codemeta::run(true),
+        ["workflows"] => release::check_workflows(),
+        ["generate", "--check", parts @ ..] => generate::run(parts, true),
+        ["generate", parts @ ..] => generate::run(parts, false),
         ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),

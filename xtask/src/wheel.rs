@@ -46,7 +46,7 @@ pub(crate) fn is_linked_here(platform: &Platform) -> bool {
 pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
     let folder = target().join("wheels").join(platform.map_or(profile, |platform| platform.fmi3));
     let mut build = maturin("build", unit)?;
-    build.args(["--locked", "--profile", profile]);
+    build.args(["--locked", "--profile", profile, "--generate-stubs"]);
     if let Some(platform) = platform {
         build.args(["--zig", "--target", platform.target]);
         if platform.target.ends_with("linux-gnu") {

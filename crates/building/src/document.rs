@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use fmu_export::{Causality, Kind, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
 use rocking_wall::scene::{
-    Group, LONGEST_RUN, Place, SceneError, check_limits, number, parse_toml, read_text,
+    self, Group, LONGEST_RUN, Place, SceneError, Schema, check_limits, file_schema, number, object,
+    parse_toml, read_text, text, with,
 };
-use serde::Deserialize;
+use rocking_wall::tables;
 use toml::{Spanned, Value};
 
 /// The name that stands for the ground where a storey's would.
@@ -83,35 +84,68 @@ pub struct Building {
     pub walls: Vec<Member>,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document {
-    title: Option<String>,
-    stop_time: Option<Spanned<f64>>,
-    step: Option<Spanned<f64>>,
-    /// Off by default: not every tool supports inputs of a system.
-    #[serde(default)]
-    expose_ground: bool,
-    #[serde(default)]
-    floor: Vec<Group>,
-    #[serde(default)]
-    wall: Vec<WallTable>,
+tables! {
+    /// A building.
+    #[derive(Debug)]
+    struct Document {
+        /// Title, for people; by default the file's name.
+        title: Option<String>,
+        /// End of the default experiment \[s\].
+        #[key(exclusiveMinimum = 0, maximum = LONGEST_RUN, default = DEFAULT_STOP_TIME)]
+        stop_time: Option<Spanned<f64>>,
+        /// Communication step of the SSP \[s\]; by default the one that held inputs need for 1 %.
+        #[key(exclusiveMinimum = 0)]
+        step: Option<Spanned<f64>>,
+        /// Whether the ground's acceleration `a_g` is an input of the system, which not every tool supports.
+        #[serde(default)]
+        #[key(default = false)]
+        expose_ground: bool,
+        /// Storeys, each on the ground or on one before it: name, on, and the parameters of a floor.
+        #[serde(default)]
+        #[key(items = floor_schema(), minItems = 1)]
+        floor: Vec<Group>,
+        /// Walls and their places.
+        #[serde(default)]
+        wall: Vec<WallTable>,
+    }
+
+    /// A wall and its place.
+    #[derive(Debug)]
+    struct WallTable {
+        /// Name: letters, digits and _, a letter first.
+        name: Spanned<String>,
+        /// Scene file, relative to the building file.
+        scene: PathBuf,
+        /// Storey of the bottom support, or ground.
+        bottom: Spanned<String>,
+        /// Storey of the top support of a strip wall, or ground.
+        top: Option<Spanned<String>>,
+        /// Whether the drift between the supports acts; by default where it is a storey's own displacement.
+        drift: Option<Spanned<bool>>,
+    }
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WallTable {
-    name: Spanned<String>,
-    scene: PathBuf,
-    bottom: Spanned<String>,
-    top: Option<Spanned<String>>,
-    /// By default, on wherever the drift is a storey's own displacement.
-    drift: Option<Spanned<bool>>,
+/// Describes a storey: its name and place, and the parameters of a floor.
+fn floor_schema() -> Schema {
+    let own = [
+        ("name", text("Name: letters, digits and _, a letter first.")),
+        ("on", with(text("Storey that it stands on."), "default", GROUND)),
+    ];
+    let mut keys: Schema = own.map(|(key, schema)| (key.to_owned(), schema.into())).into_iter().collect();
+    keys.extend(
+        parameters().filter_map(|variable| Some((variable.name.to_owned(), scene::parameter(variable)?))),
+    );
+    with(object(keys), "required", vec!["name"])
 }
 
 type Result<T> = std::result::Result<T, SceneError>;
 
 impl Building {
+    /// Returns the JSON schema of building files.
+    pub fn schema() -> Schema {
+        with(file_schema::<Document>("Building of rocking-wall"), "required", vec!["floor"])
+    }
+
     /// Reads the file of a building.
     ///
     /// # Errors
@@ -221,17 +255,19 @@ fn read_floor(table: &Group, before: &[Floor], place: &Place<'_>) -> Result<(Spa
     Ok((name.clone(), Floor { name: name.into_inner(), base, parameters }))
 }
 
+/// The parameters of a floor that a storey may state; reactions couple the members of a building.
+fn parameters() -> impl Iterator<Item = &'static Variable> {
+    let choices = IntegerVariable::ALL.iter().map(|id| id.variable());
+    let all = choices.chain(RealVariable::ALL.iter().map(|id| id.variable()));
+    all.filter(|variable| variable.causality == Causality::Parameter && variable.name != "coupling")
+}
+
 /// A parameter of a storey, within the limits of the floor's description.
 fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String> {
-    let real = RealVariable::from_name(name).map(VariableId::variable);
-    let choice = IntegerVariable::from_name(name).map(VariableId::variable);
-    let known = real.or(choice).filter(|variable| variable.causality == Causality::Parameter);
-    let Some(variable) = known.filter(|variable| variable.name != "coupling") else {
-        let all = RealVariable::ALL.iter().map(|id| id.variable());
-        let all = all.filter(|variable| variable.causality == Causality::Parameter);
-        let names: Vec<_> = all.map(|variable| variable.name).collect();
+    let Some(variable) = parameters().find(|variable| variable.name == name) else {
+        let names: Vec<_> = parameters().map(|variable| variable.name).collect();
         return Err(format!(
-            "{name:?} is not a key of [[floor]]; its keys are name, on, hysteresis, {}",
+            "{name:?} is not a key of [[floor]]; its keys are name, on, {}",
             names.join(", ")
         ));
     };

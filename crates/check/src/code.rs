@@ -23,7 +23,7 @@ use std::fmt::{self, Write};
 
 use report::number;
 use report::table::{Cell, Column, Digits, Table};
-use rocking_wall::scene::{Floors, Scene, suggestion};
+use rocking_wall::scene::{Floors, Scene, Schema, suggestion, with};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::Value;
 
@@ -51,6 +51,8 @@ pub struct Entry {
     pub checks: &'static [&'static str],
     /// The smallest table `[check]` that it takes, in one line.
     pub example: &'static str,
+    /// Describes the keys of that table for a JSON schema.
+    pub(crate) describe: fn(&str, &mut Schema) -> Schema,
     /// Reads that table.
     pub(crate) read: fn(&CheckFile<'_>) -> Result<Box<dyn Code>, CheckError>,
 }
@@ -185,6 +187,12 @@ pub trait Details {
 pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>) -> Table {
     let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
     Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, Digits::Significant(6)))))
+}
+
+/// Describes the table `[check]`, that of any code, and adds the tables that it refers to.
+pub fn schema(tables: &mut Schema) -> Schema {
+    let codes = CODES.map(|code| (code.describe)("check", tables));
+    with(Schema::new(), "anyOf", codes.to_vec())
 }
 
 /// Says how to write a table `[check]`.

@@ -11,7 +11,7 @@ mod report;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read};
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read, schema};
 pub use error::CheckError;
 pub use file::CheckFile;
 pub use find::{Found, Sought, find};

@@ -101,10 +101,8 @@
 
 mod access;
 mod call;
-mod failure;
 pub mod ffi;
 mod guid;
-mod hash;
 mod input;
 mod instance;
 mod limits;
@@ -114,11 +112,10 @@ mod state;
 mod uri;
 mod variable;
 
-pub use failure::Failure;
-pub use hash::fnv1a_128;
+pub use guid::fnv1a_128;
 pub use input::Input;
 pub use log::{Category, Filter, Log, Sink, Status};
-pub use model::{Environment, Experiment, Interface, Model, ModelExchange, Step, Update};
+pub use model::{Environment, Experiment, Failure, Interface, Model, ModelExchange, Step, Update};
 pub use state::StateCodec;
 pub use uri::path_from_location;
 pub use variable::{

@@ -1,6 +1,6 @@
 //! Which values a variable may have.
 
-use crate::failure::Failure;
+use crate::model::Failure;
 use crate::variable::{Item, Kind, Variable};
 
 /// Returns `value` if it is finite.

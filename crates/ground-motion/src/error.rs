@@ -79,6 +79,27 @@ pub enum GroundMotionError {
     Content { file: String, line: usize, expected: String, found: String, remedy: String },
 }
 
+impl GroundMotionError {
+    /// Returns the key of the value that the error is about, as scenes and options of records have it.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Step { .. } => Some("step"),
+            Self::Factor { .. } => Some("scale"),
+            Self::Peak { .. } | Self::NoPeak { .. } | Self::Acceleration { .. } => Some("pga"),
+            Self::Trim { .. } => Some("from"),
+            // without its unit
+            Self::Parameter { name, .. } => name.split(' ').next(),
+            Self::Endless => Some("duration"),
+            Self::TooManySamples { .. } => Some("frequency"),
+            Self::Unit { .. } => Some("unit"),
+            Self::Format { .. } => Some("format"),
+            Self::Channels { .. } | Self::Channel { .. } => Some("channel"),
+            Self::Io { .. } | Self::Content { .. } => Some("record"),
+            Self::TooFewSamples { .. } | Self::NotFinite { .. } => None,
+        }
+    }
+}
+
 /// Refuses a parameter that is outside its limits.
 pub(crate) fn check_parameter(
     holds: bool,

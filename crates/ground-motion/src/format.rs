@@ -58,6 +58,35 @@ impl Format {
         Self::Csv,
         Self::Numbers,
     ];
+
+    /// Lists what people call the formats.
+    ///
+    /// ```
+    /// assert!(ground_motion::Format::listed().starts_with("PEER AT2, ESM/ITACA, K-NET/KiK-net"));
+    /// ```
+    pub fn listed() -> String {
+        Self::ALL.map(Self::description).join(", ")
+    }
+
+    /// Returns by what people know its files: their ending, their origin.
+    pub fn files(self) -> &'static str {
+        match self {
+            Self::At2 => "NGA-West and older",
+            Self::Esm => "`.ASC`; ITACA before DYNA 1.2; AFAD `.asc` (Türkiye)",
+            Self::Knet => "`.EW`, `.NS` …",
+            Self::KnetCsv => "NIED's CSV with `RelativeTime(s)`",
+            Self::Cosmos => "`.V2c`",
+            Self::Csmip => "`.V2`, also of CDMG",
+            Self::Smc => "`.smc`; not the unevenly spaced pairs of film",
+            Self::Geonet => "`.V1A`, `.V2A` (New Zealand)",
+            Self::Afad => "text with three columns (Türkiye)",
+            Self::Cwa => "`.dat`, `.txt`, formerly of CWB (Taiwan)",
+            Self::Unam => "`ARCHIVO ESTANDAR DE ACELERACION` 2.0 (Mexico)",
+            Self::Volume1 => "volume 1, `.v1` (Chile, Iran)",
+            Self::Csv => "or text: one column, or times and accelerations",
+            Self::Numbers => "several a line, as for OpenSees",
+        }
+    }
 }
 
 impl FromStr for Format {

@@ -50,16 +50,3 @@ pub(crate) struct Inputs {
 pub(crate) fn fault_of(field: impl Into<String>, message: impl Into<String>) -> Faults {
     Faults::from([(field.into(), message.into())])
 }
-
-/// Finds the field that a message names first; `otherwise` where it names none of them.
-pub(crate) fn field_of<'a>(
-    message: &str,
-    fields: impl IntoIterator<Item = &'a str>,
-    otherwise: &str,
-) -> String {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let words: Vec<&str> = message.split(|c: char| !is_part(c)).collect();
-    let place = |field: &&str| words.iter().position(|word| word == field);
-    let found = fields.into_iter().filter_map(|field| place(&field).map(|place| (place, field))).min();
-    found.map_or(otherwise, |(_, field)| field).to_owned()
-}

@@ -9,7 +9,7 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::check;
-use crate::request::{Faults, Fields, Inputs, fault_of, field_of};
+use crate::request::{Faults, Fields, Inputs, fault_of};
 use crate::upload::Upload;
 
 /// Most points of a history: more than a screen shows.
@@ -36,8 +36,8 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
         return Err(faults);
     }
     let wall = Wall::new(&scene.parameters).map_err(|error| {
-        let message = error.to_string();
-        fault_of(field_of(&message, inputs.parameters.keys().map(String::as_str), "wall"), message)
+        let field = error.keys().into_iter().find(|key| inputs.parameters.contains_key(*key));
+        fault_of(field.unwrap_or("wall"), error.to_string())
     })?;
     // a multiple of the step of the motion
     scene.output_step *= (scene.stop_time / (MOST_POINTS * scene.output_step)).ceil().max(1.0);
@@ -66,12 +66,13 @@ fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fault
     let text = table(kind, motion)?;
     let scene = Scene::parse("motion", &format!("[motion]\n{text}"), Path::new("."));
     let scene = scene.map_err(|error| {
+        let field = error.key().filter(|key| motion.contains_key(*key)).unwrap_or("motion").to_owned();
         let message = match error {
             SceneError::Line { message, .. } => message,
             SceneError::Motion { source, .. } => source.to_string(),
             other => other.to_string(),
         };
-        fault_of(field_of(&message, motion.keys().map(String::as_str), "motion"), message)
+        fault_of(field, message)
     })?;
     Ok((scene, text))
 }

@@ -53,7 +53,7 @@ fn the_scene_file_computes_the_same() {
 #[test]
 fn charts_have_any_width() {
     let mut session = Session::default();
-    for width in (270..1250).step_by(7).map(f64::from).flat_map(|width| [width, width + 0.328_125]) {
+    for width in (270..1250).step_by(41).map(f64::from).flat_map(|width| [width, width + 0.328_125]) {
         let motion = json!({ "kind": "sine_cycle", "amplitude": "1.5", "frequency": "1", "duration": "1" });
         let answer =
             ask(&mut session, &json!({ "run": { "parameters": {}, "motion": motion, "width": width } }));

@@ -11,8 +11,8 @@ use study::calibration::{
 use crate::arrays::samples;
 use crate::errors::{failed, refused};
 use crate::tables;
-use crate::threads::{self, Threads};
 use crate::walls::Wall;
+use crate::watch::{self, Threads};
 
 /// Calibrates damping models of a wall; returns the tables of fits, coefficients and laws, and the charts.
 #[pyfunction]
@@ -38,7 +38,7 @@ pub(crate) fn calibrate_wall<'py>(
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
         None => calibrated_models(parameters),
     };
-    let threads = threads::count(threads);
+    let threads = watch::count(threads);
     let mut found = Vec::with_capacity(models.len());
     for model in models {
         grid.check(model).map_err(of_calibration)?;

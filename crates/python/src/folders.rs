@@ -8,7 +8,7 @@ use study::folder::FolderError;
 
 use crate::errors::{failed, refused};
 use crate::studies::Study;
-use crate::threads::{self, Threads};
+use crate::watch::{self, Threads};
 
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -41,7 +41,7 @@ impl Folder {
 
     /// Writes the results of a complete folder; returns the summary and what the fits warn of.
     fn finish(&self, py: Python<'_>, threads: Option<Threads>) -> PyResult<(String, Option<String>)> {
-        let threads = threads::count(threads).get();
+        let threads = watch::count(threads).get();
         let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
         Ok((report.summary, report.warning))
     }

@@ -9,8 +9,7 @@
 //! | `errors` | errors of the libraries as exceptions |
 //! | `arrays` | samples from Python, arrays to Python |
 //! | `tables` | tables for Python |
-//! | `threads` | the number of threads that is asked for |
-//! | `watch` | work on another thread, while this one looks at Ctrl-C |
+//! | `watch` | the number of threads, and work on another one while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the parameters of the model description |
 //! | `responses` | results of a run |
@@ -38,7 +37,6 @@ mod spectra;
 mod studies;
 mod study_walls;
 mod tables;
-mod threads;
 mod ties;
 mod variables;
 mod verification;

@@ -15,8 +15,8 @@ use study::spectrum::{
 use crate::arrays::{MotionValues, Numbers, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
-use crate::threads::{self, Threads};
 use crate::walls::Wall;
+use crate::watch::{self, Threads};
 
 /// Columns, rows, and the table of `wall study spectrum --csv`.
 type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>);
@@ -40,7 +40,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
     check_count(columns.len(), rows.len())?;
-    let threads = threads::count(threads).get();
+    let threads = watch::count(threads).get();
     let quantities = [size.quantity(), slenderness.quantity()];
     let mut points = Vec::with_capacity(rows.len());
     // between two rows this thread looks at Ctrl-C
@@ -70,7 +70,7 @@ pub(crate) fn spectrum_over_pulses<'py>(
         .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
-    let (parameters, threads) = (&wall.scene.parameters, threads::count(threads).get());
+    let (parameters, threads) = (&wall.scene.parameters, watch::count(threads).get());
     let quantities = [QUANTITIES[4], QUANTITIES[5]];
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {

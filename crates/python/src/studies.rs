@@ -22,8 +22,8 @@ use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 use crate::tables::Columns;
-use crate::threads::{self, Threads};
 use crate::watch::watched;
+use crate::watch::{self, Threads};
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -64,9 +64,9 @@ impl Study {
         let record =
             |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
-        let made = py.detach(|| LoadedStudy::of_parts(text.clone(), walls, records));
+        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
-            SceneError::Line { line, message, .. } => refused(of_argument(&text, line, &message)),
+            SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),
             other => refused(other),
         })?;
         loaded.warnings.splice(..0, warnings);
@@ -153,7 +153,7 @@ impl Study {
         progress: &Bound<'py, PyAny>,
     ) -> PyResult<[Bound<'py, PyDict>; 3]> {
         let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = threads::count(threads).get();
+        let threads = watch::count(threads).get();
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
@@ -216,7 +216,6 @@ impl Study {
 }
 
 /// Names the argument in a message. The user has not written the text, which has a line for each argument.
-fn of_argument(text: &str, line: usize, message: &str) -> String {
-    let argument = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next()).unwrap_or_default();
+fn of_argument(argument: &str, message: &str) -> String {
     if message.starts_with(argument) { message.to_owned() } else { format!("{argument}: {message}") }
 }

@@ -11,8 +11,8 @@ use study::tie::{Outcome, Row, TieError, TieStudy, table};
 use crate::arrays::{MotionValues, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
-use crate::threads::{self, Threads};
 use crate::walls::Wall;
+use crate::watch::{self, Threads};
 
 /// Runs for each thread between two looks at Ctrl-C.
 const RUNS_AT_ONCE: usize = 4;
@@ -32,7 +32,7 @@ pub(crate) fn tie_of_wall<'py>(
     let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
     let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
     let stiffnesses = study.stiffnesses(&given).map_err(refused)?;
-    let threads = threads::count(threads).get();
+    let threads = watch::count(threads).get();
     let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
     let mut rows = Vec::with_capacity(stiffnesses.len());
     for stiffnesses in stiffnesses.chunks(at_once) {

@@ -1,11 +1,15 @@
-//! Work on another thread, while this one looks at Ctrl-C.
+//! The number of threads that a user asks for, and work on another thread while this one looks at Ctrl-C.
 
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use run::parallel::STACK;
+use run::parallel::{self, STACK};
+
+use crate::errors::refused;
 
 /// Time between two looks at Ctrl-C and at the progress.
 const LOOK: Duration = Duration::from_millis(50);
@@ -41,4 +45,28 @@ pub(crate) fn watched<T: Send>(
     })?;
     let outcome = outcome.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     watched.map(|()| outcome)
+}
+
+/// A number of threads.
+pub(crate) struct Threads(NonZeroUsize);
+
+impl<'py> FromPyObject<'_, 'py> for Threads {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let message = || {
+            let shown = given.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
+            format!("threads = {shown} must be a whole number from 1 on, or None for one for each core")
+        };
+        let is_whole = given.hasattr("__index__")?;
+        let number = given.extract::<NonZeroUsize>();
+        number
+            .map(Self)
+            .map_err(|_| if is_whole { refused(message()) } else { PyTypeError::new_err(message()) })
+    }
+}
+
+/// Returns the number of threads asked for, or one for each core.
+pub(crate) fn count(given: Option<Threads>) -> NonZeroUsize {
+    parallel::threads(given.map(|Threads(number)| number))
 }

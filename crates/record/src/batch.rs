@@ -10,8 +10,8 @@ use crate::forcing::{Blocks, Forcing};
 use crate::lanes::Lanes;
 use crate::number::{Eight, WIDTH};
 use crate::responses::Responses;
-use crate::solver::{Observer, Outcome, RecordSolver, RunStart, Unseen};
-use crate::table::{Law, Way};
+use crate::solver::{NoObserver, Observer, Outcome, RecordSolver, RunStart};
+use crate::table::{Law, Stepping};
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
 pub const LANES: usize = WIDTH;
@@ -29,7 +29,7 @@ impl RecordSolver<'_> {
         forcing: Forcing<'_>,
         until_overturning: bool,
     ) -> Result<Outcome, SolverError> {
-        self.run_through(start, &Blocks::new(forcing), until_overturning, Unseen)
+        self.run_through(start, &Blocks::new(forcing), until_overturning, NoObserver)
     }
 
     /// Moves a wall through a record as [`run`](Self::run) does, and shows `observe` the number, u \[m\] and
@@ -124,7 +124,7 @@ pub(crate) enum SideBySide {
 impl SideBySide {
     pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
         let RecordSolver { motion, table, .. } = solver;
-        if table.ways.contains(&Way::Curved) {
+        if table.steppings.contains(&Stepping::Curved) {
             return Some(Self::Curved);
         }
         Responses::new(motion, table, forcing).map(Self::Affine)
@@ -172,38 +172,38 @@ impl Batch<'_> {
     /// # Errors
     /// [`SolverError`] of the first start that could not be followed, as of [`RecordSolver::run`].
     pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
-        let lanes = Lanes::new(self.solver, &self.record, starts, until_overturning, Unseen);
+        let lanes = Lanes::new(self.solver, &self.record, starts, until_overturning, NoObserver);
         match &self.side_by_side {
             #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx2(simd), steps)) => abreast(*simd, steps, lanes),
+            Some((Vectors::Avx2(simd), steps)) => in_lanes(*simd, steps, lanes),
             #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx512(simd), steps)) => abreast(*simd, steps, lanes),
+            Some((Vectors::Avx512(simd), steps)) => in_lanes(*simd, steps, lanes),
             _ => lanes.one_by_one(),
         }
     }
 }
 
 /// Follows runs side by side.
-pub(crate) fn abreast<S: Simd>(
+pub(crate) fn in_lanes<S: Simd>(
     simd: S,
     steps: &SideBySide,
-    lanes: Lanes<'_, Unseen>,
+    lanes: Lanes<'_, NoObserver>,
 ) -> Result<Vec<Outcome>, SolverError> {
     simd.vectorize(
         #[inline(always)]
         || match (steps, lanes.solver.table.law) {
             (SideBySide::Affine(responses), _) => lanes.side_by_side(
-                Way::Affine,
+                Stepping::Affine,
                 #[inline(always)]
                 |lanes, busy| lanes.affine_steps::<Eight<S>>(simd, 0, busy, Some(responses)),
             ),
             (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(
-                Way::Curved,
+                Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S>, ByRatio>(simd, 0, busy),
             ),
             (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(
-                Way::Curved,
+                Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S>, ByStiffness>(simd, 0, busy),
             ),

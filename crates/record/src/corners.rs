@@ -4,7 +4,7 @@ use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, Line};
 use crate::number::{BranchRow, Number, Row, index};
 use crate::solver::{Observer, RecordSolver};
-use crate::table::exit;
+use crate::table::end_kind;
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
@@ -183,8 +183,8 @@ impl<O: Observer> Lanes<'_, O> {
         let (found, time, velocity) = part.find(corner, table.terms);
         // kinds of exits rise: closed, ordinary, curved, impact
         let beyond = |kind: f64| N::splat(token, kind).below(exit);
-        let impact = beyond(exit::CURVED);
-        let ordinary = beyond(exit::CLOSED) & !impact;
+        let impact = beyond(end_kind::CURVED);
+        let ordinary = beyond(end_kind::CLOSED) & !impact;
         let velocity = N::select(impact, velocity * self.solver.passage_factor, velocity);
         let rest_speed = N::splat(token, self.solver.motion.rest_speed());
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
@@ -196,7 +196,7 @@ impl<O: Observer> Lanes<'_, O> {
         let length = part.length - time;
         let [u, v, _] = line.after(table.terms, length, from, part.rate);
         let impacts = part.impacts + N::select(lanes & impact, N::splat(token, 1.0), zero);
-        let curved = lanes & ordinary & beyond(exit::ORDINARY);
+        let curved = lanes & ordinary & beyond(end_kind::ORDINARY);
         let lanes = lanes & !curved;
         (Part { lanes, branch, line, from, to: [u, v], length, forcing, impacts, ..*part }, curved)
     }

@@ -8,7 +8,7 @@ use crate::lanes::{Lanes, Rows, Waiting, each};
 use crate::number::{BranchRow, Number, Row, WIDTH, index};
 use crate::regularised::Regularised;
 use crate::solver::Observer;
-use crate::table::{Law, Table, exit, get};
+use crate::table::{Law, Table, end_kind, get};
 
 /// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a
 /// series fall fast enough to end at its order.
@@ -378,7 +378,7 @@ impl<O: Observer> Lanes<'_, O> {
         };
         let known = rows.limits[0][lane] <= end[0] && end[0] <= rows.limits[1][lane];
         let open = get(&table.exits[side], branch);
-        if !known || !(finished || open == exit::ORDINARY || open == exit::CURVED) {
+        if !known || !(finished || open == end_kind::ORDINARY || open == end_kind::CURVED) {
             return None;
         }
         let rows = &mut self.rows;

@@ -1,11 +1,11 @@
-//! Runs in lanes: how far each has come in its record, block by block, with its bounds and extremes.
+//! State of the runs that share a vector: position in the record, bounds of the block, extremes.
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
 use crate::number::{Row, WIDTH, index};
 use crate::solver::{Observer, Outcome, RecordSolver, RunStart};
-use crate::table::Way;
+use crate::table::Stepping;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
 const ROOM: f64 = 4.0;
@@ -46,7 +46,7 @@ pub(crate) struct Run {
     pub(crate) overturned: bool,
     pub(crate) departed: bool,
     pub(crate) peaks: Peaks,
-    /// f̂ \[m/s²\].
+    /// Bound f̂ on the force per mass while |u| stays within the reach of the block \[m/s²\].
     pub(crate) force: f64,
     pub(crate) overturning: Option<f64>,
     /// Work of the general search, and the steps left to it.
@@ -114,7 +114,7 @@ pub(crate) struct Lanes<'a, O> {
     pub(crate) observer: O,
     pub(crate) pass: Pass,
     /// The steps that lanes take side by side.
-    pub(crate) joins: Option<Way>,
+    pub(crate) together: Option<Stepping>,
     /// The run of each lane that has had one.
     pub(crate) runs: Vec<Run>,
     pub(crate) starts: &'a [RunStart],
@@ -154,7 +154,7 @@ impl<'a, O: Observer> Lanes<'a, O> {
             rows: Rows::default(),
             observer,
             pass: Pass::Motion { until_overturning },
-            joins: None,
+            together: None,
             runs: Vec::new(),
             starts,
             next: 0,

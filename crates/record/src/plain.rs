@@ -29,7 +29,7 @@ impl<N: Number> Range<N> {
     }
 }
 
-/// What lanes have come to: u and u̇, their steps, and the extremes at the ends of these.
+/// Result of a step of each lane: u and u̇, the steps taken, and the extremes at their ends.
 #[derive(Clone, Copy)]
 struct Reached<N> {
     now: [N; 2],
@@ -115,7 +115,7 @@ impl<O: Observer> Lanes<'_, O> {
             let goes = if N::LANES == 1 {
                 self.plain_alone(token, first, &range, ready)
             } else if let Some(responses) = responses {
-                self.plain_abreast(token, first, &range, (ready, few), responses)
+                self.plain_in_lanes(token, first, &range, (ready, few), responses)
             } else {
                 N::mask(token, 0)
             };
@@ -148,7 +148,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Takes plain steps side by side, by the responses of the branches to the record.
     #[inline(always)]
-    fn plain_abreast<N: Number>(
+    fn plain_in_lanes<N: Number>(
         &mut self,
         token: N::Token,
         first: usize,
@@ -263,7 +263,7 @@ impl<O: Observer> Lanes<'_, O> {
         let waits = N::mask(token, waiting);
         let mut reached = Reached::start(token, &self.rows, first);
         let before = reached.now;
-        let part = self.stay(token, first, bounds, waits, &mut reached);
+        let part = self.stay_on_branch(token, first, bounds, waits, &mut reached);
         if O::SEES {
             let sample = index(self.rows.index[first]);
             self.see_steps(first, sample, before.map(|x| x.lane(0)), index(reached.steps.lane(0)));
@@ -284,7 +284,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Takes up to four steps in which lanes stay on their branch and within the limits of u, also between
     /// samples. Returns the next step of the lanes that leave their branch in it.
     #[inline(always)]
-    fn stay<N: Number>(
+    fn stay_on_branch<N: Number>(
         &self,
         token: N::Token,
         first: usize,

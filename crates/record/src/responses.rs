@@ -9,7 +9,7 @@ use rocking_wall::solver::Motion;
 use crate::affine::Affine;
 use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
 use crate::number::WIDTH;
-use crate::table::{LONGEST, Table, Way};
+use crate::table::{LONGEST, Stepping, Table};
 
 /// Rows that a lane may read from where it is: those of a block by four steps at once, and one more. By two
 /// it is half a block, and lanes go on in the next round.
@@ -36,9 +36,9 @@ impl Responses {
     pub(crate) fn new(motion: &Motion, table: &Table, forcing: Forcing<'_>) -> Option<Self> {
         let count = forcing.count();
         if !(4 * MOST_AT_ONCE..=MOST_SAMPLES).contains(&count)
-            || table.ways.len() > WIDTH
+            || table.steppings.len() > WIDTH
             || table.longest > LONGEST
-            || table.ways.iter().any(|way| *way != Way::Affine)
+            || table.steppings.iter().any(|stepping| *stepping != Stepping::Affine)
         {
             return None;
         }

@@ -8,7 +8,7 @@ use rocking_wall::solver::{Memo, Phase, SolverError, State, Work};
 use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
 use crate::number::{WIDTH, index};
 use crate::solver::{Observer, Outcome, RunStart};
-use crate::table::{Law, Way};
+use crate::table::{Law, Stepping};
 
 impl<O: Observer> Lanes<'_, O> {
     /// Follows all runs to their ends, one after the other.
@@ -23,25 +23,25 @@ impl<O: Observer> Lanes<'_, O> {
         self.outcomes()
     }
 
-    /// Follows all runs to their ends, side by side where they take steps of one kind; `round` takes such
-    /// steps until lanes wait.
+    /// Runs everything to the end. Runs on the same kind of branch step together (`round`) until one needs
+    /// work of its own.
     ///
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     #[inline(always)]
     pub(crate) fn side_by_side(
         mut self,
-        joins: Way,
+        together: Stepping,
         round: impl Fn(&mut Self, u8) -> Waiting,
     ) -> Result<Vec<Outcome>, SolverError> {
-        self.joins = Some(joins);
+        self.together = Some(together);
         for pass in [self.pass, Pass::Extremes] {
             self.pass = pass;
             let mut busy = (0..WIDTH).fold(0, |busy, lane| busy | u8::from(self.fill(lane)) << lane);
             while busy != 0 {
                 let Waiting { ended, stuck } = round(&mut self, busy);
                 for lane in each(ended | stuck) {
-                    let goes = stuck >> lane & 1 == 0 || self.unblock(lane);
+                    let goes = stuck >> lane & 1 == 0 || self.resolve(lane);
                     if !(goes && self.alone(lane) || self.fill(lane)) {
                         busy &= !(1 << lane);
                     }
@@ -62,8 +62,8 @@ impl<O: Observer> Lanes<'_, O> {
         Ok(self.outcomes)
     }
 
-    /// Follows the next runs in a lane, each by itself, up to the first that comes to steps taken side by
-    /// side; returns whether there is one.
+    /// Advances the next runs of a lane one by one until one can join the vector steps; returns whether there
+    /// is one.
     fn fill(&mut self, lane: usize) -> bool {
         while self.start_next(lane) {
             if self.alone(lane) {
@@ -138,25 +138,25 @@ impl<O: Observer> Lanes<'_, O> {
             // AVX2 code is faster, as its instructions take three operands, and rounds alike
             return avx2.vectorize(
                 #[inline(always)]
-                || self.go_alone(lane),
+                || self.run_alone(lane),
             );
         }
-        self.go_alone(lane)
+        self.run_alone(lane)
     }
 
     #[inline(always)]
-    fn go_alone(&mut self, lane: usize) -> bool {
+    fn run_alone(&mut self, lane: usize) -> bool {
         while self.in_block(lane) {
-            let way = self.way(lane);
-            if Some(way) == self.joins && self.rows.index[lane] < self.rows.limit[lane] {
+            let stepping = self.stepping(lane);
+            if Some(stepping) == self.together && self.rows.index[lane] < self.rows.limit[lane] {
                 return true;
             }
-            let waiting = match way {
-                Way::Affine => self.affine_steps::<f64>((), lane, 1, None),
-                Way::Curved => self.take_parts_by_law(lane),
-                Way::General => Waiting { ended: 0, stuck: u8::from(!self.rest_on(lane)) },
+            let waiting = match stepping {
+                Stepping::Affine => self.affine_steps::<f64>((), lane, 1, None),
+                Stepping::Curved => self.take_parts_by_law(lane),
+                Stepping::General => Waiting { ended: 0, stuck: u8::from(!self.rest_on(lane)) },
             };
-            if waiting.stuck != 0 && !self.unblock(lane) {
+            if waiting.stuck != 0 && !self.resolve(lane) {
                 return false;
             }
         }
@@ -165,10 +165,10 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Returns how the run of a lane takes steps.
     #[inline(always)]
-    fn way(&self, lane: usize) -> Way {
+    fn stepping(&self, lane: usize) -> Stepping {
         match self.runs[lane].phase {
-            Phase::Moving => self.solver.table.ways[index(self.rows.branch[lane])],
-            Phase::Resting | Phase::Landed => Way::General,
+            Phase::Moving => self.solver.table.steppings[index(self.rows.branch[lane])],
+            Phase::Resting | Phase::Landed => Stepping::General,
         }
     }
 
@@ -182,13 +182,13 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Takes the run of a lane past the point where it waits: computes f̂ anew, passes a corner, or searches
     /// the rest of the step. Returns whether the run could be followed.
-    fn unblock(&mut self, lane: usize) -> bool {
+    fn resolve(&mut self, lane: usize) -> bool {
         if self.rows.u[lane].abs() > self.rows.half_reach[lane] {
             self.bound_force(lane);
             return true;
         }
         self.rows.stride[lane] = f64::INFINITY;
-        if self.way(lane) == Way::Curved && self.pass_curved_corner(lane) {
+        if self.stepping(lane) == Stepping::Curved && self.pass_curved_corner(lane) {
             return true;
         }
         let Err(error) = self.search(lane) else { return true };
@@ -263,7 +263,7 @@ mod tests {
 
     use super::*;
     use crate::forcing::{Blocks, Forcing};
-    use crate::solver::{RecordSolver, Unseen};
+    use crate::solver::{NoObserver, RecordSolver};
 
     /// A wall at rest passes over the samples within the band, up to the first beyond it.
     #[test]
@@ -280,7 +280,7 @@ mod tests {
             let samples: Vec<f64> = (0..100).map(|n| if n < 40 { 0.98 * beyond } else { beyond }).collect();
             let record = Blocks::new(Forcing::Samples(&samples));
             let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor }];
-            let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+            let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
             assert!(lanes.start_next(0) && lanes.in_block(0));
             // the last step within the band ends at sample 39
             assert!(lanes.rest_on(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
@@ -297,7 +297,7 @@ mod tests {
         let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Samples(&samples)));
         let overflows = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1e305 };
         let starts = [overflows; 3];
-        let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+        let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
         assert!((0..3).all(|lane| lanes.start_next(lane)));
         for (lane, first) in [(1, 1), (0, 0), (2, 0)] {
             assert!(!lanes.alone(lane));
@@ -323,7 +323,7 @@ mod tests {
             let motion = Motion::of(&undamped, 1e-8).expect("a valid wall");
             let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Still(100)));
             let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1.0 }];
-            let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+            let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
             assert!(lanes.start_next(0) && !lanes.rest_on(0) && !lanes.alone(0));
             assert_eq!((lanes.rows.u[0], lanes.rows.v[0], lanes.sample(0)), (0.0, 0.0, 99));
             assert_eq!(lanes.runs[0].steps, searched, "{rocking:?}");

@@ -29,16 +29,16 @@ pub struct Outcome {
     pub put_to_rest: bool,
 }
 
-/// Sees the motion at each sample.
+/// Callback, called at each sample.
 pub(crate) trait Observer {
     const SEES: bool;
     fn see(&mut self, index: usize, u: f64, v: f64);
 }
 
 /// An observer that ignores the motion.
-pub(crate) struct Unseen;
+pub(crate) struct NoObserver;
 
-impl Observer for Unseen {
+impl Observer for NoObserver {
     const SEES: bool = false;
 
     #[inline(always)]

@@ -23,7 +23,7 @@ const NEGLIGIBLE: f64 = 1e-18;
 
 /// How the steps on a branch are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum Stepping {
     /// As affine maps: damping is constant.
     Affine,
     /// As Taylor series: damping follows the secant stiffness.
@@ -42,7 +42,7 @@ pub(crate) enum Law {
 }
 
 /// How a branch is left at a corner: the numbers of `Table::exits`, in the order that `cross` compares.
-pub(crate) mod exit {
+pub(crate) mod end_kind {
     /// By the general search for events.
     pub(crate) const CLOSED: f64 = 0.0;
     /// At an ordinary corner, to another branch with affine maps.
@@ -93,7 +93,7 @@ pub(crate) struct Table {
     pub(crate) secant: SecantBranch<BranchRow>,
     pub(crate) law: Law,
     /// How steps are made, and the map of plain steps at once, branch by branch.
-    pub(crate) ways: Vec<Way>,
+    pub(crate) steppings: Vec<Stepping>,
     pub(crate) maps: Vec<Affine>,
     /// The largest γ L²/h² and c V over P + f̂ of plain steps, and γ and c of curved branches.
     pub(crate) most_growth: f64,
@@ -110,7 +110,8 @@ const ZERO: BranchRow = [[0.0; WIDTH]; MOST_BRANCHES / WIDTH];
 impl Table {
     pub(crate) fn new(motion: &Motion, step: f64) -> Self {
         let wall = motion.wall();
-        let ways: Vec<Way> = (0..wall.branches().len()).map(|branch| way(motion, branch, step)).collect();
+        let steppings: Vec<Stepping> =
+            (0..wall.branches().len()).map(|branch| stepping(motion, branch, step)).collect();
         let secant = SecantBranch {
             anchor: ZERO,
             force: ZERO,
@@ -127,14 +128,14 @@ impl Table {
             stiffness: ZERO,
             force_at_zero: ZERO,
             ends: [ZERO; 2],
-            exits: [[[exit::CLOSED; WIDTH]; MOST_BRANCHES / WIDTH]; 2],
+            exits: [[[end_kind::CLOSED; WIDTH]; MOST_BRANCHES / WIDTH]; 2],
             growth: ZERO,
             plain_growth: ZERO,
             speed_share: ZERO,
             damping_share: ZERO,
             secant,
             law: Law::Ratio,
-            ways,
+            steppings,
             maps: Vec::new(),
             most_growth: 0.0,
             most_damping: 0.0,
@@ -143,18 +144,18 @@ impl Table {
             longest: 0.0,
             terms: 0,
         };
-        if table.ways.iter().all(|way| *way == Way::General) {
+        if table.steppings.iter().all(|stepping| *stepping == Stepping::General) {
             // nothing is prepared: no step needs it, and rows have no place for more than `MOST_BRANCHES`
             return table;
         }
         table.at_once = table.count_at_once(motion, step);
-        for branch in 0..table.ways.len() {
+        for branch in 0..table.steppings.len() {
             let oscillator = &motion.oscillators()[branch];
             let one = Affine::one_step(oscillator, step);
             table.maps.push(Affine::steps(&one, table.at_once, oscillator, step));
-            match (table.ways[branch], &motion.secants()[branch]) {
-                (Way::Affine, _) => table.enter_affine(branch, motion, &one, step),
-                (Way::Curved, Some(secant)) => table.enter_curved(branch, motion, secant, step),
+            match (table.steppings[branch], &motion.secants()[branch]) {
+                (Stepping::Affine, _) => table.enter_affine(branch, motion, &one, step),
+                (Stepping::Curved, Some(secant)) => table.enter_curved(branch, motion, secant, step),
                 _ => {}
             }
         }
@@ -174,8 +175,8 @@ impl Table {
             let margin = 0.125 * four * four * growth(oscillator, four) * driving;
             margin <= MOST_MARGIN * (line.upper - line.lower)
         };
-        let affine = |branch: &usize| self.ways[*branch] == Way::Affine;
-        if (0..self.ways.len()).filter(affine).all(is_wide) { MOST_AT_ONCE } else { 2 }
+        let affine = |branch: &usize| self.steppings[*branch] == Stepping::Affine;
+        if (0..self.steppings.len()).filter(affine).all(is_wide) { MOST_AT_ONCE } else { 2 }
     }
 
     fn enter_line(&mut self, branch: usize, motion: &Motion, damping: f64) {
@@ -249,27 +250,30 @@ impl Table {
     fn open_exits(&mut self, motion: &Motion, step: f64) {
         let wall = motion.wall();
         let short = |branch: usize| {
-            self.ways[branch] != Way::Affine || reach(&motion.oscillators()[branch], step) <= LONGEST
+            self.steppings[branch] != Stepping::Affine
+                || reach(&motion.oscillators()[branch], step) <= LONGEST
         };
         let find = |branch: usize, upwards: bool| {
             let corner = wall.corners().get(branch + usize::from(upwards));
             let next = if upwards { branch + 1 } else { branch.wrapping_sub(1) };
-            let (Some(corner), Some(next_way)) = (corner, self.ways.get(next)) else { return exit::CLOSED };
+            let (Some(corner), Some(next_stepping)) = (corner, self.steppings.get(next)) else {
+                return end_kind::CLOSED;
+            };
             let Corner { passage, stop, overturning, departure, landing, .. } = *corner;
             if stop || overturning || departure || landing || !short(branch) || !short(next) {
-                return exit::CLOSED;
+                return end_kind::CLOSED;
             }
-            match next_way {
-                Way::General => exit::CLOSED,
-                Way::Affine if passage => exit::IMPACT,
-                Way::Affine => exit::ORDINARY,
-                Way::Curved if passage => exit::CLOSED,
-                Way::Curved => exit::CURVED,
+            match next_stepping {
+                Stepping::General => end_kind::CLOSED,
+                Stepping::Affine if passage => end_kind::IMPACT,
+                Stepping::Affine => end_kind::ORDINARY,
+                Stepping::Curved if passage => end_kind::CLOSED,
+                Stepping::Curved => end_kind::CURVED,
             }
         };
         let exits = [false, true].map(|upwards| {
             let mut row = ZERO;
-            (0..self.ways.len()).for_each(|branch| set(&mut row, branch, find(branch, upwards)));
+            (0..self.steppings.len()).for_each(|branch| set(&mut row, branch, find(branch, upwards)));
             row
         });
         self.exits = exits;
@@ -279,7 +283,8 @@ impl Table {
     /// `reach` \[m/s²\].
     pub(crate) fn largest_force(&self, reach: f64) -> f64 {
         let mut largest = 0.0_f64;
-        for branch in (0..self.ways.len()).filter(|&branch| self.ways[branch] != Way::General) {
+        for branch in (0..self.steppings.len()).filter(|&branch| self.steppings[branch] != Stepping::General)
+        {
             let [lower, upper] =
                 [get(&self.ends[0], branch).max(-reach), get(&self.ends[1], branch).min(reach)];
             if lower <= upper {
@@ -309,24 +314,24 @@ fn largest_damping(motion: &Motion, branch: usize) -> f64 {
 }
 
 /// Decides how the steps on a branch are made.
-fn way(motion: &Motion, branch: usize, step: f64) -> Way {
+fn stepping(motion: &Motion, branch: usize, step: f64) -> Stepping {
     let wall = motion.wall();
     let adaptive = matches!(motion.method(), Method::Adaptive { .. });
     if wall.branches().len() > MOST_BRANCHES || matches!(motion.method(), Method::Newmark { .. }) {
-        Way::General
+        Stepping::General
     } else if motion.secants()[branch].is_some() {
-        if largest_damping(motion, branch) * step < 1.0 { Way::Curved } else { Way::General }
+        if largest_damping(motion, branch) * step < 1.0 { Stepping::Curved } else { Stepping::General }
     } else if wall.branches()[branch].damping.constant().is_none() {
         // a law of damping without a fast series
-        Way::General
+        Stepping::General
     } else if adaptive && wall.has_constant_damping() && !wall.branches()[branch].is_elastic() {
         // the motion has a closed form, but the method asks for series on all but the elastic branch.
         // Where other branches have secant damping, those with constant damping are followed in closed form.
-        Way::General
+        Stepping::General
     } else if motion.oscillators()[branch].is_spread(step) {
-        Way::General
+        Stepping::General
     } else {
-        Way::Affine
+        Stepping::Affine
     }
 }
 

@@ -6,11 +6,11 @@ use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
-use crate::batch::{SideBySide, Vectors, abreast};
+use crate::batch::{SideBySide, Vectors, in_lanes};
 use crate::forcing::{Blocks, Forcing};
 use crate::lanes::{Block, Lanes};
 use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
-use crate::solver::{Outcome, RecordSolver, RunStart, Unseen};
+use crate::solver::{NoObserver, Outcome, RecordSolver, RunStart};
 
 mod passages;
 mod work;
@@ -40,7 +40,7 @@ fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) 
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let steps = SideBySide::new(solver, forcing).expect("a wall for lanes");
     let record = Blocks::new(forcing);
-    abreast(simd, &steps, Lanes::new(solver, &record, starts, false, Unseen)).expect("bounded motions")
+    in_lanes(simd, &steps, Lanes::new(solver, &record, starts, false, NoObserver)).expect("bounded motions")
 }
 
 /// Factors of the forcing, more than there are lanes.
@@ -193,7 +193,7 @@ fn blocks_are_searched_where_their_margin_exceeds_the_peaks() {
     for (model, fastest) in [(DampingModel::ConstantCoefficient, 3.0), (DampingModel::ConstantRatio, 1e3)] {
         let motion = losing(0.018, model, Impact::None);
         let (solver, still) = (RecordSolver::new(&motion, step), Blocks::new(Forcing::Still(2)));
-        let lanes = Lanes::new(&solver, &still, &[], false, Unseen);
+        let lanes = Lanes::new(&solver, &still, &[], false, NoObserver);
         let table = &solver.table;
         let plain = table.most_growth * 1.25 * (forcing + force);
         let curved = table.curved_growth * (forcing + force + table.curved_damping * fastest);

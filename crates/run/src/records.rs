@@ -7,7 +7,7 @@ use ground_motion::{
     Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, is_listed, read,
 };
 use rocking_wall::scene::{Place, SceneError};
-use serde::Deserialize;
+use rocking_wall::tables;
 use toml::Spanned;
 
 /// Most synthetic records of a study.
@@ -33,27 +33,40 @@ pub struct RecordsEntry {
     pub synthetic: Vec<SyntheticMotion>,
 }
 
-/// Records of a study or a check, as they are written.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RecordsTable {
-    #[serde(default)]
-    files: Vec<Spanned<String>>,
-    unit: Option<Unit>,
-    step: Option<f64>,
-    column: Option<String>,
-    channel: Option<String>,
-    format: Option<Format>,
-    synthetic: Option<Spanned<SyntheticRecords>>,
-}
+tables! {
+    /// Records from files, and synthetic ones after them.
+    #[derive(Clone, Debug)]
+    pub struct RecordsTable {
+        /// Files, folders and patterns with * and ?, relative to the study file.
+        #[serde(default)]
+        files: Vec<Spanned<String>>,
+        /// Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
+        unit: Option<Unit>,
+        /// Time between samples \[s\], likewise.
+        step: Option<f64>,
+        /// Column of tables (CSV or text).
+        column: Option<String>,
+        /// Channel of records with several, by its number.
+        channel: Option<String>,
+        /// Format of the files, if their content does not tell.
+        format: Option<Format>,
+        /// Synthetic motions.
+        synthetic: Option<Spanned<SyntheticRecords>>,
+    }
 
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SyntheticRecords {
-    count: u64,
-    seed: Option<u64>,
-    duration: Option<f64>,
-    step: Option<f64>,
+    /// The project's synthetic motions, of consecutive seeds.
+    #[derive(Clone, Debug)]
+    struct SyntheticRecords {
+        /// Number of records.
+        #[key(minimum = 1, maximum = MOST_RECORDS.cast_signed())]
+        count: u64,
+        /// Seed of the first one.
+        seed: Option<u64>,
+        /// Length \[s\].
+        duration: Option<f64>,
+        /// Step \[s\].
+        step: Option<f64>,
+    }
 }
 
 /// Reads the table `[records]`.
@@ -106,6 +119,7 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
         let place = folder.join(pattern);
         let is_named = place.is_file();
         let found = files(&place).map_err(|reason| SceneError::Line {
+            key: None,
             file: study.to_owned(),
             line: *line,
             message: format!("{pattern:?}: {reason}"),

@@ -25,7 +25,8 @@ pub(crate) fn read(path: &Path) -> Result<(Vec<NamedWall>, Vec<String>), SceneEr
 /// Reads the walls from the text of a table, and returns them with warnings; `file` stands for it in
 /// messages.
 fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
-    let fail = |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, message };
+    let fail =
+        |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, key: None, message };
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
     let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
     let forms = "a table of walls: a line of names with a column `name`, and a row for each wall";

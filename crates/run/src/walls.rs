@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
-    Floors, GROUPS, Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml,
-    read_floors, to_toml,
+    Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable, apply_group,
+    parameters, parse_toml, read_floors, to_toml,
 };
+use rocking_wall::tables;
 use rocking_wall::wall::{COMPUTED, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -55,24 +56,42 @@ pub enum WallSource {
     Table(PathBuf, usize),
 }
 
-/// A wall as it is written.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct WallTable {
-    name: Option<String>,
-    scene: Option<PathBuf>,
-    table: Option<PathBuf>,
-    supports: Option<Spanned<SupportsTable>>,
-    #[serde(default)]
-    geometry: Group,
-    #[serde(default)]
-    force_law: Group,
-    #[serde(default)]
-    impact: Group,
-    #[serde(default)]
-    tie: Group,
-    #[serde(default)]
-    solver: Group,
+tables! {
+    /// A wall: a scene, or a name and tables of parameters; or many walls in a table.
+    #[derive(Debug)]
+    pub struct WallTable {
+        /// Name in tables; by default that of the scene file.
+        name: Option<String>,
+        /// Scene file, relative to the study file.
+        scene: Option<PathBuf>,
+        /// Table of walls (CSV), relative to the study file: a column name and parameters.
+        table: Option<PathBuf>,
+        /// The floors that support the wall.
+        supports: Option<Spanned<SupportsTable>>,
+        /// Shape, mass and loads.
+        #[serde(default)]
+        geometry: Group,
+        /// Restoring force.
+        #[serde(default)]
+        force_law: Group,
+        /// Restitution; the models of a study set the impact.
+        #[serde(default)]
+        #[key(properties = restitution())]
+        impact: Group,
+        /// Tie of a parapet.
+        #[serde(default)]
+        tie: Group,
+        /// Solver and tolerance.
+        #[serde(default)]
+        solver: Group,
+    }
+}
+
+/// Describes what a wall of a study states of its impact.
+fn restitution() -> Schema {
+    let mut parameters = parameters("impact");
+    parameters.remove("impact");
+    parameters
 }
 
 /// A wall as [`wall_text`] writes it.
@@ -266,6 +285,7 @@ pub fn walls(
     (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
+        key: None,
         file: study.to_owned(),
         line,
         message: format!("{what}: {error}"),

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use ground_motion::{
-    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, parse,
-    parse_channels, read,
+    Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
+    parse, parse_channels, read,
 };
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
@@ -68,10 +68,13 @@ struct RecordOptionsArguments {
     /// Channel of a record with several, by its number; `wall record` without it shows all
     #[arg(long, requires = "recorded")]
     channel: Option<String>,
-    /// Format of the record (at2, esm, knet, knet-csv, cosmos, csmip, smc, geonet, afad, cwa, unam, volume1,
-    /// csv, numbers), if its content does not tell
-    #[arg(long, requires = "recorded")]
+    #[arg(long, requires = "recorded", help = format_help())]
     format: Option<String>,
+}
+
+fn format_help() -> String {
+    let names = Format::ALL.map(Format::name).join(", ");
+    format!("Format of the record ({names}), if its content does not tell")
 }
 
 impl SceneArguments {

@@ -7,13 +7,18 @@ mod output;
 use std::ffi::OsString;
 use std::io::Write;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use commands::Arguments;
 use output::Console;
 
 /// Exit code for input that cannot be used; clap uses the same.
 const BAD_INPUT: u8 = 2;
+
+/// Returns the commands of the program, with their help.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// Runs the program with its arguments, the first of which is its name. Results go to `out`, messages to
 /// `err`. Returns the exit code: 0, 1 where a verification fails, 2 for input that cannot be used.

@@ -13,7 +13,9 @@ fn no_layer_names_a_later_one() {
     for (folder, layers) in LAYERS {
         for (index, layer) in layers.iter().enumerate() {
             let texts = texts(&crate::root().join(folder), layer);
-            assert!(!texts.is_empty(), "there is no {folder}/{layer}");
+            // `lib.rs` includes these two as they are generated
+            let is_generated = ["choices", "variables"].contains(layer);
+            assert!(!texts.is_empty() || is_generated, "there is no {folder}/{layer}");
             for (file, text) in texts {
                 for later in &layers[index + 1..] {
                     assert!(!names(&text, later), "{file} names {later}, which stands above {layer}");

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 mod documents;
+mod generated;
 mod imports;
 mod manifest;
 mod notices;

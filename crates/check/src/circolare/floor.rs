@@ -2,20 +2,22 @@
 
 use std::f64::consts::TAU;
 
-use super::ground::{G, GroundSpectrum, damping_factor};
+use super::ground::{GroundSpectrum, damping_factor};
 
 /// a and b of C7.2.3: the spectrum has its largest value from a `T_k` to b `T_k`.
 const A: f64 = 0.8;
 const B: f64 = 1.1;
 
-/// A mode of the building at the place of a wall.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mode {
-    /// `T_k` \[s\].
-    pub period: f64,
-    /// `γ_k` `ψ_k(z)`: participation times shape there \[-\].
-    pub participation: f64,
+rocking_wall::tables! {
+    /// A mode of the building at the place of a wall.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Mode {
+        /// `T_k` \[s\].
+        #[key(exclusiveMinimum = 0)]
+        pub period: f64,
+        /// `γ_k` `ψ_k(z)`: participation times shape there (-).
+        pub participation: f64,
+    }
 }
 
 impl Mode {
@@ -127,33 +129,6 @@ impl FloorSpectrum {
         };
         root_of_squares(self.modes.iter().map(|mode| shape(mode) * self.mode_acceleration(mode)))
     }
-}
-
-/// `S_a` of [C7.2.11] in units of g, for elements of period `T_a` in frame buildings of period T₁; it has no
-/// damping, and the check of masonry does not use it.
-///
-/// ```
-/// use check::circolare::{GroundSpectrum, Hazard, Soil, frame_acceleration};
-///
-/// let ground = GroundSpectrum::new(Hazard { ag: 0.15, f0: 2.45, tc: 0.32 }, Soil::B, 1.0);
-/// // on the roof, in resonance with the frame
-/// assert!((frame_acceleration(&ground, 1.0, [0.3, 0.3]) - 1.8).abs() < 1e-12);
-/// ```
-pub fn frame_acceleration(ground: &GroundSpectrum, height_ratio: f64, [t1, ta]: [f64; 2]) -> f64 {
-    // Tab. C7.2.II
-    let (a, b, amplification) = match t1 {
-        ..0.5 => (0.8, 1.4, 5.0),
-        0.5..=1.0 => (0.3, 1.2, 4.0),
-        _ => (0.3, 1.0, 2.5),
-    };
-    let at_ground = ground.a_g / G * ground.s;
-    let beside = |end: f64| 1.0 + (amplification - 1.0) * (1.0 - ta / (end * t1)).powi(2);
-    let reduction = match ta / t1 {
-        ratio if ratio < a => beside(a),
-        ratio if ratio < b => 1.0,
-        _ => beside(b),
-    };
-    (at_ground * (1.0 + height_ratio) * amplification / reduction).max(at_ground)
 }
 
 fn root_of_squares(values: impl Iterator<Item = f64>) -> f64 {

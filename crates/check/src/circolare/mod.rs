@@ -31,13 +31,15 @@ mod table;
 mod verdict;
 mod warnings;
 
+use rocking_wall::scene::Described;
+
 use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
 use crate::records::Records;
 
 pub use checks::LARGEST_LOSS;
 pub use demand::{Demand, MEAN_COUNTS_FROM};
-pub use floor::{FloorSpectrum, Mode, frame_acceleration};
+pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
 pub use table::{
@@ -62,6 +64,7 @@ pub const ENTRY: Entry = Entry {
     checks: &["SLD", "SLV with q", "SLV", "SLC"],
     example: "check = { code = \"circolare-2019\", before_activation = \"rigid\", soil = \"B\", \
               SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }",
+    describe: CheckTable::describe,
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 

@@ -7,7 +7,8 @@ use crate::records::Records;
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};
 use super::table::{
-    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
+    Activation, BuildingTable, CATEGORIES, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale,
+    Topography,
 };
 use super::{FEWEST_RECORDS, LimitState};
 
@@ -277,7 +278,7 @@ fn topography(table: &CheckTable) -> Result<f64, CheckError> {
             (Some(*factor).filter(|factor| (1.0..=1.4).contains(factor)), factor.to_string())
         }
         Some(Topography::Category(name)) => {
-            let mut categories = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)].into_iter();
+            let mut categories = CATEGORIES.into_iter();
             (categories.find(|(category, _)| category == name).map(|(_, factor)| factor), format!("{name:?}"))
         }
     };

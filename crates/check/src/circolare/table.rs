@@ -1,96 +1,133 @@
 //! The table `[check]` of a scene or a study.
 
+use rocking_wall::scene::{Described, Schema, one_of, with};
+use rocking_wall::{choices, tables};
+use run::records::RecordsTable;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::ENTRY;
 use super::floor::Mode;
+use super::ground::Soil;
+use super::statement::LARGEST_CONFIDENCE_FACTOR;
 
-/// What the engineer states, as it is written.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CheckTable {
-    /// The code; [`CODE`](super::CODE).
-    pub code: String,
-    /// The wall before it rocks: `rigid`, `law` or `beam`.
-    pub before_activation: Option<Activation>,
-    /// E of the masonry \[Pa\], for `beam`.
-    pub young_modulus: Option<f64>,
-    /// FC \[-\].
-    pub confidence_factor: Option<f64>,
-    /// Level of knowledge instead of FC: `LC1`, `LC2` or `LC3`.
-    pub knowledge_level: Option<KnowledgeLevel>,
-    /// Whether the hinges are set back for compression.
-    #[serde(default)]
-    pub compression_considered: bool,
-    /// r, the share of the overburden whose mass moves with a parapet \[-\].
-    pub overburden_mass: Option<f64>,
-    /// q of the linear check \[-\].
-    pub behaviour_factor: Option<f64>,
-    /// Soil, `A` to `E`.
-    pub soil: Option<String>,
-    /// Topography, `T1` to `T4`, or `S_T` \[-\].
-    pub topography: Option<Topography>,
-    /// Use class, `I` to `IV`; class IV makes SLD count.
-    pub use_class: Option<UseClass>,
-    /// What decides.
-    #[serde(default)]
-    pub method: Method,
-    /// Limit state of damage.
-    #[serde(rename = "SLD")]
-    pub sld: Option<LimitStateTable>,
-    /// Limit state of life safety.
-    #[serde(rename = "SLV")]
-    pub slv: Option<LimitStateTable>,
-    /// Limit state of collapse.
-    #[serde(rename = "SLC")]
-    pub slc: Option<LimitStateTable>,
-    /// The building; none on the ground.
-    pub building: Option<BuildingTable>,
-    /// Records of the dynamic check, and of limit states without F0 and TC.
-    pub records: Option<Spanned<run::records::RecordsTable>>,
-    /// What the peaks of the records become in the dynamic check.
-    #[serde(default)]
-    pub record_scale: RecordScale,
+tables! {
+    /// Check of the wall by a code, which `wall check` reads.
+    #[derive(Clone, Debug)]
+    pub struct CheckTable {
+        /// The code: Circolare 7/2019 to NTC 2018.
+        #[key(enum = vec![ENTRY.name])]
+        pub code: String,
+        /// The wall before it rocks: held, elastic as its law, or a beam.
+        pub before_activation: Option<Activation>,
+        /// E of the masonry \[Pa\], for "beam".
+        #[key(exclusiveMinimum = 0)]
+        pub young_modulus: Option<f64>,
+        /// FC (-); below 1.35 only with `compression_considered`.
+        #[key(minimum = 1, default = LARGEST_CONFIDENCE_FACTOR)]
+        pub confidence_factor: Option<f64>,
+        /// Level of knowledge instead of FC.
+        pub knowledge_level: Option<KnowledgeLevel>,
+        /// Whether the hinges are set back for compression.
+        #[serde(default)]
+        #[key(default = false)]
+        pub compression_considered: bool,
+        /// Share r of the overburden whose mass moves with a parapet (-).
+        #[key(minimum = 0)]
+        pub overburden_mass: Option<f64>,
+        /// q of the linear check (-).
+        #[key(minimum = 1, default = 2)]
+        pub behaviour_factor: Option<f64>,
+        /// Soil of NTC 3.2.2.
+        #[key(enum = Soil::ALL.map(Soil::name).to_vec())]
+        pub soil: Option<String>,
+        /// Topography of NTC 3.2.2, or `S_T` (-).
+        #[key(default = "T1")]
+        pub topography: Option<Topography>,
+        /// Use class of NTC 2.4.2; in class IV SLD decides too.
+        pub use_class: Option<UseClass>,
+        /// What decides: displacement, q, or runs under records.
+        #[serde(default)]
+        #[key(default = "nonlinear")]
+        pub method: Method,
+        /// Limit state of damage.
+        #[serde(rename = "SLD")]
+        pub sld: Option<LimitStateTable>,
+        /// Limit state of life safety.
+        #[serde(rename = "SLV")]
+        pub slv: Option<LimitStateTable>,
+        /// Limit state of collapse.
+        #[serde(rename = "SLC")]
+        pub slc: Option<LimitStateTable>,
+        /// The building; none on the ground.
+        pub building: Option<BuildingTable>,
+        /// Records of the dynamic check, and of limit states without F0 and TC.
+        pub records: Option<Spanned<RecordsTable>>,
+        /// What the peaks of the records become in the dynamic check: `a_g` S, or as they are.
+        #[serde(default)]
+        #[key(default = "ag")]
+        pub record_scale: RecordScale,
+    }
+
+    /// A limit state: its hazard, or the spectrum at the wall's place.
+    #[derive(Clone, Debug, Default)]
+    pub struct LimitStateTable {
+        /// `a_g` on rigid ground \[g\].
+        #[key(exclusiveMinimum = 0, maximum = 1)]
+        pub ag: f64,
+        /// F0 (-).
+        #[serde(rename = "F0")]
+        #[key(minimum = 2.2)]
+        pub f0: Option<f64>,
+        /// `T_C`* \[s\].
+        #[serde(rename = "TC")]
+        #[key(exclusiveMinimum = 0)]
+        pub tc: Option<f64>,
+        /// Spectrum at the wall's place: points [T, Sa] in s and g.
+        pub spectrum: Option<Vec<[f64; 2]>>,
+        /// Damping ratio of that spectrum (-).
+        #[key(exclusiveMinimum = 0)]
+        pub spectrum_damping: Option<f64>,
+        /// Damping ratio of the mechanism (-): 0.05, 0.08, 0.10 unless given.
+        #[key(exclusiveMinimum = 0, maximum = 0.5)]
+        pub damping: Option<f64>,
+        /// Damping ratio `ξ_k` of the building in this limit state (-); needed at height.
+        #[key(exclusiveMinimum = 0, maximum = 0.5)]
+        pub building_damping: Option<f64>,
+        /// First period of the building in this limit state \[s\].
+        #[key(exclusiveMinimum = 0)]
+        pub building_period: Option<f64>,
+        /// u of a local instability \[m\]; SLC only.
+        #[key(exclusiveMinimum = 0)]
+        pub displacement: Option<f64>,
+    }
+
+    /// The building at the wall's height: storeys, period and `height_ratio`, or modes.
+    #[derive(Clone, Debug, Default)]
+    pub struct BuildingTable {
+        /// Number of storeys n.
+        #[key(minimum = 1)]
+        pub storeys: Option<u32>,
+        /// First period T₁ \[s\].
+        #[key(exclusiveMinimum = 0)]
+        pub period: Option<f64>,
+        /// z/H: height of the wall over that of the building (-).
+        #[key(minimum = 0, maximum = 1)]
+        pub height_ratio: Option<f64>,
+        /// Modes at the wall's place, the first first.
+        #[key(minItems = 1)]
+        pub modes: Option<Vec<Mode>>,
+    }
 }
 
-/// A limit state: the hazard or a spectrum, and the values of the building in this state.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LimitStateTable {
-    /// `a_g` \[g\].
-    pub ag: f64,
-    /// F0 \[-\].
-    #[serde(rename = "F0")]
-    pub f0: Option<f64>,
-    /// `T_C`* \[s\].
-    #[serde(rename = "TC")]
-    pub tc: Option<f64>,
-    /// Spectrum at the wall's place instead: points `[T, Sa]` \[s, g\].
-    pub spectrum: Option<Vec<[f64; 2]>>,
-    /// ξ of that spectrum \[-\].
-    pub spectrum_damping: Option<f64>,
-    /// ξ of the mechanism \[-\].
-    pub damping: Option<f64>,
-    /// `ξ_k` of the building \[-\].
-    pub building_damping: Option<f64>,
-    /// T₁ of the building in this limit state \[s\].
-    pub building_period: Option<f64>,
-    /// u of a local instability \[m\]; SLC only.
-    pub displacement: Option<f64>,
-}
+choices!(Activation, KnowledgeLevel, UseClass, Method, RecordScale);
 
-/// The building at the wall's height.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BuildingTable {
-    /// Number of storeys n.
-    pub storeys: Option<u32>,
-    /// T₁ \[s\].
-    pub period: Option<f64>,
-    /// z/H.
-    pub height_ratio: Option<f64>,
-    /// Modes instead of these three, the first first.
-    pub modes: Option<Vec<Mode>>,
+impl Described for Topography {
+    fn describe(key: &str, tables: &mut Schema) -> Schema {
+        let factor = with(with(f64::describe(key, tables), "minimum", 1), "maximum", 1.4);
+        let categories = one_of(CATEGORIES.map(|(name, _)| name));
+        with(Schema::new(), "anyOf", vec![categories, factor])
+    }
 }
 
 /// The wall before it rocks.
@@ -115,6 +152,9 @@ pub enum KnowledgeLevel {
     /// Accurate, FC 1.
     LC3,
 }
+
+/// Categories of topography with their `S_T`, Tab. 3.2.V.
+pub(super) const CATEGORIES: [(&str, f64); 4] = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)];
 
 /// Topography: a category of Tab. 3.2.V or `S_T`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

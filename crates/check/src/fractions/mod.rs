@@ -15,6 +15,7 @@ use std::path::PathBuf;
 
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{SpectrumFile, Unit};
+use rocking_wall::scene::{Described, Schema, with};
 use rocking_wall::wall::{Parameters, Wall, Warning};
 use run::records::RecordsTable;
 use serde::Deserialize;
@@ -42,37 +43,51 @@ pub const ENTRY: Entry = Entry {
     symbol: "ratio",
     checks: &["onset", "displacement"],
     example: "check = { code = \"fractions\", spectrum = [[0, 2.0], [0.5, 5.0], [4, 0.6]], unit = \"m/s2\" }",
+    describe: FractionsTable::describe,
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 
-/// The table `[check]` of this code.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FractionsTable {
-    /// The code.
-    #[serde(rename = "code")]
-    _code: String,
-    /// Displacement capacity over the displacement at which the force of the wall vanishes \[-\].
-    displacement_fraction: Option<f64>,
-    /// Displacement of the secant period over the displacement capacity \[-\].
-    secant_fraction: Option<f64>,
-    /// The demand: a file with columns T and Sa, or points [T, Sa], T in s from 0 on.
-    spectrum: Option<SpectrumTable>,
-    /// Unit of Sa, where the file does not state its own.
-    unit: Option<Unit>,
-    /// Name of the column with Sa, for a file with several.
-    column: Option<String>,
-    /// Damping ratio of the spectrum (-).
-    damping: Option<f64>,
-    /// The demand: the median spectrum of these records, felt on the floor of a scene with storeys.
-    records: Option<Spanned<RecordsTable>>,
+rocking_wall::tables! {
+    /// Check of the wall's capacity curve over a spectrum, which `wall check` reads.
+    #[derive(Clone, Debug)]
+    pub struct FractionsTable {
+        /// The code: capacity at fractions.
+        #[key(enum = vec![ENTRY.name])]
+        pub code: String,
+        /// Displacement capacity over the displacement at which the force of the wall vanishes (-).
+        #[key(exclusiveMinimum = 0, maximum = 1, default = 0.4)]
+        pub displacement_fraction: Option<f64>,
+        /// Displacement of the secant period over the displacement capacity (-).
+        #[key(exclusiveMinimum = 0, maximum = 1, default = 0.4)]
+        pub secant_fraction: Option<f64>,
+        /// The demand: a file with columns T and Sa, or points [T, Sa], T in s from 0 on.
+        pub spectrum: Option<SpectrumTable>,
+        /// Unit of Sa, where the file does not state its own.
+        pub unit: Option<Unit>,
+        /// Name of the column with Sa, for a file with several.
+        pub column: Option<String>,
+        /// Damping ratio of the spectrum (-): that of the column's name, or 0.05 unless given.
+        #[key(exclusiveMinimum = 0)]
+        pub damping: Option<f64>,
+        /// The demand: the median spectrum of these records, felt on the floor of a wall on storeys.
+        pub records: Option<Spanned<RecordsTable>>,
+    }
 }
 
+/// A spectrum: a file, or points.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "expected a file, or points [T, Sa]")]
-enum SpectrumTable {
+#[allow(missing_docs, reason = "the names say it")]
+pub enum SpectrumTable {
     File(PathBuf),
     Points(Vec<[f64; 2]>),
+}
+
+impl Described for SpectrumTable {
+    fn describe(key: &str, tables: &mut Schema) -> Schema {
+        let forms = [PathBuf::describe(key, tables), Vec::<[f64; 2]>::describe(key, tables)];
+        with(Schema::new(), "anyOf", forms.to_vec())
+    }
 }
 
 /// The table `[check]`, validated.

@@ -139,7 +139,7 @@ fn points(path: &Path) -> Result<Vec<[f64; 2]>, SceneError> {
             _ => {
                 let message = "expected two numbers, the first above that of the line before".to_owned();
                 let file = path.display().to_string();
-                return Err(SceneError::Line { file, line: index + 1, message });
+                return Err(SceneError::Line { file, line: index + 1, key: None, message });
             }
         }
     }

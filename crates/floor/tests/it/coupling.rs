@@ -2,11 +2,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use fmu_export::{Category, Causality, Filter, Log, Model, Status, Step, Variability, VariableId};
+use fmu_export::{
+    Category, Causality, Filter, Log, Model, StateCodec, Status, Step, Variability, VariableId,
+};
 use rocking_floor::unit::Unit;
 use rocking_floor::variables::{Coupling, Hysteresis, RealVariable};
 
-use super::{Driven, assert_close, real};
+use super::{Driven, assert_close, edited_states, real};
 
 /// A floor on rollers: what the walls gain, it loses.
 #[test]
@@ -184,4 +186,27 @@ fn a_step_that_fails_leaves_all_as_it_was() {
         driven.unit.do_step(Step { from: 0.01, duration: 1e300, may_end_early: false }, &mut Log::silent());
     assert!(failed.is_err());
     assert_eq!(values(&driven.unit), before);
+}
+
+#[test]
+fn edited_states_are_refused_or_work() {
+    for (from, hysteresis, start) in [(0, Hysteresis::None, 0.01), (1, Hysteresis::Bilinear, 0.1)] {
+        let mut driven = Driven::new(&[("displacement_start", start)], hysteresis, Coupling::Reactions);
+        driven.step(0.03);
+        let other = Unit::new().expect("the start values make a floor");
+        assert!(edited_states::are_refused_or_work(&driven.unit, &other, from) > 100);
+    }
+}
+
+/// A parameter beyond its limits is named where a state is read, and the message says which.
+#[test]
+fn a_parameter_of_a_state_beyond_its_limits_is_named() {
+    let mut bytes = Vec::new();
+    let mut driven = Driven::new(&[("yield_force", 54321.0)], Hysteresis::Bilinear, Coupling::Reactions);
+    driven.unit.transfer_state(&mut StateCodec::writing(&mut bytes)).expect("it can be written");
+    let at = bytes.windows(8).position(|found| found == 54321.0_f64.to_le_bytes()).expect("it is there");
+    bytes[at..at + 8].copy_from_slice(&(-1.0_f64).to_le_bytes());
+    let mut other = Unit::new().expect("the start values make a floor");
+    let error = other.transfer_state(&mut StateCodec::reading(&bytes)).unwrap_err();
+    assert!(error.to_string().contains("yield_force = -1.0 N is below its minimum"), "{error}");
 }

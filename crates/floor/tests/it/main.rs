@@ -2,6 +2,8 @@
 
 mod coupling;
 mod description;
+#[path = "../../../../tests/it/edited_states.rs"]
+mod edited_states;
 mod hysteresis;
 mod linear;
 #[path = "../../../../tests/it/page.rs"]

@@ -1,15 +1,15 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
+use super::Kinds;
 use super::arguments::{array, array_mut, bytes, required_text, text, to_get, to_set};
 use super::guard::{self, Slot, functions};
-use super::kinds::Kinds;
 use super::types::{
     Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
 };
 use crate::call::{Call, Phase};
-use crate::failure::Failure;
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
+use crate::model::Failure;
 use crate::model::{Experiment, Model};
 use std::ffi::{CStr, CString};
 use std::ptr;

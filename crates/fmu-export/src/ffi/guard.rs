@@ -2,8 +2,8 @@
 
 use super::types::{self, Component, ERROR, Status};
 use crate::call::Call;
-use crate::failure::Failure;
 use crate::instance::Instance;
+use crate::model::Failure;
 use crate::model::Model;
 use std::any::Any;
 use std::cell::{Cell, RefCell, UnsafeCell};

@@ -2,8 +2,8 @@
 
 use super::Instance;
 use crate::access::Access;
-use crate::failure::Failure;
 use crate::limits;
+use crate::model::Failure;
 use crate::model::{Interface, ModelExchange, Update};
 use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
 use std::mem::MaybeUninit;

@@ -2,8 +2,8 @@
 
 use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
-use crate::failure::Failure;
 use crate::log::Status;
+use crate::model::Failure;
 use crate::model::{Experiment, Model};
 use crate::state::{self, StateCodec};
 

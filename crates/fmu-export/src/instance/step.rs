@@ -3,9 +3,9 @@
 use super::{Instance, IntermediateUpdate};
 use crate::access::{self, Access};
 use crate::call::{Call, Phase};
-use crate::failure::Failure;
 use crate::limits;
 use crate::log::{Category, Status};
+use crate::model::Failure;
 use crate::model::{Model, Step};
 use crate::variable::VariableId;
 

@@ -3,8 +3,8 @@
 use super::Instance;
 use crate::access::{self, Access};
 use crate::call::{Call, Phase};
-use crate::failure::Failure;
 use crate::limits;
+use crate::model::Failure;
 use crate::model::Model;
 use crate::variable::{Causality, Kind, Variability, Variable, VariableId};
 use std::ffi::{CStr, CString};

@@ -49,7 +49,7 @@ const GROUPS = [
     { name: "centre", label: "Time of the peak", unit: "s", start: "2", when: v => v.kind === "ricker" },
     { name: "duration", label: "Duration", unit: "s", start: "5", range: [0.5, 20, 0.5],
       when: v => v.kind === "harmonic" },
-    { name: "record", label: "Record: AT2, ESM, K-NET, COSMOS, CSMIP, SMC, GeoNet, AFAD, CSV …", file: true,
+    { name: "record", label: "Record: a file of an agency, CSV or text", file: true,
       start: "", when: v => v.kind === "record" },
     { name: "scale", label: "Scale", start: "1", range: [0.05, 5, 0.05], when: v => v.kind === "record" },
     { name: "unit", label: "Unit, if the file has none", start: "", when: v => v.kind === "record",

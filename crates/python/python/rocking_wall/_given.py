@@ -2,42 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any, overload
+from typing import Generic, TypeVar, overload
 
 from . import _native
 
 
-class Number:
-    """A parameter that is a number."""
+Value = TypeVar("Value", float, str)
+
+
+class Parameter(Generic[Value]):
+    """A parameter of a wall: a number, or the name of a choice."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
 
     @overload
-    def __get__(self, wall: None, owner: type) -> Number: ...
+    def __get__(self, wall: None, owner: type) -> Parameter[Value]: ...
     @overload
-    def __get__(self, wall: Given, owner: type) -> float: ...
-    def __get__(self, wall: Given | None, owner: type) -> Number | float:
+    def __get__(self, wall: Given, owner: type) -> Value: ...
+    def __get__(self, wall: Given | None, owner: type) -> Parameter[Value] | Value:
         if wall is None:
             return self
-        value: float = wall._native.parameter(self.name)
-        return value
-
-
-class Name:
-    """A parameter that is the name of a choice."""
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    @overload
-    def __get__(self, wall: None, owner: type) -> Name: ...
-    @overload
-    def __get__(self, wall: Given, owner: type) -> str: ...
-    def __get__(self, wall: Given | None, owner: type) -> Name | str:
-        if wall is None:
-            return self
-        value: str = wall._native.parameter(self.name)
+        value: Value = wall._native.parameter(self.name)
         return value
 
 
@@ -46,39 +32,39 @@ class Given:
 
     _native: _native.Wall
 
-    mechanism = Name()
-    height = Number()
-    thickness = Number()
-    width = Number()
-    density = Number()
-    gravity = Number()
-    hinge_ratio = Number()
-    overburden = Number()
-    overburden_eccentricity = Number()
-    eccentricity_mode = Name()
-    force_law = Name()
-    a1 = Number()
-    a3 = Number()
-    d1 = Number()
-    softening = Name()
-    damping_model = Name()
-    xi = Number()
-    c_bar = Number()
-    impact = Name()
-    restitution_source = Name()
-    restitution = Number()
-    rocking = Name()
-    u_start = Number()
-    u_dot_start = Number()
-    solver = Name()
-    tolerance = Number()
-    newmark_step = Number()
-    tie_height = Number()
-    tie_stiffness = Number()
-    tie_slack = Number()
-    tie_strength = Number()
-    tie_side = Name()
-    kinematics = Name()
+    mechanism = Parameter[str]()
+    height = Parameter[float]()
+    thickness = Parameter[float]()
+    width = Parameter[float]()
+    density = Parameter[float]()
+    gravity = Parameter[float]()
+    hinge_ratio = Parameter[float]()
+    overburden = Parameter[float]()
+    overburden_eccentricity = Parameter[float]()
+    eccentricity_mode = Parameter[str]()
+    force_law = Parameter[str]()
+    a1 = Parameter[float]()
+    a3 = Parameter[float]()
+    d1 = Parameter[float]()
+    softening = Parameter[str]()
+    damping_model = Parameter[str]()
+    xi = Parameter[float]()
+    c_bar = Parameter[float]()
+    impact = Parameter[str]()
+    restitution_source = Parameter[str]()
+    restitution = Parameter[float]()
+    rocking = Parameter[str]()
+    u_start = Parameter[float]()
+    u_dot_start = Parameter[float]()
+    solver = Parameter[str]()
+    tolerance = Parameter[float]()
+    newmark_step = Parameter[float]()
+    tie_height = Parameter[float]()
+    tie_stiffness = Parameter[float]()
+    tie_slack = Parameter[float]()
+    tie_strength = Parameter[float]()
+    tie_side = Parameter[str]()
+    kinematics = Parameter[str]()
 
     @property
     def points(self) -> list[list[float]] | None:

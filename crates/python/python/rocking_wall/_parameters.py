@@ -1,6 +1,6 @@
 """The parameters of a wall, and what follows from them.
 
-Written by `tests/wheel/parameters.py` from the model description.
+Written by `cargo xtask generate python` from the model description.
 """
 
 from collections.abc import Sequence

@@ -78,9 +78,9 @@ class Record:
                 f"Record(dt, samples): dt must be the time between samples in s, found a value of the type "
                 f"{type(dt).__name__}{swapped}"
             )
-        dt, a = _native.in_si((float(dt), a), unit)
-        a.flags.writeable = False
-        for attribute, value in (("dt", dt), ("a", a), ("name", name), ("warnings", tuple(warnings))):
+        dt, samples = _native.in_si((float(dt), a), unit)
+        samples.flags.writeable = False
+        for attribute, value in (("dt", dt), ("a", samples), ("name", name), ("warnings", tuple(warnings))):
             object.__setattr__(self, attribute, value)
 
     @classmethod
@@ -207,7 +207,8 @@ class Record:
         >>> record.spectrum([0.0]) == record.pga
         array([ True])
         """
-        return _native.spectrum(self._motion, periods, damping, at_samples(maxima))
+        sa: NDArray[np.float64] = _native.spectrum(self._motion, periods, damping, at_samples(maxima))
+        return sa
 
     def average_sa(
         self, periods: ArrayLike = AVERAGE_PERIODS, *, damping: float = 0.05, maxima: Maxima = "everywhere"
@@ -288,8 +289,7 @@ def read_record(
     channel: str | None = None,
     format: str | None = None,
 ) -> Record:
-    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA,
-    UNAM, RENADIC/BHRC, CSV or text.
+    """Reads a record in the format of an agency, CSV or text; an unknown `format` is told all of them.
 
     The format is found from the content. State `unit` or `dt` [s] where the file does not, the `column` of
     a table with several, and the `channel` of a file with several. Warns of what a quick check finds.

@@ -100,15 +100,15 @@ fn secant_damping_is_curved_up_to_a_decay_of_one_in_a_step() {
     let curved = motion.secants().iter().rposition(Option::is_some).expect("a branch with secant damping");
     let of = &motion.wall().branches()[curved];
     let largest = of.damping_at(of.lower).max(of.damping_at(of.upper));
-    for (share, expected) in [(0.99, Way::Curved), (1.01, Way::General)] {
-        assert_eq!(way(&motion, curved, share / largest), expected, "{largest}");
+    for (share, expected) in [(0.99, Stepping::Curved), (1.01, Stepping::General)] {
+        assert_eq!(stepping(&motion, curved, share / largest), expected, "{largest}");
     }
 }
 
 /// A corner is passed only between branches on both of which steps are short.
 #[test]
 fn corners_of_a_branch_with_long_steps_are_closed() {
-    for (a1, expected) in [(0.05, exit::ORDINARY), (1e-6, exit::CLOSED)] {
+    for (a1, expected) in [(0.05, end_kind::ORDINARY), (1e-6, end_kind::CLOSED)] {
         let wall =
             Parameters { a1, damping_model: DampingModel::ConstantCoefficient, ..Parameters::default() };
         let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
@@ -117,7 +117,7 @@ fn corners_of_a_branch_with_long_steps_are_closed() {
         let short = motion.oscillators().iter().map(|oscillator| reach(oscillator, step) <= LONGEST);
         let long: Vec<usize> =
             short.enumerate().filter(|(_, short)| !short).map(|(branch, _)| branch).collect();
-        assert_eq!(long, if expected == exit::CLOSED { vec![elastic] } else { vec![] });
+        assert_eq!(long, if expected == end_kind::CLOSED { vec![elastic] } else { vec![] });
         let exits = Table::new(&motion, step).exits;
         // out of the elastic branch on both sides, and into it
         for (side, branch) in [(0, elastic), (1, elastic), (1, elastic - 1), (0, elastic + 1)] {
@@ -138,8 +138,8 @@ fn a_row_holds_sixteen_branches() {
         let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
         let count = motion.wall().branches().len();
         let elastic = motion.wall().branch_of(0.0, 1.0);
-        let expected = if count <= MOST_BRANCHES { Way::Affine } else { Way::General };
-        assert_eq!(way(&motion, elastic, 5e-3), expected, "{count}");
+        let expected = if count <= MOST_BRANCHES { Stepping::Affine } else { Stepping::General };
+        assert_eq!(stepping(&motion, elastic, 5e-3), expected, "{count}");
         counts.push(count);
     }
     assert!(counts.contains(&MOST_BRANCHES) && counts.contains(&(MOST_BRANCHES + 2)), "{counts:?}");

@@ -7,7 +7,7 @@ use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
 use super::*;
 use crate::lanes::Waiting;
-use crate::table::{Law, Way};
+use crate::table::{Law, Stepping};
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
@@ -29,7 +29,7 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
     let (solver, forcing) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
     let (record, starts) = (Blocks::new(forcing), starts(&motion));
-    let lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+    let lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
     let (rounds, stuck) = (Cell::new(0), Cell::new(0));
     let count = |waiting: Waiting| {
         rounds.set(rounds.get() + 1);
@@ -37,13 +37,13 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         waiting
     };
     let outcomes = match (SideBySide::new(&solver, forcing).expect("a wall for lanes"), solver.table.law) {
-        (SideBySide::Affine(responses), _) => lanes.side_by_side(Way::Affine, |lanes, busy| {
+        (SideBySide::Affine(responses), _) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
             count(lanes.affine_steps::<Eight<_>>(simd, 0, busy, Some(&responses)))
         }),
-        (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(Way::Curved, |lanes, busy| {
+        (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_>, ByRatio>(simd, 0, busy))
         }),
-        (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(Way::Curved, |lanes, busy| {
+        (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_>, ByStiffness>(simd, 0, busy))
         }),
     };

@@ -1,32 +1,59 @@
 //! The tables `[intensity]` and `[levels]`.
 
-use serde::Deserialize;
 use toml::Spanned;
 
 use crate::ida::{IntensityMeasure, Levels};
 use ground_motion::Unit;
 use rocking_wall::scene::{Place, SceneError};
+use rocking_wall::tables;
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct IntensityTable {
-    measure: Spanned<String>,
-    period: Option<f64>,
-    periods: Option<Vec<f64>>,
-}
+/// Names of the intensity measures.
+const MEASURES: [&str; 3] = ["PGA", "Sa", "AvgSA"];
+/// Names of the ways to choose levels.
+const METHODS: [&str; 3] = ["hunt", "step", "grid"];
+/// Resolution and gap of a hunt that states none.
+const RESOLUTION: f64 = 0.01;
+const GAP: f64 = 0.1;
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct LevelsTable {
-    method: Spanned<String>,
-    unit: Option<Spanned<String>>,
-    first: Option<f64>,
-    increase: Option<f64>,
-    step: Option<f64>,
-    top: Option<f64>,
-    resolution: Option<f64>,
-    gap: Option<f64>,
-    values: Option<Vec<f64>>,
+tables! {
+    /// Intensity measure by which records are scaled; spectral ones at 5 % damping.
+    #[derive(Debug)]
+    pub(super) struct IntensityTable {
+        /// The measure.
+        #[key(enum = MEASURES.to_vec(), default = "AvgSA")]
+        measure: Spanned<String>,
+        /// Period of Sa \[s\].
+        period: Option<f64>,
+        /// Periods of AvgSA \[s\]; by default 0.2, 0.4 to 1.4 s.
+        periods: Option<Vec<f64>>,
+    }
+
+    /// Levels of intensity: hunt, step (to the first overturning) or grid.
+    #[derive(Debug)]
+    pub(super) struct LevelsTable {
+        /// How levels are chosen.
+        #[key(enum = METHODS.to_vec())]
+        method: Spanned<String>,
+        /// Unit of the levels: m/s2, cm/s2, mm/s2 or g.
+        #[key(default = "g")]
+        unit: Option<Spanned<String>>,
+        /// First level and first step of a hunt.
+        first: Option<f64>,
+        /// Increase of each step of a hunt.
+        increase: Option<f64>,
+        /// Distance between levels of step and grid.
+        step: Option<f64>,
+        /// Highest level.
+        top: Option<f64>,
+        /// Largest bracket of the collapse in a hunt, as a part of the collapse intensity.
+        #[key(default = RESOLUTION)]
+        resolution: Option<f64>,
+        /// Largest gap between levels of a hunt, as a part of the collapse intensity.
+        #[key(default = GAP)]
+        gap: Option<f64>,
+        /// Levels of a grid.
+        values: Option<Vec<f64>>,
+    }
 }
 
 pub(super) fn measure(
@@ -45,7 +72,7 @@ pub(super) fn measure(
         ("AvgSA", None, Some(periods)) => Ok(IntensityMeasure::AvgSa { periods: periods.clone() }),
         ("AvgSA", ..) => refuse("AvgSA takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
-            let message = format!("measure = {other:?} is not one of PGA, Sa, AvgSA");
+            let message = format!("measure = {other:?} is not one of {}", MEASURES.join(", "));
             Err(place.error(spec.measure.span(), message))
         }
     }
@@ -65,7 +92,7 @@ pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<
         "step" => &["step", "top"],
         "grid" => &["values", "step", "top"],
         other => {
-            let message = format!("method = {other:?} is not one of hunt, step, grid");
+            let message = format!("method = {other:?} is not one of {}", METHODS.join(", "));
             return Err(place.error(spec.method.span(), message));
         }
     };
@@ -92,8 +119,8 @@ pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<
             first: needed("first")?,
             increase: needed("increase")?,
             top: needed("top")?,
-            resolution: spec.resolution.unwrap_or(0.01),
-            gap: spec.gap.unwrap_or(0.1),
+            resolution: spec.resolution.unwrap_or(RESOLUTION),
+            gap: spec.gap.unwrap_or(GAP),
         }),
         "step" => Ok(Levels::ToOverturning { step: needed("step")?, top: needed("top")? }),
         _ => match (&spec.values, spec.step, spec.top) {

@@ -19,18 +19,20 @@ mod levels;
 mod model;
 mod report;
 
-use rocking_wall::scene::{DEFAULT_TAIL, Place, SceneError, StoreyTable, SupportsTable, parse_toml};
+use rocking_wall::scene::{
+    DEFAULT_TAIL, Place, SceneError, Schema, StoreyTable, SupportsTable, file_schema, parse_toml, with,
+};
+use rocking_wall::tables;
 use run::model::Model;
 use run::records::{RecordsEntry, RecordsTable, records};
 use run::walls::{WallEntry, WallTable, entries};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
 use crate::ida::{IntensityMeasure, LONGEST_TAIL, Levels};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
-use model::model;
+use model::{model, model_schema};
 use report::{ClassTable, ReportTable, report};
 
 pub use report::{ReportOptions, WallClass};
@@ -56,30 +58,52 @@ pub struct StudyFile {
     pub report: ReportOptions,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document {
-    title: Option<String>,
-    models: Vec<Spanned<Value>>,
-    tail: Option<Spanned<f64>>,
-    #[serde(default)]
-    intensity: Option<Spanned<IntensityTable>>,
-    levels: Spanned<LevelsTable>,
-    records: Option<Spanned<RecordsTable>>,
-    report: Option<Spanned<ReportTable>>,
-    #[serde(default)]
-    classes: Vec<Spanned<ClassTable>>,
-    #[serde(default)]
-    storeys: Vec<Spanned<StoreyTable>>,
-    supports: Option<Spanned<SupportsTable>>,
-    /// A check reads it.
-    #[serde(rename = "check")]
-    _check: Option<IgnoredAny>,
-    #[serde(default)]
-    walls: Vec<Spanned<WallTable>>,
+tables! {
+    /// A study.
+    #[derive(Debug)]
+    struct Document {
+        /// Title, for people.
+        title: Option<String>,
+        /// Damping models by their names, or with a given ratio.
+        #[key(items = model_schema(), minItems = 1)]
+        models: Vec<Spanned<Value>>,
+        /// Free vibration after each record \[s\].
+        #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_TAIL)]
+        tail: Option<Spanned<f64>>,
+        /// Intensity measure by which records are scaled.
+        intensity: Option<Spanned<IntensityTable>>,
+        /// Levels of intensity.
+        levels: Spanned<LevelsTable>,
+        /// Records from files, and synthetic ones after them.
+        records: Option<Spanned<RecordsTable>>,
+        /// What the results show.
+        report: Option<Spanned<ReportTable>>,
+        /// Classes of walls that risk engines see as one.
+        #[serde(default)]
+        classes: Vec<Spanned<ClassTable>>,
+        /// Storeys between the ground and the walls, the lowest first; records shake the ground.
+        #[serde(default)]
+        storeys: Vec<Spanned<StoreyTable>>,
+        /// The floors that support the walls.
+        supports: Option<Spanned<SupportsTable>>,
+        /// A check by a code, which `wall check` reads.
+        #[serde(rename = "check")]
+        _check: Option<IgnoredAny>,
+        /// Walls.
+        #[serde(default)]
+        #[key(minItems = 1)]
+        walls: Vec<Spanned<WallTable>>,
+    }
 }
 
 impl StudyFile {
+    /// Returns the JSON schema of study files.
+    pub fn schema() -> Schema {
+        // a program may supply walls and records itself, a file has both
+        let required = vec!["models", "levels", "records", "walls"];
+        with(file_schema::<Document>("Study of rocking-wall"), "required", required)
+    }
+
     /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing,
     /// since a program can supply them itself.
     ///

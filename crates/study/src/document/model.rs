@@ -3,10 +3,12 @@
 use toml::{Spanned, Value};
 
 use fmu_export::VariableId;
-use rocking_wall::scene::{Place, SceneError, check_limits, suggestion};
+use rocking_wall::scene::{
+    Place, SceneError, Schema, check_limits, object, one_of, parameters, suggestion, text, with,
+};
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{COMPUTED, Damping};
-use run::model::{EnergyLoss, Model};
+use run::model::{EnergyLoss, Model, damping_models, label};
 
 /// Keys of a model that is a table.
 const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];
@@ -20,6 +22,19 @@ fn names() -> String {
 /// Describes a model that has no options.
 fn no_table(short: &str) -> String {
     format!("{short:?} takes no ratio; write it as \"{short}\"")
+}
+
+/// Describes a model: a name, or a table with its ratio.
+pub(super) fn model_schema() -> Schema {
+    let own = [
+        ("name", text("Name in tables; by default that of the model.")),
+        ("model", one_of(damping_models().map(|model| label(model).name))),
+    ];
+    let mut keys: Schema = own.map(|(key, schema)| (key.to_owned(), schema.into())).into_iter().collect();
+    keys.extend(parameters("damping").into_iter().filter(|(key, _)| KEYS.contains(&key.as_str())));
+    let table = with(object(keys), "required", vec!["model"]);
+    let names: Vec<_> = EnergyLoss::all().map(EnergyLoss::name).collect();
+    with(Schema::new(), "anyOf", vec![one_of(names.iter().map(String::as_str)), table])
 }
 
 pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {

@@ -4,9 +4,12 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use report::counted;
-use rocking_wall::scene::{Place, SceneError, suggestion};
+use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
+use rocking_wall::tables;
 use run::model::Model;
 
+/// Resamples of a bootstrap that states none.
+const RESAMPLES: u32 = 1000;
 /// Most resamples of the bootstrap.
 const MOST_RESAMPLES: u32 = 100_000;
 /// Largest β of modelling.
@@ -40,24 +43,39 @@ pub struct WallClass {
     pub weights: Vec<f64>,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ReportTable {
-    fractions: Option<Vec<f64>>,
-    reference: Option<Spanned<String>>,
-    resamples: Option<u32>,
-    seed: Option<u64>,
-    modelling_uncertainty: Option<f64>,
-}
+tables! {
+    /// What the results show.
+    #[derive(Debug)]
+    pub(super) struct ReportTable {
+        /// Limit states as fractions of `u_ins`.
+        #[key(items = fraction(), minItems = 1, default = DEFAULT_THRESHOLDS.to_vec())]
+        fractions: Option<Vec<f64>>,
+        /// Model by whose medians the others are divided; by default the first.
+        reference: Option<Spanned<String>>,
+        /// Number of resamples of the bootstrap.
+        #[key(minimum = 100, maximum = MOST_RESAMPLES, default = RESAMPLES)]
+        resamples: Option<u32>,
+        /// Seed of the resamples.
+        #[key(default = 1)]
+        seed: Option<u64>,
+        /// Dispersion due to modelling, for the fragilities of risk engines \[-\].
+        #[key(minimum = 0, maximum = MOST_UNCERTAINTY, default = 0)]
+        modelling_uncertainty: Option<f64>,
+    }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ClassTable {
-    name: String,
-    #[serde(default)]
-    walls: Vec<String>,
-    #[serde(default)]
-    weights: Vec<f64>,
+    /// A class of walls that risk engines see as one.
+    #[derive(Debug)]
+    pub(super) struct ClassTable {
+        /// Name, of no wall.
+        name: String,
+        /// Names of its walls; by default all walls of the study.
+        #[serde(default)]
+        walls: Vec<String>,
+        /// Weight of each wall, of any sum; by default equal.
+        #[serde(default)]
+        #[key(items = positive())]
+        weights: Vec<f64>,
+    }
 }
 
 impl WallClass {
@@ -98,9 +116,9 @@ pub(super) fn report(
     place: &Place<'_>,
 ) -> Result<ReportOptions, SceneError> {
     let mut report = ReportOptions {
-        fractions: vec![0.1, 0.4, 0.6, 1.0],
+        fractions: DEFAULT_THRESHOLDS.to_vec(),
         reference: models.first().map(|model| model.name.clone()).unwrap_or_default(),
-        resamples: 1000,
+        resamples: RESAMPLES,
         seed: 1,
         modelling_uncertainty: 0.0,
         classes: read_classes(classes, place)?,

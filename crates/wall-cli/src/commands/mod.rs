@@ -37,7 +37,7 @@ enum Command {
     Building(building::Arguments),
     /// Print what follows from a wall's parameters
     Describe(describe::Arguments),
-    /// Check a wall by Circolare 7/2019, or over a spectrum
+    /// Check walls by a building code, or over a spectrum
     Check(check::Arguments),
     /// Print what record files hold, or write a motion as CSV
     #[command(allow_negative_numbers = true)]

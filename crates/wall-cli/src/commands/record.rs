@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Maxima, Spectrum};
+use ground_motion::{Format, Maxima, Spectrum};
 use report::plot::Picture;
 use run::record_facts::figure::{self, Drawn};
 use run::record_facts::{Facts, Intensities, listing, samples, table};
@@ -15,11 +15,15 @@ use serde_json::json;
 use crate::args::{MotionArguments, STDIN, SYNTHETIC, record_files};
 use crate::output::{self, Console};
 
+fn files_help() -> String {
+    let formats = Format::listed();
+    format!("Records: {formats} or text; a folder is listed, one row a file; `-` is standard input")
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA, UNAM,
-    /// RENADIC/BHRC, CSV or text; a folder is listed, one row a file; `-` is standard input
-    #[arg(group = "recorded", required_unless_present = "synthetic", value_name = "FILES")]
+    #[arg(group = "recorded", required_unless_present = "synthetic")]
+    #[arg(value_name = "FILES", help = files_help())]
     files: Vec<PathBuf>,
     #[command(flatten)]
     motion: MotionArguments,

@@ -36,7 +36,7 @@ fn motions_stronger_than_any_record_are_warned_of() {
         format!(
             "models = [\"CDC\"]\nintensity = {{ measure = \"PGA\" }}\n\
              levels = {{ unit = \"m/s2\", {levels} }}\n\
-             records = {{ synthetic = {{ count = 2, seed = 1 }} }}\n{walls}"
+             records = {{ synthetic = {{ count = 1, duration = 10, step = 0.02 }} }}\n{walls}"
         )
     };
     write("grid.toml", &study("method = \"grid\", values = [1, 3000]"));

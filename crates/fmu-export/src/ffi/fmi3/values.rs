@@ -3,12 +3,12 @@
 use super::types::{Binary, Boolean};
 use crate::access::Access;
 use crate::call::Call;
-use crate::failure::Failure;
 use crate::ffi::arguments::{array, to_get, to_set};
 use crate::ffi::common::{get_texts, set_texts};
 use crate::ffi::guard::functions;
 use crate::ffi::types::{Component, Status, Text, ValueReference};
 use crate::instance::Instance;
+use crate::model::Failure;
 use crate::model::{Model, ModelExchange};
 use crate::variable::Kind;
 
