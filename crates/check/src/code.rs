@@ -65,8 +65,8 @@ pub trait Code: fmt::Debug + Send + Sync {
     /// Checks a wall.
     ///
     /// # Errors
-    /// [`CheckError`] of a statement that is missing or does not fit the wall, of a wall that the code does not
-    /// cover, of a spectrum that ends too early, or of a run.
+    /// [`CheckError`] of a statement that is missing or does not fit the wall, of a wall that the code does
+    /// not cover, of a spectrum that ends too early, or of a run.
     fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError>;
 
     /// The records that the table names.
@@ -170,7 +170,8 @@ pub trait Details {
     /// Intermediate numbers: a row for each, a column for each side.
     fn numbers(&self) -> Table;
 
-    /// The sections of a report between verdict and warnings: by default the wall, the figure and the numbers.
+    /// The sections of a report between verdict and warnings: by default the wall, the figure and the
+    /// numbers.
     ///
     /// # Errors
     /// Those of [`figure`](Self::figure).

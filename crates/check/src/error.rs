@@ -42,8 +42,8 @@ impl CheckError {
         Self::Wall { message: message.into() }
     }
 
-    /// Returns the keys from the table `[check]` to the value that the error is about, such as `SLV`, `ag`, be
-    /// it there or missing; `None` where it is about no value of the table.
+    /// Returns the keys from the table `[check]` to the value that the error is about, such as `SLV`, `ag`,
+    /// be it there or missing; `None` where it is about no value of the table.
     pub fn keys(&self) -> Option<&[String]> {
         match self {
             Self::Unread { keys, .. } | Self::Value { keys, .. } => Some(keys),

@@ -123,8 +123,8 @@ impl Found {
         })
     }
 
-    /// Draws capacity over demand over the values that were tried, up to three times the one found; the limit 1,
-    /// and that value.
+    /// Draws capacity over demand over the values that were tried, up to three times the one found; the limit
+    /// 1, and that value.
     pub fn plot(&self) -> Plot {
         let (name, unit) = (self.sought.name(), self.sought.unit());
         let symbol = self.symbol.replace("zeta", "ζ");

@@ -10,7 +10,8 @@ use crate::errors::{of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
 
-/// Checks a wall by the table `[check]` in a text, with records by their names; returns the fields of a verdict.
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns the fields of a
+/// verdict.
 #[pyfunction]
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,

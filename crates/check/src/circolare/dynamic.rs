@@ -2,8 +2,8 @@
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
 //! and the strength of a tie are divided by FC, masses stay. The result of a record is the larger of
-//! |d|/threshold on the two sides. The tie of the model does not break: a run that reaches its strength fails,
-//! and so does one that reaches `u_ins`.
+//! |d|/threshold on the two sides. The tie of the model does not break: a run that reaches its strength
+//! fails, and so does one that reaches `u_ins`.
 
 use record::RecordSolver;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};

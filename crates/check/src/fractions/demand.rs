@@ -23,8 +23,8 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError`] of the first whose period does not rise or whose `S_a` is not above 0, and if the first is
-    /// not that of T = 0; `place` names a point by its index.
+    /// [`CheckError`] of the first whose period does not rise or whose `S_a` is not above 0, and if the first
+    /// is not that of T = 0; `place` names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
         let mut before: Option<f64> = None;
         for (index, &(period, acceleration)) in points.iter().enumerate() {
@@ -74,7 +74,8 @@ impl Demand {
             Of::Points(points) => interpolated(points, period).ok_or_else(|| {
                 let [from, to] = [points.first(), points.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
                 let message = format!(
-                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period"
+                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that \
+                     period"
                 );
                 CheckError::value(&["spectrum"], message)
             }),

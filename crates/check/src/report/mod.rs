@@ -57,8 +57,8 @@ impl Figure {
     }
 }
 
-/// Makes the page of a report: the verdict, the sections of its code, warnings and the fingerprints of what was
-/// read.
+/// Makes the page of a report: the verdict, the sections of its code, warnings and the fingerprints of what
+/// was read.
 ///
 /// # Errors
 /// [`CheckError`] of a demand, or of a record that cannot be read again.
@@ -66,7 +66,8 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let passed = if verdict.passed { "holds" } else { "fails" };
     let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
     let head = format!(
-        "<p class=\"subtitle\">{}</p>\n<p class=\"subtitle\">{}</p>\n<p class=\"verdict {passed}\">{headline}</p>",
+        "<p class=\"subtitle\">{}</p>\n<p class=\"subtitle\">{}</p>\n<p class=\"verdict \
+         {passed}\">{headline}</p>",
         escaped(verdict.code.source),
         origin.date.map_or_else(String::new, escaped)
     );

@@ -243,8 +243,9 @@ class Wall(Given, Calculated):
         :param code: "circolare-2019", or "fractions" for the capacity at fractions of the displacement at
             which the force vanishes, against a spectrum or the median of the records.
         :param statements: Of "circolare-2019" `SLV={"ag": ..., "F0": ..., "TC": ...}`, likewise `SLD` and
-            `SLC`, `before_activation`, `soil`, `building` and others; of "fractions" `spectrum=[[T, Sa], ...]`
-            with its `unit`, `damping`, `displacement_fraction` and `secant_fraction`.
+            `SLC`, `before_activation`, `soil`, `building` and others; of "fractions"
+            `spectrum=[[T, Sa], ...]` with its `unit`, `damping`, `displacement_fraction` and
+            `secant_fraction`.
 
         Raises `ValueError` for what cannot be checked: a statement that is missing, unknown or outside its
         limits, a demand without the secant period.

@@ -50,8 +50,8 @@ pub(in crate::circolare) fn figure(
         key += &line(color, "solid", "its spectrum");
     }
     let caption = format!(
-        "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies right of the \
-         triangle of the same colour. <span class=\"key\">{key}</span>",
+        "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies right of \
+         the triangle of the same colour. <span class=\"key\">{key}</span>",
         ::report::escaped(name)
     );
     Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands)? })
