@@ -309,7 +309,8 @@ fn the_page_offers_every_code() {
     }
     let given = json!({
         "code": "fractions", "before_activation": null, "soil": null, "confidence_factor": null,
-        "SLV.ag": null, "SLV.F0": null, "SLV.TC": null, "spectrum": "[[0, 2], [0.5, 5], [4, 0.6]]", "check.unit": "m/s2",
+        "SLV.ag": null, "SLV.F0": null, "SLV.TC": null,
+        "spectrum": "[[0, 2], [0.5, 5], [4, 0.6]]", "check.unit": "m/s2",
     });
     let check = checked(&json!({}), &given)["check"].clone();
     assert!(check["svg"].as_str().unwrap().starts_with("<svg"), "{check}");

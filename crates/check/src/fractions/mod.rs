@@ -159,8 +159,8 @@ impl Statement {
             // a file may round it: 0.9 % for 0.0087
             if let Some(given) = table.damping.filter(|given| (given - stated).abs() > 0.05 * stated) {
                 let message = format!(
-                    "{name}: expected the damping ratio that the column of Sa states, {stated}, found damping \
-                     {given}; leave out damping, or use the spectrum of that damping"
+                    "{name}: expected the damping ratio that the column of Sa states, {stated}, found \
+                     damping {given}; leave out damping, or use the spectrum of that damping"
                 );
                 return Err(CheckError::value(&["damping"], message));
             }
