@@ -182,7 +182,7 @@ def test_the_check_follows_the_thickness(browser, page, record_property):
     """ζ_E and the picture of the check change with each step of the slider."""
     visit(browser, page)
     shown = [slide(browser, "thickness", 0.3 + 0.02 * step)["check"] for step in range(15)]
-    zetas = [check["zeta_E"] for check in shown]
+    zetas = [check["zeta"] for check in shown]
     assert zetas == sorted(set(zetas)) and zetas[0] < 1 < zetas[-1]
     assert len({check["svg"] for check in shown}) == 15
     assert text_of(browser, "check_headline") == shown[-1]["headline"]
@@ -208,7 +208,7 @@ def test_the_check_is_that_of_the_command_line(browser, wall, page, tmp_path):
         command = [wall, "check", "scene.toml", "--json"]
         told = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
         zeta = json.loads(told)["governs"]["zeta_E"]
-        assert shown["check"]["zeta_E"] == pytest.approx(zeta, rel=ROUNDING)
+        assert shown["check"]["zeta"] == pytest.approx(zeta, rel=ROUNDING)
 
 
 def test_a_check_that_cannot_be_made_says_why(browser, page):
