@@ -72,7 +72,10 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
         origin.date.map_or_else(String::new, escaped)
     );
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&head);
-    let mut page = page.section("Verdict", &(verdict.html() + &list(&verdict.notes)));
+    let mut page = page.section(
+        "Verdict",
+        &format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&verdict.notes)),
+    );
     for (heading, markup) in verdict.details.sections(origin)? {
         page = page.section(&heading, &markup);
     }
