@@ -29,8 +29,8 @@ use serde_json::Value;
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
-use crate::records::Records;
 use crate::report::{Figure, Origin, the_wall};
+use crate::site::Records;
 use crate::{circolare, fractions};
 
 /// The codes. A new one is a module and a line here.

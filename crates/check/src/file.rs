@@ -9,7 +9,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use crate::error::CheckError;
-use crate::records::Records;
+use crate::site::Records;
 
 /// A scene, or a file of walls, with a table `[check]`.
 pub struct CheckFile<'a> {

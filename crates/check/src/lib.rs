@@ -6,7 +6,6 @@ mod error;
 mod file;
 mod find;
 pub mod fractions;
-mod records;
 mod report;
 mod site;
 mod walls;
@@ -15,6 +14,6 @@ pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_
 pub use error::CheckError;
 pub use file::CheckFile;
 pub use find::{Found, Sought, find};
-pub use records::Records;
 pub use report::{Figure, Origin, page};
+pub use site::Records;
 pub use walls::{WallVerdicts, check_walls};

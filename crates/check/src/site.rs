@@ -1,21 +1,38 @@
-//! What acts on a wall at its place: motions of floors, and spectra given by points.
+//! What acts on a wall at its place: records of the ground, motions of floors, spectra given by points.
 
-use ground_motion::{GroundMotion, GroundMotionError};
-use rocking_wall::scene::{DEFAULT_TAIL, Floors, SceneError};
+use std::path::PathBuf;
+
+use ground_motion::GroundMotion;
+use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Wall;
+use run::records::NamedRecord;
 
-/// Returns the motion that acts on a wall under a record: the record itself, or the motion of its floors,
-/// those of a strip wall by their weights.
-pub(crate) fn felt<E: From<SceneError> + From<GroundMotionError>>(
-    record: GroundMotion,
-    floors: Option<&Floors>,
-    wall: &Wall,
-) -> Result<GroundMotion, E> {
-    let Some(floors) = floors else { return Ok(record) };
-    let end = record.duration() + DEFAULT_TAIL;
-    let motion = floors.motion(wall.body().mechanism, &Excitation::new(record, None), end)?;
-    Ok(motion.effective(wall.body())?)
+use crate::error::CheckError;
+
+/// The records of a check: motions of the ground at the site.
+#[derive(Clone, Debug, Default)]
+pub struct Records {
+    /// Their names and motions.
+    pub named: Vec<NamedRecord>,
+    /// Files that they were read from.
+    pub files: Vec<PathBuf>,
+    /// Warnings of a quick check of the records.
+    pub warnings: Vec<String>,
+}
+
+impl Records {
+    /// Returns the motion that acts on a wall under each record: the record itself, or the motion of its
+    /// floors, those of a strip wall by their weights.
+    pub(crate) fn felt(&self, floors: Option<&Floors>, wall: &Wall) -> Result<Vec<GroundMotion>, CheckError> {
+        let one = |NamedRecord { motion, .. }: &NamedRecord| {
+            let Some(floors) = floors else { return Ok(motion.clone()) };
+            let end = motion.duration() + DEFAULT_TAIL;
+            let at = floors.motion(wall.body().mechanism, &Excitation::new(motion.clone(), None), end)?;
+            Ok(at.effective(wall.body())?)
+        };
+        self.named.iter().map(one).collect()
+    }
 }
 
 /// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them; `None` beyond

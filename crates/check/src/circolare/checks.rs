@@ -15,7 +15,7 @@ use super::verdict::{
 use super::{ENTRY, LimitState};
 use crate::code::Subject;
 use crate::error::CheckError;
-use crate::records::Records;
+use crate::site::Records;
 
 /// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
 fn period_factor(state: LimitState) -> f64 {

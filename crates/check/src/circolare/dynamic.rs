@@ -16,7 +16,7 @@ use super::table::{Method, RecordScale};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
 use crate::error::CheckError;
-use crate::records::Records;
+use crate::site::Records;
 use run::bisection::first_true;
 use run::shaking::Shaking;
 

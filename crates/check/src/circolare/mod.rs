@@ -35,7 +35,7 @@ use rocking_wall::scene::Described;
 
 use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
-use crate::records::Records;
+use crate::site::Records;
 
 pub use checks::LARGEST_LOSS;
 pub use demand::{Demand, MEAN_COUNTS_FROM};

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::statement::Statement;
 use super::table::{Method, UseClass};
-use super::verdict::{Checked, Deciding, DisplacementCheck, DynamicState, SideVerdict};
+use super::verdict::{Checked, Deciding, DisplacementCheck, DynamicCheck, DynamicState, SideVerdict};
 use super::{ENTRY, LimitState};
 use crate::code::{Details, Ends, Row, Verdict, numbers};
 use crate::error::CheckError;
@@ -72,9 +72,10 @@ impl<'a> Checked<'a> {
                 },
             ));
         }
-        for (state, name, found) in self.dynamic() {
+        for (state, found) in self.dynamic() {
+            let is_slc = state == LimitState::Slc;
             rows.push(Row {
-                check: name,
+                check: if is_slc { "SLC under records" } else { "SLV under records" },
                 side: if self.outcome.alike { "both sides" } else { found.side.name() },
                 zeta: found.zeta,
                 passed: found.passed,
@@ -87,25 +88,15 @@ impl<'a> Checked<'a> {
         rows
     }
 
-    /// The limit states of the dynamic check, with the names of their rows.
-    pub(super) fn dynamic(&self) -> impl Iterator<Item = (LimitState, &'static str, &DynamicState)> {
-        let dynamic = self.outcome.dynamic.iter().flat_map(|dynamic| {
-            [
-                (LimitState::Slv, "SLV under records", &dynamic.slv),
-                (LimitState::Slc, "SLC under records", &dynamic.slc),
-            ]
-        });
-        dynamic.filter_map(|(state, name, found)| Some((state, name, found.as_ref()?)))
+    /// The limit states of the dynamic check.
+    pub(super) fn dynamic(&self) -> impl Iterator<Item = (LimitState, &DynamicState)> {
+        let states = self.outcome.dynamic.iter().flat_map(DynamicCheck::states);
+        states.map(|(check, found)| (check.state(), found))
     }
 
     fn notes(&self) -> Vec<String> {
         let governs = self.outcome.governs;
-        let state = match governs.limit_state {
-            Deciding::Sld => LimitState::Sld,
-            Deciding::SlvWithQ | Deciding::Slv => LimitState::Slv,
-            Deciding::Slc => LimitState::Slc,
-        };
-        let site = self.statement.state(state).map_or(f64::NAN, |given| given.ag);
+        let site = self.statement.state(governs.limit_state.state()).map_or(f64::NAN, |given| given.ag);
         let [bears, at_site] = [governs.zeta * site, site].map(|ag| number(ag, 3));
         let mut notes = vec![
             format!("It holds up to a_g = {bears} g; the site has {at_site} g."),
@@ -129,7 +120,7 @@ impl<'a> Checked<'a> {
                 }
             }
         }
-        for (state, _, found) in self.dynamic() {
+        for (state, found) in self.dynamic() {
             notes.extend(of_runs(state, found));
         }
         notes

@@ -2,7 +2,7 @@
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
-use crate::records::Records;
+use crate::site::Records;
 
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};

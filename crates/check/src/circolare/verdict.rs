@@ -4,6 +4,7 @@ use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Parameters, Wall};
 use serde::Serialize;
 
+use super::LimitState;
 use super::demand::Demand;
 use super::statement::Statement;
 
@@ -122,6 +123,15 @@ impl Deciding {
             Self::SlvWithQ => "SLV with q",
             Self::Slv => "SLV",
             Self::Slc => "SLC",
+        }
+    }
+
+    /// Returns its limit state.
+    pub(super) fn state(self) -> LimitState {
+        match self {
+            Self::Sld => LimitState::Sld,
+            Self::SlvWithQ | Self::Slv => LimitState::Slv,
+            Self::Slc => LimitState::Slc,
         }
     }
 }

@@ -26,8 +26,8 @@ use crate::circolare::Side;
 use crate::code::{Code, Details, Ends, Entry, Row, Subject, Verdict, numbers};
 use crate::error::CheckError;
 use crate::file::CheckFile;
-use crate::records::Records;
 use crate::report::Figure;
+use crate::site::Records;
 use ::report::table::{Cell, Table, significant};
 use sides::governing;
 

@@ -6,7 +6,7 @@ use rocking_wall::wall::{Tie, Wall};
 
 use crate::error::CheckError;
 
-/// The displacements at which capacity is read, as fractions of others.
+/// The displacements at which capacity is read, as fractions of `u_ins`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
     /// `d_u*` over the d* at which the force of the wall alone vanishes \[-\].

@@ -12,7 +12,7 @@ use rocking_wall::scene::{SceneError, fingerprint};
 use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::file::CheckFile;
-use crate::records::Records;
+use crate::site::Records;
 
 pub(crate) use inputs::the_wall;
 use markup::{formula, list, table};

@@ -19,7 +19,7 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
         formula("d"),
         formula("ζ_E")
     );
-    for (name, _, state) in case.dynamic() {
+    for (name, state) in case.dynamic() {
         text += &one(case, name, state);
     }
     Some(text)
