@@ -25,7 +25,7 @@ use report::number;
 use report::table::{Cell, Column, Digits, Table};
 use rocking_wall::scene::{Floors, Scene, Schema, suggestion, with};
 use rocking_wall::wall::{Parameters, Wall};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
@@ -300,6 +300,20 @@ impl Verdict<'_> {
             let _ = writeln!(text, "{note}");
         }
         text
+    }
+
+    /// What every front says besides the rows, by name.
+    pub fn summary(&self) -> Value {
+        json!({
+            "code": self.code.name,
+            "passed": self.passed,
+            "governs": self.governs,
+            "side": self.at("both sides"),
+            "zeta": self.zeta,
+            "headline": self.headline(),
+            "notes": self.notes,
+            "warnings": self.warnings,
+        })
     }
 
     /// All numbers by name.

@@ -61,15 +61,15 @@ fn outcome(text: &str, parameters: &Parameters, width: f64) -> Result<Value, Che
     let verdict = code.check(Subject { parameters, floors: None })?;
     let figure = verdict.details.figure()?;
     let plot = Plot { size: [width, (0.5 * width).clamp(200.0, 270.0)], ..figure.plot };
-    Ok(json!({
-        "state": if verdict.passed { "stands" } else { "falls" },
-        "headline": format!("{}: {}", verdict.code.title, verdict.headline()),
-        "notes": verdict.notes,
-        "zeta": verdict.zeta,
-        "rows": verdict.html(),
-        "numbers": verdict.details.numbers().html(),
-        "warnings": verdict.warnings,
-        "caption": figure.caption,
-        "svg": plot.svg(),
-    }))
+    let mut outcome = verdict.summary();
+    for (name, value) in [
+        ("title", verdict.code.title),
+        ("rows", &verdict.html()),
+        ("numbers", &verdict.details.numbers().html()),
+        ("caption", &figure.caption),
+        ("svg", &plot.svg()),
+    ] {
+        outcome[name] = value.into();
+    }
+    Ok(outcome)
 }

@@ -10,15 +10,15 @@ use crate::errors::{of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
 
-/// Checks a wall by the table `[check]` in a text, with records by their names; returns the fields of a
-/// verdict.
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns what its verdict says
+/// and its numbers as JSON, its rows, and its picture.
 #[pyfunction]
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
     text: String,
     records: Vec<(String, MotionValues<'_>)>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
     let record =
         |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
     let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
@@ -27,34 +27,11 @@ pub(crate) fn check_wall<'py>(
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
         let picture = verdict.details.figure()?.plot.picture().svg();
-        let texts = [verdict.code.name.to_owned(), verdict.headline(), verdict.json().to_string(), picture];
-        let side = verdict.at("both sides");
-        let table = verdict.table();
-        Ok((
-            texts,
-            (verdict.passed, verdict.governs, side, verdict.zeta),
-            table,
-            verdict.notes,
-            verdict.warnings,
-        ))
+        Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
     });
-    let (texts, (passed, governs, side, zeta), rows, notes, warnings) =
-        checked.map_err(|error: CheckError| match error {
-            CheckError::Scene(error) => of_scene(error),
-            other => refused(other),
-        })?;
-    let [code, headline, numbers, picture] = texts;
-    let fields = PyDict::new(py);
-    for (name, text) in [("code", code), ("headline", headline), ("numbers", numbers), ("_picture", picture)]
-    {
-        fields.set_item(name, text)?;
-    }
-    fields.set_item("passed", passed)?;
-    fields.set_item("governs", governs)?;
-    fields.set_item("side", side)?;
-    fields.set_item("zeta", zeta)?;
-    fields.set_item("table", table(py, rows)?)?;
-    fields.set_item("notes", notes)?;
-    fields.set_item("warnings", warnings)?;
-    Ok(fields)
+    let (summary, numbers, rows, picture) = checked.map_err(|error: CheckError| match error {
+        CheckError::Scene(error) => of_scene(error),
+        other => refused(other),
+    })?;
+    Ok((summary, numbers, table(py, rows)?, picture))
 }

@@ -230,13 +230,13 @@ function showCheck(check) {
   const isMade = check !== null && check.faults === undefined;
   at("check").hidden = check === null;
   at("check_more").hidden = !isMade;
-  at("check").className = `verdict ${isMade ? check.state : "wrong"}`;
+  at("check").className = `verdict ${!isMade ? "wrong" : check.passed ? "stands" : "falls"}`;
   if (!isMade) {
     at("check_headline").textContent = "The check needs more, or other values";
     at("check_detail").textContent = Object.values(check?.faults ?? {}).join(" ");
     return;
   }
-  at("check_headline").textContent = check.headline;
+  at("check_headline").textContent = `${check.title}: ${check.headline}`;
   const [detail, ...notes] = check.notes, listed = textContent => make("li", { textContent });
   at("check_detail").textContent = detail;
   at("check_rows").innerHTML = check.rows;

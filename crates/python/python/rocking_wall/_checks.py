@@ -27,9 +27,9 @@ class Verdict:
     """The verdict in a line."""
     table: Table = field(compare=False)
     """A row for each check of each side: capacity and demand [m/s2 or m], and the ground's a_g [g]."""
-    notes: tuple[str, ...]
+    notes: list[str]
     """What is to be said of the rows."""
-    warnings: tuple[str, ...]
+    warnings: list[str]
     """What the engineer should know; none of it stops the check."""
     numbers: dict[str, Any]
     """All numbers by the names of `wall check --json`, in SI units."""

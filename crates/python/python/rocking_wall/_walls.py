@@ -266,9 +266,8 @@ class Wall(Given, Calculated):
             table["records"] = {}
         text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
         named = [(getattr(record, "name", ""), motion_of(record)) for record in given]
-        fields = _native.check_wall(self._native, text, named)
-        fields |= {"table": Table(fields["table"]), "numbers": json.loads(fields["numbers"])}
-        return Verdict(notes=tuple(fields.pop("notes")), warnings=tuple(fields.pop("warnings")), **fields)
+        summary, numbers, rows, picture = _native.check_wall(self._native, text, named)
+        return Verdict(**json.loads(summary), table=Table(rows), numbers=json.loads(numbers), _picture=picture)
 
     def rocking_spectrum(
         self,
