@@ -83,21 +83,17 @@ fn activation(
         Demand::Records(_) => (at_t0(), "the records", "S_e(T0, ξ)", String::new()),
     };
     lines.line([&words, source], [left, &put], (check.demand, "m/s²"));
-    end(&mut lines, given, [n(check.capacity), n(check.demand)], check.ratio, check.ag);
+    let put = format!("{}/{}", n(check.capacity), n(check.demand));
+    lines.line(["Safety index", "NTC 8.3"], ["ζ_E", &put], (check.ratio, ""));
+    end(&mut lines, given, check.ratio, check.ag);
     lines.table()
 }
 
-/// The last lines of a check: `ζ_E`, `a_g` and the result.
-fn end(lines: &mut Calculation, given: &StateStatement, [capacity, demand]: [String; 2], zeta: f64, ag: f64) {
-    let put = format!("{capacity}/{demand}");
-    lines.line(["Safety index", "NTC 8.3"], ["ζ_E", &put], (zeta, ""));
-    acceleration(lines, given, zeta, ag);
-    lines.say("Result", result(zeta >= 1.0));
-}
-
-fn acceleration(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
+/// The last lines of a check: `a_g` and the result.
+fn end(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
     let put = format!("{} · {}", n(zeta), n(given.ag));
     lines.line(["Acceleration that it bears", ""], ["a_g,cap = ζ_E a_g", &put], (ag, "g"));
+    lines.say("Result", result(zeta >= 1.0));
 }
 
 /// A check of displacements.
@@ -115,19 +111,18 @@ fn displacement(
     };
     let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
     let of_curve = share * side.d0;
-    if check.limited_by_tie {
+    let of_u = |u: &str| {
         let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
-        let words = "Capacity, where the tie breaks";
-        lines.line([words, "C8.7.1.2.1.6"], [&format!("{d} = (d/u) u_r"), &put], (check.d, "m"));
+        (format!("{d} = (d/u) {u}"), put)
+    };
+    let (words, (left, put)) = if check.limited_by_tie {
+        ("Capacity, where the tie breaks", of_u("u_r"))
     } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
-        let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
-        let words = "Capacity, at the local instability stated";
-        lines.line([words, "C8.7.1.2.1.6"], [&format!("{d} = (d/u) u"), &put], (check.d, "m"));
+        ("Capacity, at the local instability stated", of_u("u"))
     } else {
-        let put = format!("{share:.2} · {}", n(side.d0));
-        let left = format!("{d} = {share:.2} d_0");
-        lines.line(["Capacity", "C8.7.1.2.1.6"], [&left, &put], (check.d, "m"));
-    }
+        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", n(side.d0))))
+    };
+    lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (check.d, "m"));
     lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&a, ""], (check.a, "m/s²"));
     let put = format!("{factor} π √({}/{})", n(check.d), n(check.a));
     let left = format!("{t} = {factor} π √({d}/a)");
@@ -145,8 +140,7 @@ fn displacement(
     } else {
         lines.line(["Safety index", "NTC 8.3"], [&format!("ζ_E = {d}/S_d"), ""], (check.zeta, ""));
     }
-    acceleration(&mut lines, given, check.zeta, check.ag);
-    lines.say("Result", result(check.zeta >= 1.0));
+    end(&mut lines, given, check.zeta, check.ag);
     lines.table()
 }
 
@@ -164,10 +158,10 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
     };
     lines.line([&words, source], [&format!("{symbol}({t}, ξ)"), ""], (check.acceleration, "m/s²"));
     let put = format!("{} · {period}²/(4π²)", n(check.acceleration));
-    match (demand, check.demand_terms) {
+    let (words, source, left, put) = match (demand, check.demand_terms) {
         (Demand::Points(..) | Demand::Records(_), _) => {
             let words = format!("Demand: the largest from {} to {}", formula("T0"), formula(&t));
-            lines.line([&words, "C8.7.1.2.1.8"], ["S_d = max S_e T²/(4π²)", ""], (check.demand, "m"));
+            (words, "C8.7.1.2.1.8", "S_d = max S_e T²/(4π²)".to_owned(), String::new())
         }
         (Demand::Floor(floor), [Some(first), Some(second)]) => {
             let left = format!("S_eZ({t}) {t}²/(4π²)");
@@ -177,23 +171,18 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
             let put = format!("{} · {BEYOND}² · {}²/(4π²)", n(at_first), n(t1));
             let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
             lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (second, "m"));
-            lines.line(["Demand, the larger", ""], ["S_d", ""], (check.demand, "m"));
+            ("Demand, the larger".to_owned(), "", "S_d".to_owned(), String::new())
         }
         (Demand::Floor(_), _) => {
-            let left = format!("S_d = S_eZ({t}) {t}²/(4π²)");
-            lines.line(["Demand", "[C8.7.1.12]"], [&left, &put], (check.demand, "m"));
+            ("Demand".to_owned(), "[C8.7.1.12]", format!("S_d = S_eZ({t}) {t}²/(4π²)"), put)
         }
         (Demand::Ground(ground), _) if check.period > ground.t_e => {
             let words = format!("Demand, beyond {}", formula("T_E"));
-            lines.line(
-                [&words, "[3.2.11], [3.2.12]"],
-                [&format!("S_d = S_De({t}, ξ)"), ""],
-                (check.demand, "m"),
-            );
+            (words, "[3.2.11], [3.2.12]", format!("S_d = S_De({t}, ξ)"), String::new())
         }
         (Demand::Ground(_), _) => {
-            let left = format!("S_d = S_e({t}) {t}²/(4π²)");
-            lines.line(["Demand", "[3.2.10]"], [&left, &put], (check.demand, "m"));
+            ("Demand".to_owned(), "[3.2.10]", format!("S_d = S_e({t}) {t}²/(4π²)"), put)
         }
-    }
+    };
+    lines.line([&words, source], [&left, &put], (check.demand, "m"));
 }
