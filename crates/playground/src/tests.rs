@@ -302,7 +302,11 @@ fn a_thicker_wall_passes_the_check() {
 fn the_page_offers_every_code() {
     let fields = include_str!("page/fields.js");
     for code in check::CODES {
-        assert!(fields.contains(&format!("\"{}\": \"{}\"", code.name, code.title)), "{}", code.name);
+        assert!(
+            fields.contains(&format!("\"{}\": \"{}\"", code.name, code.title)),
+            "fields.js lacks {}",
+            code.name
+        );
     }
     let given = json!({
         "code": "fractions", "before_activation": null, "soil": null, "confidence_factor": null,

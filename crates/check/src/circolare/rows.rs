@@ -100,8 +100,8 @@ impl<'a> Checked<'a> {
         let [bears, at_site] = [governs.zeta * site, site].map(|ag| number(ag, 3));
         let mut notes = vec![
             format!("It holds up to a_g = {bears} g; the site has {at_site} g."),
-            "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC 8.3); a \
-             check passes from 1 on."
+            "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC 8.3); \
+             a check passes from 1 on."
                 .to_owned(),
             format!(
                 "Circolare 7/2019, C8.7.1.2.1; FC = {}; one resultant per body (C8.7.1.1), e* = 1.",

@@ -267,7 +267,8 @@ class Wall(Given, Calculated):
         text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
         named = [(getattr(record, "name", ""), motion_of(record)) for record in given]
         summary, numbers, rows, picture = _native.check_wall(self._native, text, named)
-        return Verdict(**json.loads(summary), table=Table(rows), numbers=json.loads(numbers), _picture=picture)
+        said, values = json.loads(summary), json.loads(numbers)
+        return Verdict(**said, table=Table(rows), numbers=values, _picture=picture)
 
     def rocking_spectrum(
         self,
