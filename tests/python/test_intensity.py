@@ -97,7 +97,7 @@ def sample(request, wall, tmp_path_factory):
     else:
         if not (FOLDER / request.param).is_file():
             pytest.skip("not run: no real accelerograms; name their folder in ROCKING_WALL_RECORDS")
-        source = ["--record", FOLDER / request.param]
+        source = [FOLDER / request.param]
     return folder, *refined(*motion(wall, folder, *source))
 
 

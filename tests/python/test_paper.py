@@ -25,8 +25,13 @@ walls = [
   { name = "a slender wall", geometry = { height = 4, thickness = 0.3 } },
 ]
 """
-SPECTRUM = "T,Sa\n0,2\n0.1,5\n0.4,5\n1,2\n2,1\n4,0.25\n"
-# Arguments of `wall` in a folder with study.toml and spectrum.csv, and coloured boxes that the page has at
+SCENE = """
+[check]
+code = "fractions"
+spectrum = [[0, 2], [0.1, 5], [0.4, 5], [1, 2], [2, 1], [4, 0.25]]
+unit = "m/s2"
+"""
+# Arguments of `wall` in a folder with study.toml and scene.toml, and coloured boxes that the page has at
 # least: swatches, intervals, shaded cells. {} is the page.
 PAGES = {
     "simulate": ("simulate --synthetic --html {}", 0),
@@ -39,7 +44,7 @@ PAGES = {
     "calibrate": ("study calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
     "reproduce": ("verify paper -o {}", 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
-    "check": ("check --spectrum spectrum.csv --unit m/s2 --html {}", 0),
+    "check": ("check scene.toml --report {}", 0),
     "accuracy": (f"verify accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
     "playground": (None, 0),
 }  # fmt: skip
@@ -60,7 +65,7 @@ def page(request, browser, wall, tmp_path_factory):
         path = Path(os.environ["ROCKING_WALL_PLAYGROUND"]).absolute()
     else:
         (folder / "study.toml").write_text(STUDY)
-        (folder / "spectrum.csv").write_text(SPECTRUM)
+        (folder / "scene.toml").write_text(SCENE)
         command = [wall, *(part.format(path) for part in arguments.split())]
         subprocess.run(command, cwd=folder, check=True, capture_output=True)
     dark = [{"name": "prefers-color-scheme", "value": "dark"}]
