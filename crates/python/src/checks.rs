@@ -1,12 +1,14 @@
-//! Checks of walls by building codes.
+//! Checks of walls by building codes, and of formulas against references.
 
 use check::{CheckError, CheckFile, Subject, read};
+use evidence::verification::{page, verify};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use report::table::Column;
 use run::records::NamedRecord;
 
 use crate::arrays::{MotionValues, motion};
-use crate::errors::{of_scene, refused};
+use crate::errors::{failed, of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
 
@@ -34,4 +36,19 @@ pub(crate) fn check_wall<'py>(
         other => refused(other),
     })?;
     Ok((summary, numbers, table(py, rows)?, picture))
+}
+
+/// Checks every formula; returns the table of the numbers.
+#[pyfunction]
+pub(crate) fn verify_formulas(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let formulas = py.detach(verify).map_err(failed)?;
+    let mut rows = page::all(&formulas);
+    rows.columns.insert(0, Column::text("formula", ""));
+    rows.columns.push(Column::count("passes", ""));
+    let own = formulas.iter().flat_map(|one| one.comparisons.iter().map(|row| (&one.title, row.passes())));
+    for (row, (title, passes)) in rows.rows.iter_mut().zip(own) {
+        row.insert(0, title.clone().into());
+        row.push(passes.into());
+    }
+    table(py, rows)
 }

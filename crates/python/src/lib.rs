@@ -20,7 +20,6 @@
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
 //! | `folders` | the class `Folder` |
-//! | `verification` | every formula against a reference of its own |
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands over what it has made of the arguments")]
 #![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -39,7 +38,6 @@ mod study_walls;
 mod tables;
 mod ties;
 mod variables;
-mod verification;
 mod walls;
 mod watch;
 
@@ -51,7 +49,7 @@ mod _native {
     #[pymodule_export]
     use crate::calibrations::calibrate_wall;
     #[pymodule_export]
-    use crate::checks::check_wall;
+    use crate::checks::{check_wall, verify_formulas};
     #[pymodule_export]
     use crate::folders::Folder;
     #[pymodule_export]
@@ -70,7 +68,6 @@ mod _native {
     #[pymodule_export]
     use crate::variables::{calculated, variables};
     #[pymodule_export]
-    use crate::verification::verify_formulas;
     #[pymodule_export]
     use crate::walls::Wall;
     #[pymodule_export]

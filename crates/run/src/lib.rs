@@ -7,9 +7,8 @@
 //! |---|---|
 //! | [`parallel`] | work shared by threads |
 //! | [`mod@file`] | files, written completely or not at all |
-//! | [`random`] | random numbers that are the same on every machine |
 //! | [`bisection`] | the first value at which a condition holds |
-//! | [`sample`] | medians and fractiles |
+//! | [`sample`] | medians, fractiles, random numbers that are the same on every machine |
 //! | [`free_motion`] | free motion of a wall, with impacts or with viscous damping |
 //! | [`model`] | damping models: names, meanings and colours; walls that have them |
 //! | [`polarity`] | motions with both signs |
@@ -37,7 +36,6 @@ pub mod motions;
 pub mod page;
 pub mod parallel;
 pub mod polarity;
-pub mod random;
 pub mod record_facts;
 pub mod records;
 pub mod rotations;

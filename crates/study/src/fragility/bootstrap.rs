@@ -3,10 +3,9 @@
 use super::fit::{FitError, Lognormal, fit_from, open_bounds};
 use super::observation::{Observation, ObservationKind, median};
 use report::table::between;
-use run::sample::{fractile, sample_median};
+use run::sample::{Pcg, fractile, sample_median};
 
 use crate::ida::Exceedance;
-use run::random::Pcg;
 
 /// Resamples of the records of a study, the same for every model.
 ///

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     /// A number or a text as JSON and TOML write them.
-    fn json(value: &Value) -> Json {
+    fn in_json(value: &Value) -> Json {
         serde_json::to_value(value).unwrap()
     }
 
@@ -98,7 +98,7 @@ mod tests {
             for (key, parameter) in table["properties"].as_table().unwrap() {
                 if let Some(default) = parameter.get("default") {
                     count += 1;
-                    read(key, json(default)).unwrap_or_else(|error| panic!("{group}.{key}: {error}"));
+                    read(key, in_json(default)).unwrap_or_else(|error| panic!("{group}.{key}: {error}"));
                 }
             }
             assert!(read("xi", 0.1.into()).is_err() && read("impact", "none".into()).is_err());
