@@ -34,15 +34,20 @@ def cell(text):
 
 
 def commands(wall):
-    """The help of the program, and of each command that it lists."""
-    text = output(wall, "--help")
-    listed = text.split("Commands:\n")[1].split("\n\n")[0].splitlines()
-    names = [line.split()[0] for line in listed if line.startswith("  ") and line[2] != " "]
-    page = f"# Commands\n\n```text\n{text}```\n"
-    for name in names:
-        if name != "help":
-            page += f"\n## wall {name}\n\n```text\n{output(wall, name, '--help')}```\n"
-    return page
+    """The help of the program, and of each command that it lists, with those of a group below it."""
+
+    def listed(text):
+        _, found, rest = text.partition("Commands:\n")
+        lines = rest.split("\n\n")[0].splitlines() if found else []
+        names = [line.split()[0] for line in lines if line.startswith("  ") and line[2] != " "]
+        return [name for name in names if name != "help"]
+
+    def sections(*words):
+        text = output(wall, *words, "--help")
+        title = f"\n{'#' * (len(words) + 1)} wall {' '.join(words)}\n" if words else "# Commands\n"
+        return f"{title}\n```text\n{text}```\n" + "".join(sections(*words, name) for name in listed(text))
+
+    return sections()
 
 
 def kind(value, definitions):

@@ -1,8 +1,8 @@
 //! A page that computes rocking walls in the browser.
 //!
 //! The crate compiles to WebAssembly. The page sends a request as JSON and gets an answer as JSON: the
-//! library computes, `figures` draws, and the page's script only shows. Compiled for other targets, the crate
-//! gives the same answers to tests. `cargo xtask playground` packs the page into one file.
+//! libraries compute and draw, and the page's script only shows. Compiled for other targets, the crate gives
+//! the same answers to tests. `cargo xtask playground` packs the page into one file.
 //!
 //! ```
 //! use playground::Session;
