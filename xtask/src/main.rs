@@ -72,7 +72,7 @@ The jobs of the project.
                                    only docs/verification.md
   cargo xtask book                 build the book of docs/ with mdBook into target/book/book
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
-                                   docs/coupling.md and its page
+                                   docs/coupling.md and fmu_out/coupling.csv
   cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
                                    valgrind is installed
   cargo xtask bench --peers [RECORD.AT2]

@@ -1,8 +1,8 @@
 //! The first value at which a condition holds.
 
 /// Returns the first value of an interval at which a condition holds, by `halvings` of the interval. The
-/// condition fails at its first end and holds at its second; the value returned is one at which it holds. Some
-/// 64 halvings exhaust a double.
+/// condition fails at its first end and holds at its second; the value returned is one at which it holds.
+/// Some 64 halvings exhaust a double.
 ///
 /// ```
 /// let root = run::bisection::first_true([1.0, 2.0], 52, |x| Ok::<_, ()>(x * x >= 2.0))?;

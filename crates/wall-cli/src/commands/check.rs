@@ -13,6 +13,7 @@ use crate::args::{SceneArguments, refuse};
 use crate::output::{Console, written};
 
 #[derive(Debug, Args)]
+#[command(mut_arg("scene", |scene| scene.help("Scene, or file of walls, with a table [check] (TOML)")))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
