@@ -1,4 +1,4 @@
-//! The program `wall`, as a function: [`run`] reads arguments, runs a command and prints.
+//! The program `wall`, as a function: [`run()`] reads arguments, runs a command and prints.
 
 mod args;
 mod commands;

@@ -29,7 +29,7 @@ impl Problem {
     ///
     /// # Errors
     /// [`EvidenceError::Parameters`] if the parameters make no wall, or start it where it cannot be,
-    /// [`EvidenceError::Supports`] if it does not go with its floors.
+    /// [`EvidenceError::Scene`] if the wall does not go with its floors.
     pub fn from_scene(scene: &Scene) -> Result<Self, EvidenceError> {
         let wall = Wall::new(&scene.parameters)?;
         wall.check_start(scene.parameters.u_start)?;
