@@ -17,7 +17,8 @@ pub use outputs::Outputs;
 /// A wall in time.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    pub(super) motion: Arc<Motion>,
+    /// The motion with the ties as they are at first.
+    first: Arc<Motion>,
     pub(super) progress: Progress,
     memo: Memo,
 }
@@ -31,10 +32,19 @@ pub struct Progress {
     pub state: State,
     /// Time of overturning \[s\]; `None` before.
     pub overturn_time: Option<f64>,
+    /// When the tie of each side broke, u > 0 first \[s\].
+    pub tie_breaks: [Option<f64>; 2],
     /// A drift has been given, so that its couple acts on the supports.
     pub drift: bool,
     /// Work so far.
     pub work: Work,
+}
+
+impl Progress {
+    /// Returns when a tie first broke \[s\].
+    pub fn tie_break_time(&self) -> Option<f64> {
+        self.tie_breaks.into_iter().flatten().reduce(f64::min)
+    }
 }
 
 /// What one step did.
@@ -46,6 +56,8 @@ pub struct Step {
     pub overturned: bool,
     /// The wall left its supports in this step.
     pub departed: bool,
+    /// When the tie of each side, u > 0 first, broke in this step \[s\].
+    pub fractures: [Option<f64>; 2],
     /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
 }
@@ -87,18 +99,32 @@ impl Simulation {
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
         let drift = support.drift != 0.0;
-        let progress = Progress { time, state, overturn_time, drift, work: Work::default() };
-        Ok(Self { motion: Arc::new(motion), progress, memo: Memo::default() })
+        let broken = |sign: f64| motion.wall().tie().is_some_and(|tie| tie.is_broken(sign, &state.tie));
+        let tie_breaks = [1.0, -1.0].map(|sign| broken(sign).then_some(time));
+        let progress = Progress { time, state, overturn_time, tie_breaks, drift, work: Work::default() };
+        let mut simulation = Self { first: Arc::new(motion), progress, memo: Memo::default() };
+        simulation.prepare(&state);
+        Ok(simulation)
     }
 
-    /// The wall.
+    /// Prepares the motion for what the ties of a state remember.
+    pub(crate) fn prepare(&mut self, state: &State) {
+        self.memo.prepare(&self.first, &state.tie);
+    }
+
+    /// The motion of the wall with its ties as they are.
+    pub(super) fn motion(&self) -> &Motion {
+        self.memo.motion(&self.first)
+    }
+
+    /// The wall with its ties as they are.
     pub fn wall(&self) -> &Wall {
-        self.motion.wall()
+        self.motion().wall()
     }
 
     /// The method in use.
     pub fn method(&self) -> &Method {
-        self.motion.method()
+        self.first.method()
     }
 
     /// Returns the progress of the simulation.
@@ -111,6 +137,7 @@ impl Simulation {
     /// # Panics
     /// If the branch is not one of the wall's.
     pub fn restore(&mut self, progress: Progress) {
+        self.prepare(&progress.state);
         assert!(progress.state.branch < self.wall().branches().len(), "a branch of this wall");
         self.progress = progress;
     }
@@ -146,7 +173,7 @@ impl Simulation {
         mut demands: Option<&mut Demands>,
     ) -> Result<Step, RunError> {
         let (mut whole, mut done) = (Step::default(), 0.0);
-        let (before, limit) = (self.progress.work.pieces, self.motion.most_pieces());
+        let (before, limit) = (self.progress.work.pieces, self.first.most_pieces());
         for _ in 0..MOST_SEGMENTS {
             let time = self.progress.time;
             if self.progress.work.pieces - before > limit {
@@ -171,16 +198,16 @@ impl Simulation {
     fn add_segment(
         &mut self,
         segment: &Segment,
-        demands: Option<&mut Demands>,
+        mut demands: Option<&mut Demands>,
         step: &mut Step,
     ) -> Result<(), SolverError> {
-        let body = self.motion.wall().body();
+        let body = self.first.wall().body();
         let before = self.progress;
         let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
         let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
         let mut state = before.state;
-        let watch = demands.map(|demands| (demands, before.time, drift));
-        let report = self.motion.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
+        let watch = demands.as_deref_mut().map(|demands| (demands, before.time, drift));
+        let report = self.first.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
         step.overturned |= report.overturning.is_some();
         step.departed |= report.departure.is_some();
         step.put_to_rest |= report.put_to_rest;
@@ -206,6 +233,13 @@ impl Simulation {
         self.progress.work.add(report.work);
         if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
             self.progress.overturn_time = Some(before.time + offset);
+        }
+        for (side, offset) in report.fractures.into_iter().enumerate() {
+            let Some(time) = offset.map(|offset| before.time + offset) else { continue };
+            (self.progress.tie_breaks[side], step.fractures[side]) = (Some(time), Some(time));
+        }
+        if let Some(demands) = demands {
+            self.enter_yielding(demands);
         }
         Ok(())
     }

@@ -175,6 +175,9 @@ impl Unit {
             let time = self.simulation.progress().overturn_time.unwrap_or(end);
             log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
         }
+        for time in done.fractures.into_iter().flatten() {
+            log.event(format_args!("a tie broke at t = {time} s"));
+        }
         if done.departed {
             log.event(format_args!(
                 "left the supports by t = {end} s: reactions and impulses are 0 from there on"

@@ -24,19 +24,31 @@ impl Simulation {
     /// Sets displacement \[m\] and velocity \[m/s\], and chooses the branch they belong to.
     pub fn place(&mut self, displacement: f64, velocity: f64, support: Support) {
         let forcing = self.wall().body().forcing(support);
-        self.progress.state = self.motion.placed(&self.progress.state, displacement, velocity, forcing);
+        self.progress.state = self.motion().placed(&self.progress.state, displacement, velocity, forcing);
     }
 
     /// Returns the event indicators; `rising` is the value that [`handle_event`](Self::handle_event) has set.
     pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
-        self.motion.indicators(&self.progress.state, rising, self.wall().body().forcing(support))
+        self.motion().indicators(&self.progress.state, rising, self.wall().body().forcing(support))
     }
 
     /// Updates branch, phase and marks to time, motion and supports.
     pub fn handle_event(&mut self, rising: &mut bool, support: Support) -> Handled {
-        let body = self.motion.wall().body();
+        let forcing = self.wall().body().forcing(support);
         let before = self.progress.state;
-        let event = self.motion.event(&mut self.progress.state, rising, body.forcing(support));
+        let mut state = before;
+        let mut event = self.motion().event(&mut state, rising, forcing);
+        while state.tie != *self.wall().tie_memory() {
+            self.prepare(&state);
+            self.motion().find_branch(&mut state);
+            event.add(self.motion().event(&mut state, rising, forcing));
+        }
+        self.progress.state = state;
+        let body = self.first.wall().body();
+        if event.fractured {
+            let of_side = &mut self.progress.tie_breaks[usize::from(state.displacement < 0.0)];
+            *of_side = of_side.or(Some(self.progress.time));
+        }
         self.progress.work.add(event.work);
         self.progress.drift |= support.drift != 0.0;
         if event.overturned && self.progress.overturn_time.is_none() {
@@ -47,8 +59,9 @@ impl Simulation {
         } else {
             body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
         };
-        let motion = |state: State| (state.branch, state.phase, state.displacement, state.velocity);
-        let changed = motion(before) != motion(self.progress.state);
+        let motion =
+            |state: State| (state.branch, state.phase, state.displacement, state.velocity, state.tie);
+        let changed = motion(before) != motion(state);
         Handled { event, impulses, changed }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::solver::{Demands, Phase, State};
-use crate::wall::{Ends, Support};
+use crate::wall::{Ends, Sides, Support, TieAction};
 
 /// Outputs that follow from the state and the supports' present motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,12 +23,14 @@ pub struct Outputs {
     pub reactions: Ends,
     /// Force N of the tie, tension positive \[N\].
     pub tie_force: f64,
+    /// Plastic elongation p of the ties \[m\].
+    pub tie_elongation: Sides,
 }
 
 impl Simulation {
     /// Returns the outputs under the supports' present motion.
     pub fn outputs(&self, support: Support) -> Outputs {
-        let wall = self.motion.wall();
+        let wall = self.wall();
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
@@ -62,16 +64,29 @@ impl Simulation {
             restoring_force: restoring * m,
             damping_force: damping * m,
             reactions,
-            tie_force: if departed { 0.0 } else { wall.tie_force(branch, displacement) },
+            tie_force: wall.tie_force(branch, displacement),
+            tie_elongation: wall.tie_elongation(branch, displacement),
         }
     }
 
     /// Returns the demands of a motion that starts now, under the supports' present motion. `fractions` of
     /// `u_ins`, each above 0 and at most 1, are the limit states whose first crossings are wanted.
     pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
-        let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
-        let motion = [displacement, velocity, acceleration];
-        Demands::new(self.wall(), self.progress.time, motion, reactions, fractions)
+        let Outputs { displacement, velocity, acceleration, reactions, tie_force, .. } =
+            self.outputs(support);
+        let (motion, time) = ([displacement, velocity, acceleration], self.progress.time);
+        let mut demands = Demands::new(self.wall(), time, motion, reactions, tie_force, fractions);
+        self.enter_yielding(&mut demands);
+        demands
+    }
+
+    /// Enters what the ties have undergone so far.
+    pub(super) fn enter_yielding(&self, demands: &mut Demands) {
+        if let Some(yielding) = demands.tie.as_mut().and_then(|tie| tie.yielding.as_mut()) {
+            let State { displacement, branch, .. } = self.progress.state;
+            yielding.elongation = self.wall().tie_elongation(branch, displacement);
+            yielding.breaks = self.progress.tie_breaks;
+        }
     }
 
     /// Returns the derivative of the outputs along a change of u, of u̇ and of the supports' motion, which is
@@ -80,15 +95,20 @@ impl Simulation {
     /// # Panics
     /// If the wall moves in full rotations.
     pub fn derivative(&self, support: Support, [du, dv]: [f64; 2], change: Support) -> Outputs {
-        let wall = self.motion.wall();
+        let wall = self.wall();
         assert!(wall.rotations().is_none(), "derivatives are those of small rotations");
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
-        let pulls = if departed || phase != Phase::Moving { None } else { wall.tie_on(branch) };
         // dN/du = ±K 2y/h
-        let tie_force = pulls.map_or(0.0, |tie| tie.stiffness * tie.lever * displacement.signum() * du);
+        let tie_force = wall.tie_slope(branch) * displacement.signum() * du;
         let branch = &wall.branches()[branch];
+        let mut tie_elongation = Sides::default();
+        if let (TieAction::Yields, Some(tie)) = (branch.tie, wall.tie()) {
+            let side = branch.side();
+            // dp/du = ±2y/h
+            *tie_elongation.of_mut(side) = tie.lever * side * du;
+        }
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
         let (acceleration, restoring, damping) = match phase {
@@ -117,6 +137,7 @@ impl Simulation {
             damping_force: damping * m,
             reactions,
             tie_force,
+            tie_elongation,
         }
     }
 }

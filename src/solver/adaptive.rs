@@ -251,7 +251,7 @@ pub(super) fn newmark_step(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wall::{BranchDamping, Line};
+    use crate::wall::{BranchDamping, Line, TieAction};
 
     /// The series of one law and the recurrence for any give the same motion, also with a tie.
     #[test]
@@ -264,7 +264,9 @@ mod tests {
                 [(0.1, 0.3, -5.0), (0.25, -0.4, -5.0), (0.02, 0.1, 40.0)]
             {
                 let force = stiffness * (0.02 - own.anchor);
-                let branch = Branch { lower: 0.01, upper: 0.3, anchor: 0.02, force, stiffness, own, damping };
+                let tie = TieAction::None;
+                let branch =
+                    Branch { lower: 0.01, upper: 0.3, anchor: 0.02, force, stiffness, own, tie, damping };
                 let start = KinematicState { displacement, velocity, acceleration: 0.0 };
                 let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 0.01, tolerances);
                 let secant = Secant::new(&branch).expect("secant damping");
@@ -294,7 +296,8 @@ mod tests {
         let mut far = 0;
         for damping in [BranchDamping::SecantRatio(0.1), BranchDamping::SecantStiffness(0.05)] {
             let (lower, upper) = (0.01, 0.3 * (1.0 - 1e-10));
-            let branch = Branch { lower, upper, anchor: 0.3, force: 0.0, stiffness: -5.0, own, damping };
+            let tie = TieAction::None;
+            let branch = Branch { lower, upper, anchor: 0.3, force: 0.0, stiffness: -5.0, own, tie, damping };
             let secant = Secant::new(&branch).expect("secant damping");
             let series = |now: [f64; 2], time: f64, length: f64, tolerance: f64| {
                 let tolerances = Tolerances { displacement: tolerance, velocity: tolerance };

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::wall::{Ends, Wall};
+use crate::wall::{Ends, Sides, Wall};
 
 /// A value and its time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -74,6 +74,38 @@ pub struct TieDemands {
     /// When the force first reached the strength \[N\]; `None` if it never did, or where none is given.
     #[serde(rename = "tie_strength")]
     pub strength: Option<Instant>,
+    /// Yielding and fracture; `None` for a tie that stays elastic.
+    #[serde(flatten)]
+    pub yielding: Option<Yielding>,
+}
+
+/// How far ties have yielded, and when they broke.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Yielding {
+    /// Plastic elongation p \[m\].
+    pub elongation: Sides,
+    /// When the tie of each side broke, u > 0 first \[s\]; `None` where it did not.
+    pub breaks: [Option<f64>; 2],
+}
+
+impl Serialize for Yielding {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Named {
+            tie_elongation: f64,
+            tie_elongation_negative: f64,
+            tie_break_time: Option<f64>,
+            tie_break_time_negative: Option<f64>,
+        }
+        let Self { elongation, breaks: [tie_break_time, tie_break_time_negative] } = *self;
+        Named {
+            tie_elongation: elongation.positive,
+            tie_elongation_negative: elongation.negative,
+            tie_break_time,
+            tie_break_time_negative,
+        }
+        .serialize(serializer)
+    }
 }
 
 /// The demands of a motion on a wall, up to overturning; those on its tie go on until the wall leaves its
@@ -108,13 +140,14 @@ pub struct Demands {
 }
 
 impl Demands {
-    /// Returns the demands of u, u̇ and ü and of the reactions at one instant. `fractions` of `u_ins` are the
-    /// limit states whose first crossings are wanted.
+    /// Returns the demands of u, u̇ and ü, of the reactions and of the tie's force at one instant. `fractions`
+    /// of `u_ins` are the limit states whose first crossings are wanted.
     pub(crate) fn new(
         wall: &Wall,
         time: f64,
         [displacement, velocity, acceleration]: [f64; 3],
         reactions: Ends,
+        tie_force: f64,
         fractions: &[f64],
     ) -> Self {
         let u_ins = wall.body().instability.of(displacement);
@@ -131,9 +164,10 @@ impl Demands {
             crossings: fractions.iter().map(crossing).collect(),
             half_cycles: 0,
             tie: wall.tie().map(|tie| {
-                let force = Instant { value: tie.force(displacement), time };
+                let force = Instant { value: tie_force, time };
                 let reached = tie.strength.filter(|strength| force.value >= *strength);
-                TieDemands { force, strength: reached.map(|value| Instant { value, time }) }
+                let yielding = tie.ultimate.map(|_| Yielding::default());
+                TieDemands { force, strength: reached.map(|value| Instant { value, time }), yielding }
             }),
             excursion: None,
         }

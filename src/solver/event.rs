@@ -50,6 +50,8 @@ pub(super) enum Ending {
     Horizon(KinematicState),
     /// At a corner.
     Exit(Exit),
+    /// At a turning point, where a tie yields.
+    Turn { time: f64, displacement: f64, velocity: f64 },
 }
 
 /// A search that has reached its limit on intervals.
@@ -82,22 +84,38 @@ pub(super) fn find_ending<P: Piece>(
     peaks: &mut Peaks,
 ) -> Result<Ending, SearchExhausted> {
     let horizon = piece.horizon();
-    let search = Search { piece, bounds };
+    let search = Search { piece, bounds, outwards: 0.0 };
     let left = Node { time: 0.0, motion: piece.start() };
     let right = Node { time: horizon, motion: piece.at(horizon) };
-    match search.settle(left, right, false, peaks) {
+    let ending = match search.settle(left, right, false, peaks) {
         // the ordinary step
         Shape::Quiet => {
             peaks.include(right.motion.displacement);
-            Ok(Ending::Horizon(right.motion))
+            None
         }
-        Shape::Split => Ok(ending(search.by_halves(left, right, peaks)?, right)),
-        shape => Ok(ending(search.settled(left, right, &shape, peaks), right)),
-    }
+        Shape::Split => search.by_halves(left, right, peaks)?,
+        shape => search.settled(left, right, &shape, peaks),
+    };
+    Ok(ending.unwrap_or(Ending::Horizon(right.motion)))
 }
 
-fn ending(exit: Option<Exit>, end: Node) -> Ending {
-    exit.map_or(Ending::Horizon(end.motion), Ending::Exit)
+/// Follows a piece as [`find_ending`] does, but only to the first point where it moves inwards, away from the
+/// side `outwards`.
+pub(super) fn find_turn<P: Piece>(
+    piece: &P,
+    bounds: [f64; 2],
+    peaks: &mut Peaks,
+    outwards: f64,
+) -> Result<Ending, SearchExhausted> {
+    let search = Search { piece, bounds, outwards };
+    let left = Node { time: 0.0, motion: piece.start() };
+    let right = Node { time: piece.horizon(), motion: piece.at(piece.horizon()) };
+    // every turning point outwards is a peak of this piece, also where the run has been farther
+    let mut own = Peaks::at(left.motion.displacement);
+    let ending = search.by_halves(left, right, &mut own)?;
+    peaks.include(own.positive);
+    peaks.include(-own.negative);
+    Ok(ending.unwrap_or(Ending::Horizon(right.motion)))
 }
 
 /// What the motion between two instants looks like.
@@ -147,11 +165,18 @@ pub(super) fn settle(
 struct Search<'a, P> {
     piece: &'a P,
     bounds: [f64; 2],
+    /// The sign of u̇ whose change ends the search; 0 for none.
+    outwards: f64,
 }
 
 impl<P: Piece> Search<'_, P> {
     /// Searches `left`…`right` in halves.
-    fn by_halves(&self, left: Node, right: Node, peaks: &mut Peaks) -> Result<Option<Exit>, SearchExhausted> {
+    fn by_halves(
+        &self,
+        left: Node,
+        right: Node,
+        peaks: &mut Peaks,
+    ) -> Result<Option<Ending>, SearchExhausted> {
         let mut left = left;
         let mut pending = [(right, 0_u32); DEEPEST as usize + 1];
         let mut count = 1;
@@ -166,8 +191,8 @@ impl<P: Piece> Search<'_, P> {
                 count += 1;
                 continue;
             }
-            if let Some(exit) = self.settled(left, right, &shape, peaks) {
-                return Ok(Some(exit));
+            if let Some(ending) = self.settled(left, right, &shape, peaks) {
+                return Ok(Some(ending));
             }
             left = right;
             count = index;
@@ -175,23 +200,33 @@ impl<P: Piece> Search<'_, P> {
         Err(SearchExhausted)
     }
 
-    /// Returns the exit in an interval that needs no more halving.
-    fn settled(&self, left: Node, right: Node, shape: &Shape, peaks: &mut Peaks) -> Option<Exit> {
+    /// Returns the exit in an interval that needs no more halving, or the turn that ends the search.
+    fn settled(&self, left: Node, right: Node, shape: &Shape, peaks: &mut Peaks) -> Option<Ending> {
+        let is_inwards = |velocity: f64| self.outwards * velocity < 0.0;
+        if is_inwards(left.motion.velocity) {
+            return Some(left.turn(left.motion.velocity));
+        }
         match shape {
             Shape::Quiet | Shape::Split => {}
             Shape::Monotone => {
+                if is_inwards(left.motion.velocity + right.motion.velocity) {
+                    return Some(left.turn(left.motion.velocity));
+                }
                 if let Some(exit) = self.monotone(left, right) {
-                    return Some(exit);
+                    return Some(Ending::Exit(exit));
                 }
             }
             Shape::Turning => {
                 let turn = self.turning_point(left, right);
                 if let Some(exit) = self.monotone(left, turn) {
-                    return Some(exit);
+                    return Some(Ending::Exit(exit));
                 }
                 peaks.include(turn.motion.displacement);
+                if self.outwards != 0.0 {
+                    return Some(turn.turn(0.0));
+                }
                 if let Some(exit) = self.monotone(turn, right) {
-                    return Some(exit);
+                    return Some(Ending::Exit(exit));
                 }
             }
         }
@@ -222,9 +257,13 @@ impl<P: Piece> Search<'_, P> {
             let step = -velocity / acceleration;
             // A Newton step δ leaves an error of jerk δ²/(2ü) in time, where u differs from that of the turn
             // by ü/2 times its square. The step is the last where this difference is at most ε u/4.
+            // Where motion goes on from the turn by another law, the time itself counts.
             let left = 0.5 * jerk * step * step / acceleration.abs();
-            let settled =
-                0.5 * acceleration.abs() * left * left <= 0.25 * f64::EPSILON * motion.displacement.abs();
+            let settled = if self.outwards == 0.0 {
+                0.5 * acceleration.abs() * left * left <= 0.25 * f64::EPSILON * motion.displacement.abs()
+            } else {
+                left <= 0.25 * f64::EPSILON * time
+            };
             Trial { value: velocity, step, settled, node: Node { time, motion } }
         })
     }
@@ -321,6 +360,10 @@ fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Tria
 }
 
 impl Node {
+    fn turn(self, velocity: f64) -> Ending {
+        Ending::Turn { time: self.time, displacement: self.motion.displacement, velocity }
+    }
+
     /// Returns the motion a small step later, by constant ü.
     fn shifted(self, step: f64) -> Self {
         let KinematicState { displacement, velocity, acceleration } = self.motion;

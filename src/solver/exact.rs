@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 
-use nalgebra::{Matrix3, Vector3};
 use oscillator::{KinematicState, Oscillator, Polynomial, Regime};
 
 use super::event::Piece;
@@ -20,67 +19,6 @@ pub(super) struct ClosedForm<'a> {
     end: Option<KinematicState>,
     /// The Taylor series of a short piece, once needed.
     series: OnceCell<Option<Polynomial>>,
-}
-
-/// The propagator of the last whole step on a branch. It is computed once for steps of the same length.
-///
-/// Lengths that differ only by the rounding of a clock share one propagator. It is computed for the length
-/// rounded to 40 bits, and a Taylor series covers the remainder of up to 5e-13 of the length. Results do not
-/// depend on the memo, bit for bit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Memo {
-    branch: usize,
-    duration: f64,
-    propagator: Matrix3<f64>,
-}
-
-impl Default for Memo {
-    fn default() -> Self {
-        Self { branch: 0, duration: f64::NAN, propagator: Matrix3::zeros() }
-    }
-}
-
-/// Bits of a length that a rounded length leaves out.
-const ROUNDED_BITS: u32 = 12;
-
-/// A length rounded to 40 bits of its mantissa.
-fn rounded(duration: f64) -> f64 {
-    let half = 1_u64 << (ROUNDED_BITS - 1);
-    f64::from_bits((duration.to_bits() + half) & !((1 << ROUNDED_BITS) - 1))
-}
-
-impl Memo {
-    #[cold]
-    fn new(branch: usize, oscillator: &Oscillator, duration: f64) -> Self {
-        let rows = oscillator.propagator(duration);
-        Self { branch, duration, propagator: Matrix3::from_fn(|i, j| rows[i][j]) }
-    }
-
-    /// Returns the end of a whole step on a branch, and remembers its propagator.
-    #[inline]
-    pub(super) fn end(
-        &mut self,
-        branch: usize,
-        oscillator: &Oscillator,
-        start: KinematicState,
-        forcing_rate: f64,
-        length: f64,
-    ) -> KinematicState {
-        let duration = rounded(length);
-        if self.duration != duration || self.branch != branch {
-            *self = Self::new(branch, oscillator, duration);
-        }
-        let from = Vector3::new(start.velocity, start.acceleration, forcing_rate);
-        let change = self.propagator * from;
-        let (velocity, acceleration) = (change[1], change[2]);
-        let end = KinematicState { displacement: start.displacement + change[0], velocity, acceleration };
-        let rest = length - duration;
-        KinematicState {
-            displacement: end.displacement + rest * velocity,
-            velocity: velocity + rest * acceleration,
-            acceleration: acceleration + rest * oscillator.jerk(end, forcing_rate),
-        }
-    }
 }
 
 impl<'a> ClosedForm<'a> {
@@ -177,40 +115,6 @@ impl Piece for ClosedForm<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A length within 2¹¹ roundings of a length of 40 bits is rounded to that.
-    #[test]
-    fn lengths_are_rounded_to_forty_bits() {
-        for length in [0.01, 0.02, 1.0 / 3.0, 7.3e-5] {
-            let shared = rounded(length);
-            assert_eq!(shared.to_bits() % (1 << 12), 0, "{length}");
-            assert!(length.to_bits().abs_diff(shared.to_bits()) <= 1 << 11, "{length}");
-            for apart in [1, 100, 2047] {
-                assert_eq!(rounded(f64::from_bits(shared.to_bits() + apart)), shared);
-                assert_eq!(rounded(f64::from_bits(shared.to_bits() - apart)), shared);
-            }
-        }
-    }
-
-    /// The end of a step whose length is rounded is that of the step itself, also where ü is far below the
-    /// jerk over the step.
-    #[test]
-    fn ends_of_steps_are_those_of_their_own_length() {
-        let oscillator = Oscillator::new(0.4, 9.0);
-        for apart in [2047, 1000, 1] {
-            let length = f64::from_bits(rounded(0.7).to_bits() + apart);
-            let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
-            let found = Memo::default().end(0, &oscillator, start, 90.0, length);
-            let wanted = oscillator.propagate(start, 90.0, length);
-            // a few roundings of the largest terms; without the remainder of the length it would be a
-            // thousand
-            let near =
-                |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-13, "{found}, {wanted}");
-            near(found.displacement, wanted.displacement);
-            near(found.velocity, wanted.velocity);
-            near(found.acceleration, wanted.acceleration);
-        }
-    }
 
     /// A motion counts as staying within bounds and peaks where these hold its initial amplitude about both
     /// ends of the way of its equilibrium. Its decay is not used.

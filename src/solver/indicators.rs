@@ -7,6 +7,7 @@
 use super::motion::Motion;
 use super::state::{Phase, State};
 use super::transition::{self, Event, Rebound};
+use crate::wall::TieAction;
 
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
@@ -36,7 +37,13 @@ impl Motion {
             Phase::Moving => {
                 let corners = self.wall.corners();
                 let relative = |corner: f64| (displacement - corner) / scale.max(corner.abs());
-                [relative(corners[branch].displacement), -relative(corners[branch + 1].displacement)]
+                let mut ends =
+                    [relative(corners[branch].displacement), -relative(corners[branch + 1].displacement)];
+                if let Some(side) = self.yielding_side(branch) {
+                    // it ends where the wall turns back, not at its inner corner
+                    ends[usize::from(side < 0.0)] = side * velocity / (scale * self.wall.rocking_rate());
+                }
+                ends
             }
             Phase::Resting => {
                 let [lowest, highest] = self.rest_band;
@@ -55,12 +62,23 @@ impl Motion {
         [lower + MARGIN, upper + MARGIN, peak + MARGIN]
     }
 
+    /// Returns the side of a branch on which a tie yields.
+    fn yielding_side(&self, branch: usize) -> Option<f64> {
+        let branch = &self.wall.branches()[branch];
+        (branch.tie == TieAction::Yields).then(|| branch.side())
+    }
+
     /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising`
-    /// says whether |u| is beyond its largest so far and grows.
+    /// says whether |u| is beyond its largest so far and grows. Ends early where the tie changes: what follows
+    /// is then for the motion with its new memory.
     pub fn event(&self, state: &mut State, rising: &mut bool, forcing: f64) -> Event {
         let mut event = Event::default();
+        self.break_overstretched(state, &mut event);
         // the wall passes each corner at most once, and once more where it turns back
         for _ in 0..2 * self.wall.corners().len() {
+            if state.tie != *self.wall.tie_memory() {
+                break;
+            }
             match state.phase {
                 Phase::Landed => break,
                 Phase::Resting => {
@@ -69,6 +87,11 @@ impl Motion {
                         break;
                     }
                     transition::settle(self, state, [forcing, 0.0]);
+                }
+                Phase::Moving if self.has_turned_back(state) => {
+                    let largest = state.displacement.abs().max(state.peaks.of(state.displacement));
+                    let reach = largest.copysign(state.displacement);
+                    event.fractured |= transition::unload(self, state, reach);
                 }
                 Phase::Moving => match self.exit(state) {
                     None => break,
@@ -89,6 +112,21 @@ impl Motion {
         event
     }
 
+    /// Breaks a tie beyond whose fracture the wall has been placed.
+    fn break_overstretched(&self, state: &mut State, event: &mut Event) {
+        let (Some(tie), branch) = (self.wall.tie(), &self.wall.branches()[state.branch]) else { return };
+        let Some(hold) = tie.hold(branch.side(), &state.tie) else { return };
+        if branch.lower.abs().min(branch.upper.abs()) >= hold.breaks {
+            event.fractured |= tie.stretch(&mut state.tie, state.displacement);
+        }
+    }
+
+    /// Returns whether the wall moves inwards on a branch on which its tie yields.
+    fn has_turned_back(&self, state: &State) -> bool {
+        let speed = self.wall.displacement_scale() * self.wall.rocking_rate();
+        self.yielding_side(state.branch).is_some_and(|side| side * state.velocity < -0.5 * MARGIN * speed)
+    }
+
     /// Returns the end at which the wall has left its branch: `true` for the upper one. `None` while it is on
     /// the branch.
     fn exit(&self, state: &State) -> Option<bool> {
@@ -99,8 +137,9 @@ impl Motion {
             let over = (state.displacement - corner) * direction;
             over > margin || (over >= 0.0 && state.velocity * direction > 0.0)
         };
-        let upwards = beyond(state.branch + 1, 1.0);
-        (upwards || beyond(state.branch, -1.0)).then_some(upwards)
+        let inner = self.yielding_side(state.branch).map(|side| side < 0.0);
+        let upwards = inner != Some(true) && beyond(state.branch + 1, 1.0);
+        (upwards || inner != Some(false) && beyond(state.branch, -1.0)).then_some(upwards)
     }
 
     /// Returns the motion after an impact that is met a margin or more beyond u = 0. A rigid wall comes to

@@ -5,7 +5,7 @@ use std::fmt;
 use oscillator::Oscillator;
 
 use crate::choices::Solver;
-use crate::wall::{Branch, ParameterError, Parameters, Wall};
+use crate::wall::{Branch, ParameterError, Parameters, TieMemory, Wall};
 
 use super::secant::Secant;
 use super::tolerances::Tolerances;
@@ -123,6 +123,12 @@ impl Motion {
         let tolerances = Tolerances { displacement: local, velocity: local * wall.rocking_rate() };
         let (rest_band, rest_speed) = (wall.rest_band(), wall.rest_speed());
         Self { wall, method, oscillators, secants, tolerances, rest_band, rest_speed }
+    }
+
+    /// Returns the motion of the wall with its ties as they are with a memory.
+    #[must_use]
+    pub fn with_tie_memory(&self, memory: TieMemory) -> Self {
+        Self::new(self.wall.clone().with_tie_memory(memory), self.method.clone())
     }
 
     /// Returns the oscillator of each branch with constant damping.

@@ -5,12 +5,14 @@ use oscillator::KinematicState;
 use super::adaptive::{Series, Viscous, newmark_step};
 use super::demand::Demands;
 use super::event::{self, Ending, Exit, Piece, Shape};
-use super::exact::{ClosedForm, Memo};
+use super::exact::ClosedForm;
+use super::memo::Memo;
 use super::motion::{Method, Motion};
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
 use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
+use crate::wall::TieAction;
 
 /// Most impacts in one segment. A wall that can rest is put to rest when it reaches them.
 const MOST_IMPACTS: u64 = 100_000;
@@ -47,19 +49,17 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let forcing = [body.forcing(segment.from), body.forcing(segment.to)];
+        let stretched = memo.prepare(self, &state.tie);
+        let motion = stretched.as_deref().unwrap_or(self);
         if !integral
             && watch.is_none()
-            && let Some(end) = self.quiet_end(state, segment.duration, forcing, memo)
+            && let Some(end) = motion.quiet_end(state, segment.duration, forcing, memo)
         {
             (state.displacement, state.velocity) = (end.displacement, end.velocity);
             return Ok(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() });
         }
-        let mut run = Run::new(self, *state, segment.duration, forcing, integral, memo);
-        run.watch =
-            watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
-        run.finish()?;
-        *state = run.state;
-        Ok(run.report)
+        let watch = watch.map(|(demands, time, drift)| (demands, segment, time, drift));
+        self.run(state, segment.duration, forcing, integral, memo, watch)
     }
 
     /// Moves `state` through a time \[s\] in which the forcing p goes from one value to another \[m/s²\].
@@ -73,10 +73,49 @@ impl Motion {
         forcing: [f64; 2],
         memo: &mut Memo,
     ) -> Result<Report, SolverError> {
-        let mut run = Run::new(self, *state, duration, forcing, false, memo);
-        run.finish()?;
-        *state = run.state;
-        Ok(run.report)
+        self.run(state, duration, forcing, false, memo, None)
+    }
+
+    /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.
+    fn run(
+        &self,
+        state: &mut State,
+        duration: f64,
+        forcing: [f64; 2],
+        integral: bool,
+        memo: &mut Memo,
+        mut watch: Option<(&mut Demands, &Segment, f64, bool)>,
+    ) -> Result<Report, SolverError> {
+        let (mut now, mut time, mut report) = (*state, 0.0, Report::default());
+        loop {
+            let stretched = memo.prepare(self, &now.tie);
+            let motion = stretched.as_deref().unwrap_or(self);
+            if now.tie != state.tie {
+                motion.find_branch(&mut now);
+            }
+            let mut run = Run::new(motion, now, duration, forcing, integral, memo);
+            (run.time, run.report) = (time, report);
+            run.watch = watch.as_mut().map(|&mut (ref mut demands, segment, time, drift)| Watch {
+                demands,
+                wall: &motion.wall,
+                segment,
+                time,
+                drift,
+            });
+            run.finish()?;
+            (now, time, report) = (run.state, run.time, run.report);
+            if now.tie == *motion.wall.tie_memory() {
+                *state = now;
+                return Ok(report);
+            }
+        }
+    }
+
+    /// Sets the branch of a state whose ties have changed: ahead of the motion, or inwards at a turning point.
+    pub(crate) fn find_branch(&self, state: &mut State) {
+        let State { displacement, velocity, .. } = *state;
+        let direction = if velocity == 0.0 { -displacement } else { velocity };
+        state.branch = self.wall.branch_of(displacement, direction);
     }
 
     /// Returns the end of a segment without events: one piece in closed form that reaches no corner and no
@@ -92,7 +131,9 @@ impl Motion {
         let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
         let is_one_piece = duration > 0.0 && duration <= oscillator.longest_piece();
-        if phase != Phase::Moving || !is_one_piece || !self.takes_closed_form(index) {
+        // what yields must be followed to the turning point, however near
+        let yields = branch.tie == TieAction::Yields;
+        if phase != Phase::Moving || !is_one_piece || !self.takes_closed_form(index) || yields {
             return None;
         }
         if oscillator.is_spread(duration) {
@@ -151,10 +192,10 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Moves to the end of the segment.
+    /// Moves to the end of the segment, or to where a tie becomes another than that of the motion.
     pub(super) fn finish(&mut self) -> Result<(), SolverError> {
-        for _ in 0..self.motion.most_pieces() {
-            if self.time >= self.duration {
+        while self.report.work.pieces < self.motion.most_pieces() {
+            if self.time >= self.duration || self.state.tie != *self.motion.wall.tie_memory() {
                 return self.check();
             }
             match self.state.phase {
@@ -258,14 +299,24 @@ impl<'a> Run<'a> {
         let bounds = self.bounds();
         let mut peaks = self.state.peaks;
         let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
-        let ending = event::find_ending(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
+        let branch = &self.motion.wall.branches()[self.state.branch];
+        let (from, is_newmark) =
+            (self.state.displacement, matches!(self.motion.method, Method::Newmark { .. }));
+        let yielding = Some(branch.side()).filter(|_| branch.tie == TieAction::Yields);
+        let ending = match yielding {
+            Some(side) if !is_newmark => event::find_turn(piece, places, &mut peaks, side),
+            _ => event::find_ending(piece, places, &mut peaks),
+        };
         self.state.peaks = peaks;
+        let ending = ending.map_err(|_| self.exhausted())?;
         let (length, displacement, velocity, exit) = match ending {
             Ending::Horizon(end) => (piece.horizon(), end.displacement, end.velocity, None),
             Ending::Exit(Exit { time, velocity, upwards }) => {
                 (time, places[usize::from(upwards)], velocity, Some(upwards))
             }
+            Ending::Turn { time, displacement, velocity } => (time, displacement, velocity, None),
         };
+        let is_turn = matches!(ending, Ending::Turn { .. });
         if let Some(watch) = &mut self.watch {
             let State { branch, overturned, departed, .. } = self.state;
             let followed = Followed { piece, branch, from: self.time, length, displacement };
@@ -284,14 +335,31 @@ impl<'a> Run<'a> {
         } else {
             let finished = self.time + length >= self.duration || length >= self.duration - self.time;
             self.time = if finished { self.duration } else { self.time + length };
-            if length <= 0.0 {
+            if length <= 0.0 && !is_turn {
                 return Err(self.exhausted());
             }
-            if let Method::Newmark { .. } = self.motion.method {
+            if is_newmark {
                 self.state.branch = self.motion.wall.branch_of(displacement, velocity);
+            }
+            if let Some(side) = yielding.filter(|side| is_turn || side * velocity < 0.0) {
+                // of Newmark's steps only the ends count
+                let reach =
+                    if is_newmark { side * (side * from).max(side * displacement) } else { displacement };
+                self.unload(reach);
             }
         }
         self.check()
+    }
+
+    /// Ends the yielding of a tie at its largest displacement.
+    fn unload(&mut self, displacement: f64) {
+        if transition::unload(self.motion, &mut self.state, displacement) {
+            self.enter_fracture(displacement);
+        }
+    }
+
+    fn enter_fracture(&mut self, displacement: f64) {
+        self.report.fractures[usize::from(displacement < 0.0)] = Some(self.time);
     }
 
     /// Returns the lower and upper corner that end a piece: the ends of the branch, or for Newmark the
@@ -327,6 +395,9 @@ impl<'a> Run<'a> {
         let event = transition::pass_corner(motion, &mut self.state, (corner, upwards), forcing, rebound);
         self.report.work.add(event.work);
         self.report.put_to_rest |= too_many && event.work.impacts > 0;
+        if event.fractured {
+            self.enter_fracture(self.state.displacement);
+        }
         if event.overturned {
             self.report.overturning = Some(self.time);
         }

@@ -170,7 +170,7 @@ fn series<L: SecantLaw>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wall::Line;
+    use crate::wall::{Line, TieAction};
 
     /// Follows a branch to the end of a length by one series after the other; returns their
     /// number, too.
@@ -217,8 +217,8 @@ mod tests {
                 // from u = 0.1, where p all but balances f, on a line that ends far beyond
                 let (lower, upper) = (0.1, 100.0);
                 let own = Line { anchor: upper, force: 0.0, slope: -0.02 };
-                let branch =
-                    Branch { lower, upper, anchor: upper, force: 0.0, stiffness: -0.02, own, damping };
+                let (stiffness, tie) = (-0.02, TieAction::None);
+                let branch = Branch { lower, upper, anchor: upper, force: 0.0, stiffness, own, tie, damping };
                 let branch = Secant::new(&branch).expect("secant damping");
                 let p = [2.0, 2.001];
                 let (fine, many) = follow(&branch, [lower, speed], p, 16, most);

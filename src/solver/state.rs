@@ -1,6 +1,6 @@
 //! The state of a wall, the segments that change it, and what a segment did.
 
-use crate::wall::{Sides, Support};
+use crate::wall::{Sides, Support, TieMemory};
 
 /// Support motion, linear in time: one record sample or one communication step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +56,11 @@ impl Peaks {
         self.positive.max(self.negative)
     }
 
+    /// Returns the largest |u| on the side of `sign` \[m\].
+    pub fn of(&self, sign: f64) -> f64 {
+        if sign < 0.0 { self.negative } else { self.positive }
+    }
+
     /// Raises the peaks to a displacement \[m\].
     pub fn include(&mut self, displacement: f64) {
         self.positive = self.positive.max(displacement);
@@ -85,6 +90,8 @@ pub struct State {
     pub departed: bool,
     /// Extremes of u so far, turning points included.
     pub peaks: Peaks,
+    /// What the ties remember. `branch` is one of the wall with this memory.
+    pub tie: TieMemory,
 }
 
 impl State {
@@ -109,6 +116,8 @@ pub struct Report {
     pub overturning: Option<f64>,
     /// Time and velocity at which the wall left its supports in this segment \[s, m/s\].
     pub departure: Option<[f64; 2]>,
+    /// Times at which the tie of each side, u > 0 first, broke in this segment \[s\].
+    pub fractures: [Option<f64>; 2],
     /// ∫u dt while the wall is on its supports \[m s\]; 0 unless requested.
     pub displacement_integral: f64,
     /// The limit on impacts was reached, and the wall was put to rest.

@@ -4,9 +4,11 @@
 //! |---|---|
 //! | between two branches | branch i ↔ i + 1 |
 //! | `u_ins`, outwards | the wall overturns, once |
-//! | departure, outwards | the wall leaves its supports, once |
+//! | departure, outwards | the wall leaves its supports, once, and loses its ties |
+//! | fracture, outwards | the tie of this side breaks |
 //! | landing | u̇ = 0, the end of the fall |
 //! | u = 0 with impact | u̇ → e u̇; a rigid wall may come to rest; for e = 0 the wall follows the forcing |
+//! | none: u̇ = 0 where a tie yields | the tie unloads: it remembers this displacement |
 //! | u = 0 at transverse walls | u̇ → −e₁ u̇ on the same branch; any wall may come to rest |
 
 use crate::wall::{Corner, Support};
@@ -21,6 +23,8 @@ pub struct Event {
     pub overturned: bool,
     /// It left its supports.
     pub departed: bool,
+    /// A tie broke.
+    pub fractured: bool,
     /// It came to rest, or lies at the end of its fall.
     pub stopped: bool,
     /// Change of u̇ by impacts \[m/s\].
@@ -31,9 +35,10 @@ pub struct Event {
 
 impl Event {
     /// Adds what a later transition did.
-    pub(super) fn add(&mut self, later: Self) {
+    pub(crate) fn add(&mut self, later: Self) {
         self.overturned |= later.overturned;
         self.departed |= later.departed;
+        self.fractured |= later.fractured;
         self.stopped |= later.stopped;
         self.velocity_jump += later.velocity_jump;
         self.work.add(later.work);
@@ -46,8 +51,14 @@ impl Motion {
         self.start_under(displacement, velocity, self.wall.body().forcing(support))
     }
 
-    /// Returns the state at the start, under a forcing p \[m/s²\].
+    /// Returns the state at the start, under a forcing p \[m/s²\]. A wall that starts far from upright has
+    /// stretched its tie.
     pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
+        let mut memory = self.wall.tie().map(|tie| tie.memory_at(displacement)).unwrap_or_default();
+        memory.lost = self.wall.tie().is_some() && self.is_beyond_departure(displacement);
+        if memory != *self.wall.tie_memory() {
+            return self.with_tie_memory(memory).start_under(displacement, velocity, forcing);
+        }
         let mut state = self.located(displacement, velocity, forcing);
         let behind = self.wall.free_side().is_some_and(|side| displacement == 0.0 && velocity * side < 0.0);
         if behind {
@@ -64,7 +75,7 @@ impl Motion {
     fn located(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
         let overturned = displacement.abs() > wall.body().instability.of(displacement);
-        let departed = displacement.abs() > wall.body().departure.of(displacement);
+        let departed = self.is_beyond_departure(displacement);
         let mut state = State {
             displacement,
             velocity,
@@ -73,6 +84,7 @@ impl Motion {
             overturned,
             departed,
             peaks: Peaks::at(displacement),
+            tie: *wall.tie_memory(),
         };
         if wall.can_rest() && displacement == 0.0 && velocity == 0.0 {
             settle(self, &mut state, [forcing, 0.0]);
@@ -85,6 +97,10 @@ impl Motion {
                 wall.branch_of(displacement, if velocity == 0.0 { acceleration } else { velocity });
         }
         state
+    }
+
+    fn is_beyond_departure(&self, displacement: f64) -> bool {
+        displacement.abs() > self.wall.body().departure.of(displacement)
     }
 
     /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to
@@ -119,17 +135,24 @@ pub(super) fn pass_corner(
     forcing: [f64; 2],
     rebound: impl FnOnce(&State) -> Rebound,
 ) -> Event {
-    let Corner { displacement, passage, stop, overturning, departure, landing } =
+    let Corner { displacement, passage, stop, overturning, departure, fracture, landing } =
         motion.wall.corners()[corner];
     let outwards = upwards == (displacement > 0.0);
     let mut event = Event {
         overturned: overturning && outwards && !state.overturned,
         departed: departure && outwards && !state.departed,
+        fractured: fracture && outwards && !state.departed,
         work: Work { corners: 1, ..Work::default() },
         ..Event::default()
     };
     state.overturned |= event.overturned;
     state.departed |= event.departed;
+    if let Some(tie) = motion.wall.tie() {
+        state.tie.lost |= event.departed;
+        if event.fractured {
+            tie.stretch(&mut state.tie, displacement);
+        }
+    }
     if landing {
         (state.displacement, state.velocity, state.phase) = (displacement, 0.0, Phase::Landed);
         event.stopped = true;
@@ -150,6 +173,14 @@ pub(super) fn pass_corner(
         event.work.impacts = 1;
     }
     event
+}
+
+/// Ends the yielding of a tie that has reached `displacement` \[m\]; returns whether that has broken it.
+pub(super) fn unload(motion: &Motion, state: &mut State, displacement: f64) -> bool {
+    let has_broken = motion.wall.tie().is_some_and(|tie| tie.stretch(&mut state.tie, displacement));
+    // where that is all the tie remembers anyway, branches keep their numbers
+    motion.find_branch(state);
+    has_broken
 }
 
 /// Sets the velocity after an impact at u = 0, and the branch or rest that follows from it.

@@ -6,7 +6,7 @@
 
 use oscillator::KinematicState;
 
-use crate::wall::{Ends, Support, Wall};
+use crate::wall::{Ends, Support, TieAction, Wall};
 
 use super::demand::{Demands, Extremes, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
@@ -119,20 +119,39 @@ impl Watch<'_> {
     /// Includes the force of the tie over a piece, on which it is linear in u.
     #[inline(never)]
     pub(super) fn tie<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
-        let &Followed { piece, branch, from, length, .. } = followed;
-        let (Some(tie), Some(TieDemands { force, strength })) =
-            (self.wall.tie_on(branch), &mut self.demands.tie)
+        let &Followed { piece, branch, from, length, displacement } = followed;
+        let (action, Some(tie), Some(demands)) =
+            (self.wall.branches()[branch].tie, self.wall.tie(), &mut self.demands.tie)
         else {
             return Ok(());
         };
+        if action == TieAction::None {
+            return Ok(());
+        }
+        let (TieDemands { force, strength, .. }, limit) = (demands, tie.strength.unwrap_or(f64::INFINITY));
+        let hold = tie.hold(displacement, self.wall.tie_memory());
+        let reached = if action == TieAction::Yields {
+            Some(from)
+        } else {
+            // to rounding the force there may be another
+            hold.filter(|hold| displacement.abs() == hold.yields).map(|_| from + length)
+        };
+        if let Some(reached) = reached {
+            let instant = Instant { value: limit, time: self.time + reached };
+            *strength = strength.or(Some(instant));
+            if force.value < limit {
+                *force = instant;
+            }
+            return Ok(());
+        }
         let search = ExtremeSearch::new(piece, length, [self.time, from]);
         let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
-        let slope = tie.stiffness * tie.lever;
+        let slope = self.wall.tie_slope(branch);
         let size = slope * search.largest(|m| m.displacement);
         let quantity = Quantity { value, curvature: [slope * search.bounds.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
         *force = largest;
-        let (Some(reach), Some(limit)) = (tie.strength_displacement(), tie.strength) else { return Ok(()) };
+        let Some(reach) = tie.strength_displacement() else { return Ok(()) };
         if strength.is_none() && largest.value >= limit {
             let time = match event::find_ending(piece, [-reach, reach], &mut Peaks::at(0.0))? {
                 Ending::Exit(exit) if exit.time <= length => self.time + (from + exit.time),

@@ -28,6 +28,7 @@ impl Model for Unit {
     const GUID: &'static str = GUID;
     const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
     const PAYLOAD: &'static str = "scene.toml";
+    const STATE_VERSION: u64 = 2;
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
         let exchange = (environment.interface == Interface::ModelExchange).then(Exchange::default);
@@ -60,6 +61,7 @@ impl Model for Unit {
             V::ImpulseBottom => self.impulses.bottom,
             V::ImpulseTop => self.impulses.top,
             V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
+            V::TieBreakTime => progress.tie_break_time().unwrap_or(-1.0),
             V::UMax => progress.state.peaks.largest(),
             V::Mass => body.mass,
             V::EffectiveMass => body.effective_mass,
@@ -85,6 +87,7 @@ impl Model for Unit {
     fn boolean(&self, variable: BooleanVariable) -> bool {
         match variable {
             BooleanVariable::Overturned => self.simulation.progress().state.overturned,
+            BooleanVariable::TieBroken => self.simulation.progress().tie_break_time().is_some(),
         }
     }
 
@@ -128,7 +131,7 @@ impl Model for Unit {
                 Some((displacement.signum() * velocity).max(0.0))
             }
             // these change at communication points and events alone
-            V::UMax | V::ImpulseBottom | V::ImpulseTop | V::OverturnTime => Some(0.0),
+            V::UMax | V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::TieBreakTime => Some(0.0),
             real_output!() => {
                 let support_rate = self.inputs.rate(|input| input.last_rate);
                 let motion = [velocity, acceleration];
@@ -153,7 +156,7 @@ impl Model for Unit {
         let along = self.simulation.derivative(self.support(), motion, Support { bottom, top, drift });
         match unknown {
             // these depend on the past, not on the present state and inputs alone
-            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
+            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax | V::TieBreakTime => Some(0.0),
             real_output!() => output(&along, unknown),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
@@ -213,7 +216,9 @@ fn output(outputs: &Outputs, variable: RealVariable) -> Option<f64> {
         V::ReactionBottom => Some(outputs.reactions.bottom),
         V::ReactionTop => Some(outputs.reactions.top),
         V::TieForce => Some(outputs.tie_force),
-        V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => None,
+        V::TieElongation => Some(outputs.tie_elongation.positive),
+        V::TieElongationNegative => Some(outputs.tie_elongation.negative),
+        V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax | V::TieBreakTime => None,
         real_input!() | real_parameter!() | real_calculated!() => None,
     }
 }

@@ -100,6 +100,9 @@ impl ModelExchange for Unit {
         if event.overturned {
             log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
         }
+        if event.fractured {
+            log.event(format_args!("a tie broke at t = {time} s"));
+        }
         if event.departed {
             log.event(format_args!(
                 "left the supports at t = {time} s: reactions and impulses are 0 from there on"

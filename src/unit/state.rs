@@ -4,7 +4,7 @@ use fmu_export::{Experiment, Failure, StateCodec};
 
 use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};
-use crate::wall::{Ends, Support};
+use crate::wall::{Ends, Support, TieMemory};
 
 use super::exchange::{Exchange, OwnMotion};
 use super::{Inputs, Unit};
@@ -43,7 +43,12 @@ impl Unit {
     fn resume(&mut self, progress: Progress) -> Result<(), Failure> {
         let running = std::mem::take(&mut self.running);
         self.prepare()?;
-        let State { displacement, branch, .. } = progress.state;
+        let State { displacement, branch, tie, .. } = progress.state;
+        let yielded = [tie.yielded.positive, tie.yielded.negative];
+        if yielded.iter().any(|yielded| !yielded.is_finite() || *yielded < 0.0) {
+            return Err(Failure(format!("the state has ties that have yielded up to {yielded:?} m")));
+        }
+        self.simulation.prepare(&progress.state);
         let Some(branch) = self.wall().branches().get(branch) else {
             return Err("the state has a branch that the wall does not have".into());
         };
@@ -62,18 +67,22 @@ impl Unit {
 }
 
 fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-    let Progress { time, state, overturn_time, drift, work } = progress;
-    let State { displacement, velocity, branch, phase, peaks, overturned, departed } = state;
+    let Progress { time, state, overturn_time, tie_breaks, drift, work } = progress;
+    let State { displacement, velocity, branch, phase, peaks, overturned, departed, tie } = state;
+    let TieMemory { yielded, lost } = tie;
     let Peaks { positive, negative } = peaks;
     let Work { pieces, corners, impacts } = work;
     codec.f64s([time, displacement, velocity, positive, negative])?;
-    codec.option(overturn_time)?;
+    codec.f64s([&mut yielded.positive, &mut yielded.negative])?;
+    for time in std::iter::once(overturn_time).chain(tie_breaks) {
+        codec.option(time)?;
+    }
     codec.usize(branch)?;
     codec.item(phase, &[Phase::Moving, Phase::Resting, Phase::Landed])?;
     for count in [pieces, corners, impacts] {
         codec.u64(count)?;
     }
-    for flag in [overturned, departed, drift] {
+    for flag in [overturned, departed, lost, drift] {
         codec.bool(flag)?;
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 use super::damping::BranchDamping;
 use super::force_law::Line;
+use super::tie::TieAction;
 
 /// A straight piece of the restoring force per unit effective mass, with its damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Branch {
     pub stiffness: f64,
     /// The force of the wall alone over `m_eff`, without a tie: secant damping follows from it.
     pub own: Line,
+    /// What a tie does.
+    pub tie: TieAction,
     /// Damping on the branch.
     pub damping: BranchDamping,
 }
@@ -74,6 +77,8 @@ pub struct Corner {
     pub overturning: bool,
     /// Beyond it the wall has left its supports.
     pub departure: bool,
+    /// Here the tie of this side breaks.
+    pub fracture: bool,
     /// Here the wall lies down.
     pub landing: bool,
 }
@@ -81,7 +86,7 @@ pub struct Corner {
 impl Corner {
     /// Returns whether anything but a change of branch happens here.
     pub fn is_marked(&self) -> bool {
-        self.passage || self.overturning || self.departure || self.landing
+        self.passage || self.overturning || self.departure || self.fracture || self.landing
     }
 }
 

@@ -32,24 +32,38 @@ pub struct CapacityPoint {
 }
 
 impl Wall {
-    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`.
+    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. The tie has
+    /// the force of a displacement that is reached for the first time.
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
-        let point = self.capacity_point(sign, fraction * self.body().instability.of(sign));
+        let u = fraction * self.body().instability.of(sign);
+        let point = self.capacity_point(sign, u, self.first_tie_force(sign, u));
         // keep the fraction itself: the quotient u/u_ins may differ from it in the last digit
         CapacityPoint { displacement_ratio: fraction, ..point }
     }
 
-    /// Returns the corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
+    /// Returns the corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`. Where a tie
+    /// breaks there are two, before and after the fracture.
     pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
         let u_ins = self.body().instability.of(sign);
         let side = self.force.side(sign);
         let mut corners = vec![0.0];
-        corners.extend(self.tie().filter(|tie| tie.holds(sign)).map(Tie::onset));
+        let tie = self.tie().filter(|tie| tie.holds(sign));
+        let breaks = tie.and_then(Tie::fracture_displacement);
+        corners.extend(tie.map(Tie::onset));
+        corners.extend(breaks.and_then(|_| tie?.strength_displacement()));
+        corners.extend(breaks);
         corners.extend(side.corners.iter().chain([&side.end, &u_ins]));
         corners.retain(|corner| *corner <= u_ins);
         corners.sort_by(f64::total_cmp);
         corners.dedup_by(|a, b| *a - *b <= ROUNDING * u_ins);
-        corners.into_iter().map(|corner| self.capacity_point(sign, corner)).collect()
+        let points = |u: f64| {
+            let after = self.capacity_point(sign, u, self.first_tie_force(sign, u));
+            let is_fracture = breaks.is_some_and(|breaks| (u - breaks).abs() <= ROUNDING * u_ins);
+            let strength = tie.and_then(|tie| tie.strength).filter(|_| is_fracture);
+            let before = strength.map(|force| self.capacity_point(sign, u, force));
+            before.into_iter().chain(std::iter::once(after))
+        };
+        corners.into_iter().flat_map(points).collect()
     }
 
     /// Returns the acceleration of the supports at which rocking starts, by the static curve without a tie:
@@ -87,12 +101,15 @@ impl Wall {
         corners.iter().map(|corner| self.own_force(sign, corner.displacement)).fold(0.0, f64::max)
     }
 
-    fn capacity_point(&self, sign: f64, u: f64) -> CapacityPoint {
+    fn first_tie_force(&self, sign: f64, u: f64) -> f64 {
+        self.tie().map_or(0.0, |tie| tie.force(u.copysign(sign)))
+    }
+
+    fn capacity_point(&self, sign: f64, u: f64, tie_force: f64) -> CapacityPoint {
         let body = self.body();
         let (m, participation) = (body.effective_mass, body.participation);
         let (u_ins, strength) = (body.instability.of(sign), body.strength.of(sign));
-        let tie = self.tie().map_or(0.0, |tie| tie.lever * tie.force(u.copysign(sign)));
-        let force = self.own_force(sign, u) + tie;
+        let force = self.own_force(sign, u) + self.tie().map_or(0.0, |tie| tie.lever * tie_force);
         CapacityPoint {
             displacement: u,
             force,

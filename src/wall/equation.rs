@@ -10,7 +10,7 @@ use super::layout;
 use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
-use super::tie::Tie;
+use super::tie::{Tie, TieAction, TieMemory};
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
 
@@ -21,6 +21,7 @@ pub struct Wall {
     pub(super) force: RestoringForce,
     rotations: Option<FullRotations>,
     tie: Option<Tie>,
+    tie_memory: TieMemory,
     damping: DampingLaw,
     restitution: f64,
     impact: bool,
@@ -61,23 +62,34 @@ impl Wall {
         let at_impacts = impact.then_some(restitution);
         let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
         let rocking = parameters.rocking;
-        let fully = rotations.is_some();
-        let free_side = free_side(rocking);
-        let corners = layout::corners(&body, &force, &damping, tie.as_ref(), impact, fully, free_side);
-        let branches = layout::branches(&corners, &body, &force, &damping, tie.as_ref());
-        Ok(Self {
+        let wall = Self {
             body,
             force,
             rotations,
             tie,
+            tie_memory: TieMemory::default(),
             damping,
             restitution,
             impact,
             rocking,
-            branches,
-            corners,
+            branches: Vec::new(),
+            corners: Vec::new(),
             warnings,
-        })
+        };
+        Ok(wall.with_tie_memory(TieMemory::default()))
+    }
+
+    /// Returns the wall with its ties as they are with a memory. Where they have yielded, they have other
+    /// corners; slopes stay the same.
+    #[must_use]
+    pub fn with_tie_memory(mut self, memory: TieMemory) -> Self {
+        self.tie_memory = memory;
+        let Self { body, force, rotations, tie, damping, impact, .. } = &self;
+        let (fully, free_side) = (rotations.is_some(), self.free_side());
+        let tie = tie.as_ref().map(|tie| (tie, &memory));
+        let corners = layout::corners(body, force, damping, tie, *impact, fully, free_side);
+        let branches = layout::branches(&corners, body, force, damping, tie);
+        Self { corners, branches, ..self }
     }
 
     /// Masses, geometry and the rigid force.
@@ -188,15 +200,39 @@ impl Wall {
         self.tie.as_ref()
     }
 
-    /// Force N of the tie on a branch \[N\]; 0 without one.
-    pub fn tie_force(&self, branch: usize, displacement: f64) -> f64 {
-        self.tie_on(branch).map_or(0.0, |tie| tie.tension(displacement))
+    /// What the ties remember; branches and corners are those of ties with this memory.
+    pub fn tie_memory(&self) -> &TieMemory {
+        &self.tie_memory
     }
 
-    /// The tie where it pulls on a branch.
-    pub fn tie_on(&self, branch: usize) -> Option<&Tie> {
-        let Branch { lower, upper, .. } = self.branches[branch];
-        self.tie.as_ref().filter(|tie| tie.pulls(lower, upper))
+    /// Force N of the tie on a branch \[N\]; 0 without one.
+    pub fn tie_force(&self, branch: usize, displacement: f64) -> f64 {
+        let Branch { tie: action, lower, upper, .. } = self.branches[branch];
+        let Some(tie) = self.tie.as_ref() else { return 0.0 };
+        match action {
+            TieAction::None => 0.0,
+            TieAction::Pulls => tie
+                .hold(0.5 * (lower + upper), &self.tie_memory)
+                .map_or(0.0, |hold| tie.tension(&hold, displacement)),
+            TieAction::Yields => tie.strength.unwrap_or_default(),
+        }
+    }
+
+    /// dN/d|u| on a branch, K 2y/h where the tie pulls \[N/m\].
+    pub fn tie_slope(&self, branch: usize) -> f64 {
+        let pulls = self.branches[branch].tie == TieAction::Pulls;
+        self.tie.as_ref().filter(|_| pulls).map_or(0.0, |tie| tie.stiffness * tie.lever)
+    }
+
+    /// Plastic elongations p of the ties of a wall at a displacement on a branch \[m\].
+    pub fn tie_elongation(&self, branch: usize, displacement: f64) -> Sides {
+        let Some(tie) = &self.tie else { return Sides::default() };
+        let mut yielded = self.tie_memory.yielded;
+        if self.branches[branch].tie == TieAction::Yields {
+            let of_side = yielded.of_mut(displacement);
+            *of_side = of_side.max(displacement.abs());
+        }
+        yielded.map(|yielded| tie.elongation(yielded))
     }
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.

@@ -65,6 +65,12 @@ pub enum ParameterError {
          the tie above the base"
     )]
     TieHeight { tie_height: f64, height: f64 },
+    /// A plastic elongation that is none.
+    #[error(
+        "tie_ultimate = {ultimate} m must be 0 or more, the plastic elongation at which the tie breaks, or -1 \
+         for a tie that stays elastic"
+    )]
+    TieUltimate { ultimate: f64 },
     /// Parameters that one-sided rocking does not allow.
     #[error(
         "rocking = {rocking} does not go with {}; or set rocking = two_sided",
@@ -124,6 +130,7 @@ impl ParameterError {
             Self::Computed { name, .. } | Self::NotGiven { name, .. } => vec![name],
             Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
+            Self::TieUltimate { .. } => vec!["tie_ultimate"],
             Self::OneSided { conflicts, .. } => {
                 std::iter::once("rocking").chain(conflicts.iter().map(|conflict| conflict.name)).collect()
             }

@@ -4,15 +4,15 @@ use super::branch::{Branch, Corner};
 use super::damping::DampingLaw;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
-use super::tie::Tie;
+use super::tie::{Tie, TieAction, TieMemory};
 
-/// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations
-/// are full. A wall with one free side has no landing on the other: the corner at u = 0 is its end there.
+/// Returns the corners in order of displacement, the two landings first and last. A tie has those that belong
+/// to its memory. `fully` says that rotations are full. A wall with one free side has no landing on the other: the corner at u = 0 is its end there.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,
     damping: &DampingLaw,
-    tie: Option<&Tie>,
+    tie: Option<(&Tie, &TieMemory)>,
     impact: bool,
     fully: bool,
     free_side: Option<f64>,
@@ -35,15 +35,25 @@ pub(super) fn corners(
             place(side.end, |_| {});
             place(side.end * damping.rocking.end(), |_| {});
         }
-        if let Some(tie) = tie.filter(|tie| tie.holds(sign) && tie.onset() < of(body.departure)) {
-            place(tie.onset(), |_| {});
+        if let Some(hold) = tie.and_then(|(tie, memory)| tie.hold(sign, memory)) {
+            let mut before_departure = |displacement: f64, mark: fn(&mut Corner)| {
+                if displacement < of(body.departure) {
+                    place(displacement, mark);
+                }
+            };
+            before_departure(hold.onset, |_| {});
+            before_departure(hold.yields, |_| {});
+            before_departure(hold.breaks, |corner| corner.fracture = true);
         }
         place(of(body.instability), |corner| corner.overturning = true);
         place(of(body.departure), |corner| corner.departure = true);
         place(of(body.landing), |corner| corner.landing = true);
     }
     corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
-    if !passage && !tie.is_some_and(|tie| tie.onset() == 0.0) {
+    let pulls_at_once = |(tie, memory): (&Tie, &TieMemory)| {
+        [1.0, -1.0].into_iter().any(|sign| tie.hold(sign, memory).is_some_and(|hold| hold.onset == 0.0))
+    };
+    if !passage && !tie.is_some_and(pulls_at_once) {
         // One elastic line runs through the origin.
         corners.retain(|corner| corner.displacement != 0.0);
     }
@@ -56,7 +66,7 @@ pub(super) fn branches(
     body: &Body,
     force: &RestoringForce,
     damping: &DampingLaw,
-    tie: Option<&Tie>,
+    tie: Option<(&Tie, &TieMemory)>,
 ) -> Vec<Branch> {
     let m = body.effective_mass;
     let between = |pair: &[Corner]| {
@@ -68,9 +78,10 @@ pub(super) fn branches(
         let line = side.lines[index];
         let damping = damping.on_branch(line.is_elastic(), reach > side.end * damping.rocking.end());
         let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
-        let tie = tie.filter(|tie| tie.pulls(lower, upper));
-        let Line { anchor, force, slope: stiffness } = tie.map_or(own, |tie| tie.added_to(own, middle, m));
-        Branch { lower, upper, anchor, force, stiffness, own, damping }
+        let action = tie.map_or(TieAction::None, |(tie, memory)| tie.action(lower, upper, memory));
+        let line = tie.map_or(own, |(tie, memory)| tie.added_to(own, (action, middle), memory, m));
+        let Line { anchor, force, slope: stiffness } = line;
+        Branch { lower, upper, anchor, force, stiffness, own, tie: action, damping }
     };
     corners.windows(2).map(between).collect()
 }

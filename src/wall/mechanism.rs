@@ -6,7 +6,7 @@ use super::error::ParameterError;
 use super::parameters::Parameters;
 
 /// One quantity on the sides u > 0 and u < 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sides {
     /// Side u > 0.
     pub positive: f64,
@@ -22,6 +22,11 @@ impl Sides {
     /// The value of the side on which `displacement` lies; u = 0 belongs to the positive one.
     pub fn of(self, displacement: f64) -> f64 {
         if displacement < 0.0 { self.negative } else { self.positive }
+    }
+
+    /// See [`of`](Self::of).
+    pub fn of_mut(&mut self, displacement: f64) -> &mut f64 {
+        if displacement < 0.0 { &mut self.negative } else { &mut self.positive }
     }
 }
 

@@ -38,7 +38,7 @@ pub use force_law::Line;
 pub use mechanism::{Body, Sides};
 pub use parameters::{COMPUTABLE, COMPUTED, Kinematics, Parameters};
 pub use supports::{Ends, Support};
-pub use tie::Tie;
+pub use tie::{Hold, Tie, TieAction, TieMemory};
 pub use trigonometric::FullRotations;
 pub use usage::{Usage, usage};
 pub use usual::Usual;

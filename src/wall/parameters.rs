@@ -50,6 +50,7 @@ pub struct Parameters {
     pub tie_stiffness: f64,
     pub tie_slack: f64,
     pub tie_strength: f64,
+    pub tie_ultimate: f64,
     pub tie_side: TieSide,
     /// Small or full rotations. Only scenes carry it.
     pub kinematics: Kinematics,

@@ -1,14 +1,19 @@
-//! The elastic one-way tie of a parapet, anchored to its own support.
+//! The one-way tie of a parapet, anchored to its own support.
 //!
 //! A tie at the height y, of stiffness K and slack g₀, that resists the side of σ = ±1 has the force N at the
-//! displacement w = 2 u y/h of the wall there:
+//! elongation e = σ (2y/h) u of the wall there:
 //!
 //! ```text
-//! N = K max(0, σ w − g₀)        F_tie(u) = σ (2y/h) N
+//! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ (2y/h) N
 //! ```
 //!
-//! It is one corner more, at |u| = g₀ h/(2y), and a slope of F more beyond it. F₀, `u_ins`, ω₁ and secant
-//! damping stay those of the wall alone.
+//! Its plastic elongation p grows with e while N = `N_y`, and never falls. The tie breaks where p reaches p_u,
+//! for good. Without p_u it stays elastic, and `N_y` is only a limit state.
+//!
+//! Yielding needs e = g₀ + p + `N_y`/K, so all that a tie remembers is the largest |u| at which it has
+//! yielded ([`TieMemory`]): p and the fracture follow from it. As the tie is now, F has a corner more where
+//! it begins to pull, where it yields and where it breaks ([`Hold`]). F₀, `u_ins`, ω₁ and secant damping stay
+//! those of the wall alone.
 
 use crate::choices::{Mechanism, TieSide};
 
@@ -17,30 +22,85 @@ use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
 
-/// The tie of a parapet.
+/// The tie of a parapet; on both sides two ties of equal data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tie {
     /// Stiffness K \[N/m\].
     pub stiffness: f64,
-    /// Slack g₀ \[m\].
+    /// Slack g₀ before it has yielded \[m\].
     pub slack: f64,
-    /// The force it resists \[N\]; `None` where none is given.
+    /// The force it resists, `N_y` \[N\]; `None` where none is given.
     pub strength: Option<f64>,
+    /// The plastic elongation at which it breaks, p_u \[m\]; `None` for a tie that stays elastic.
+    pub ultimate: Option<f64>,
     /// The side it holds.
     pub side: TieSide,
-    /// dw/du = 2y/h.
+    /// de/du = 2y/h.
     pub lever: f64,
     /// |u| from which on the wall has left its supports, and the tie with them \[m\].
     departure: Sides,
+}
+
+/// What the ties of a wall remember.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TieMemory {
+    /// The largest |u| at which the tie of each side has yielded, or at which it broke; 0 before \[m\].
+    pub yielded: Sides,
+    /// The wall has left its supports, and its ties with them.
+    pub lost: bool,
+}
+
+/// A tie as it is now, on one side: the |u| at which it begins to pull, yields and breaks, infinite where it
+/// never does \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// Where it begins to pull.
+    pub onset: f64,
+    /// Where it yields.
+    pub yields: f64,
+    /// Where it breaks; not below `yields`.
+    pub breaks: f64,
+    /// The elongation at which it begins to pull, g₀ + p.
+    slack: f64,
+}
+
+/// What a tie does on a branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TieAction {
+    /// It is slack or broken, or there is none.
+    #[default]
+    None,
+    /// It pulls, and is elastic.
+    Pulls,
+    /// It yields under `N_y`.
+    Yields,
+}
+
+impl Hold {
+    /// Returns what the tie does at |u|, which is none of its corners.
+    fn action(&self, reach: f64) -> TieAction {
+        if reach <= self.onset || reach >= self.breaks {
+            TieAction::None
+        } else if reach < self.yields {
+            TieAction::Pulls
+        } else {
+            TieAction::Yields
+        }
+    }
 }
 
 impl Tie {
     /// Returns the tie that the parameters ask for; `None` for a stiffness of 0.
     ///
     /// # Errors
-    /// [`ParameterError::TieNeedsParapet`], [`ParameterError::Trigonometric`], [`ParameterError::TieHeight`].
+    /// [`ParameterError::TieNeedsParapet`], [`ParameterError::Trigonometric`], [`ParameterError::TieHeight`],
+    /// [`ParameterError::TieUltimate`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Option<Self>, ParameterError> {
         let Parameters { height, tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
+        let ultimate = parameters.tie_ultimate;
+        if ultimate != ELASTIC && ultimate < 0.0 {
+            return Err(ParameterError::TieUltimate { ultimate });
+        }
         if stiffness == 0.0 {
             return Ok(None);
         }
@@ -54,10 +114,12 @@ impl Tie {
         if !(tie_height > 0.0 && tie_height <= height) {
             return Err(ParameterError::TieHeight { tie_height, height });
         }
+        let strength = Some(parameters.tie_strength).filter(|strength| *strength > 0.0);
         Ok(Some(Self {
             stiffness,
             slack,
-            strength: Some(parameters.tie_strength).filter(|strength| *strength > 0.0),
+            strength,
+            ultimate: strength.and(Some(ultimate)).filter(|ultimate| *ultimate >= 0.0),
             side: parameters.tie_side,
             lever: 2.0 * tie_height / height,
             departure: body.departure,
@@ -73,57 +135,143 @@ impl Tie {
         }
     }
 
-    /// Returns the |u| at which the tie begins to pull, g₀ h/(2y) \[m\].
+    /// Returns the |u| at which the tie first begins to pull, g₀ h/(2y) \[m\].
     pub fn onset(&self) -> f64 {
         self.slack / self.lever
     }
 
-    /// Returns the |u| at which the force of the tie reaches its strength \[m\]; `None` without a strength.
+    /// Returns the |u| at which the force of the tie first reaches its strength \[m\]; `None` without a
+    /// strength.
     pub fn strength_displacement(&self) -> Option<f64> {
         self.strength.map(|strength| (strength / self.stiffness + self.slack) / self.lever)
     }
 
-    /// Returns the slope that the tie adds to F, K (2y/h)² \[N/m\].
+    /// Returns the |u| at which the tie breaks, wherever it has yielded before \[m\]; `None` for one that
+    /// stays elastic.
+    pub fn fracture_displacement(&self) -> Option<f64> {
+        let (strength, ultimate) = (self.strength?, self.ultimate?);
+        // the sum in the order of `strength_displacement`: without plastic elongation both are the same
+        Some((strength / self.stiffness + self.slack + ultimate) / self.lever)
+    }
+
+    /// Returns the slope that the tie adds to F where it pulls, K (2y/h)² \[N/m\].
     pub fn slope(&self) -> f64 {
         self.stiffness * self.lever * self.lever
     }
 
-    /// Returns the force N of the tie at a displacement \[N\].
+    /// Returns the force N of the tie at a displacement reached for the first time \[N\].
     pub fn force(&self, displacement: f64) -> f64 {
-        if self.holds(displacement) && displacement.abs() < self.departure.of(displacement) {
-            self.tension(displacement)
-        } else {
-            0.0
+        let Some(hold) = self.hold(displacement, &TieMemory::default()) else { return 0.0 };
+        let reach = displacement.abs();
+        let is_held = reach < hold.breaks && reach < self.departure.of(displacement);
+        let force = if is_held { self.tension(&hold, displacement) } else { 0.0 };
+        if reach < hold.yields { force } else { self.strength.map_or(force, |most| force.min(most)) }
+    }
+
+    /// Returns the tie of the side of `sign` as it is with this memory; `None` on a side that it does not
+    /// hold, once it has broken, and once the wall has left its supports.
+    pub fn hold(&self, sign: f64, memory: &TieMemory) -> Option<Hold> {
+        if !self.holds(sign) || memory.lost {
+            return None;
         }
+        let (Some(first), Some(breaks)) = (self.strength_displacement(), self.fracture_displacement()) else {
+            let (onset, slack) = (self.onset(), self.slack);
+            return Some(Hold { onset, yields: f64::INFINITY, breaks: f64::INFINITY, slack });
+        };
+        let yielded = memory.yielded.of(sign);
+        if yielded >= breaks {
+            return None;
+        }
+        // not from `yields` back by N_y/K: of a strong tie that would cancel all digits
+        let slack = self.slack + self.lever * (yielded - first).max(0.0);
+        Some(Hold { onset: slack / self.lever, yields: first.max(yielded), breaks, slack })
     }
 
-    /// Returns K (|w| − g₀), the force of the tie where it pulls \[N\].
-    pub(super) fn tension(&self, displacement: f64) -> f64 {
-        (self.stiffness * (self.lever * displacement.abs() - self.slack)).max(0.0)
+    /// Returns the memory of ties whose wall has been pulled to a displacement \[m\].
+    pub(crate) fn memory_at(&self, displacement: f64) -> TieMemory {
+        let mut memory = TieMemory::default();
+        let yields = self.ultimate.and(self.strength_displacement());
+        if self.holds(displacement) && yields.is_some_and(|yields| displacement.abs() > yields) {
+            self.stretch(&mut memory, displacement);
+        }
+        memory
     }
 
-    /// Returns whether the tie pulls between two displacements that no corner separates.
-    pub(super) fn pulls(&self, lower: f64, upper: f64) -> bool {
+    /// Enters in the memory that the tie has yielded up to a displacement \[m\]; returns whether that breaks
+    /// it.
+    pub(crate) fn stretch(&self, memory: &mut TieMemory, displacement: f64) -> bool {
+        let breaks = self.fracture_displacement().unwrap_or(f64::INFINITY);
+        let yielded = memory.yielded.of_mut(displacement);
+        *yielded = yielded.max(displacement.abs()).min(breaks);
+        *yielded == breaks
+    }
+
+    /// Returns whether the tie of the side of `sign` has broken.
+    pub fn is_broken(&self, sign: f64, memory: &TieMemory) -> bool {
+        let has_reached = |breaks| memory.yielded.of(sign) >= breaks;
+        self.holds(sign) && self.fracture_displacement().is_some_and(has_reached)
+    }
+
+    /// Returns the plastic elongation p that belongs to the |u| at which the tie has yielded \[m\].
+    pub fn elongation(&self, yielded: f64) -> f64 {
+        let (Some(first), Some(ultimate)) = (self.strength_displacement(), self.ultimate) else { return 0.0 };
+        if self.fracture_displacement().is_some_and(|breaks| yielded >= breaks) {
+            return ultimate;
+        }
+        (self.lever * (yielded - first)).clamp(0.0, ultimate)
+    }
+
+    /// Returns K (|e| − g₀ − p), the force of the tie where it pulls \[N\].
+    pub(super) fn tension(&self, hold: &Hold, displacement: f64) -> f64 {
+        (self.stiffness * (self.lever * displacement.abs() - hold.slack)).max(0.0)
+    }
+
+    /// Returns what the tie does between two displacements that no corner separates.
+    pub(super) fn action(&self, lower: f64, upper: f64, memory: &TieMemory) -> TieAction {
         let middle = 0.5 * (lower + upper);
-        let within = middle.abs() > self.onset() && middle.abs() < self.departure.of(middle);
-        within && self.holds(middle)
+        let within = middle.abs() < self.departure.of(middle);
+        let hold = self.hold(middle, memory).filter(|_| within);
+        hold.map_or(TieAction::None, |hold| hold.action(middle.abs()))
     }
 
     /// Returns whether the tie pulls the wall back even where the wall leaves its supports, so that no
     /// equilibrium is unstable beyond the wall's own.
     pub(super) fn steadies(&self, force: &RestoringForce, sign: f64) -> bool {
         let end = self.departure.of(sign);
-        let reaches = |line: &Line| {
-            line.slope + self.slope() > 0.0
-                && sign * line.at(sign * end) + self.slope() * (end - self.onset()) > 0.0
+        let Some(hold) = self.hold(sign, &TieMemory::default()) else { return false };
+        let [pull, slope] = match hold.action(end) {
+            TieAction::None => return false,
+            TieAction::Pulls => [self.slope() * (end - hold.onset), self.slope()],
+            TieAction::Yields => [self.lever * self.strength.unwrap_or_default(), 0.0],
         };
-        self.onset() < end && force.side(sign).lines.last().is_some_and(reaches)
+        // under a constant pull the force falls up to there, so it is positive all the way
+        let rises = |line: &Line| slope == 0.0 || line.slope + slope > 0.0;
+        let reaches = |line: &Line| rises(line) && sign * line.at(sign * end) + pull > 0.0;
+        force.side(sign).lines.last().is_some_and(reaches)
     }
 
     /// Adds the force of the tie to a line of the wall alone on the side of `sign`, both per unit effective
     /// mass `m` \[kg\].
-    pub(super) fn added_to(&self, own: Line, sign: f64, m: f64) -> Line {
-        let anchor = self.onset().copysign(sign);
-        Line { anchor, force: own.at(anchor), slope: own.slope + self.slope() / m }
+    pub(super) fn added_to(
+        &self,
+        own: Line,
+        (action, sign): (TieAction, f64),
+        memory: &TieMemory,
+        m: f64,
+    ) -> Line {
+        match (action, self.hold(sign, memory)) {
+            (TieAction::Pulls, Some(hold)) => {
+                let anchor = hold.onset.copysign(sign);
+                Line { anchor, force: own.at(anchor), slope: own.slope + self.slope() / m }
+            }
+            (TieAction::Yields, _) => {
+                let most = self.lever * self.strength.unwrap_or_default() / m;
+                Line { force: own.force + most.copysign(sign), ..own }
+            }
+            _ => own,
+        }
     }
 }
+
+/// The value of `tie_ultimate` for a tie that stays elastic.
+const ELASTIC: f64 = -1.0;

@@ -23,6 +23,17 @@ struct Reference {
     horizon: f64,
     /// What plain double precision reached, as a fraction of `u_ins`.
     error_in_double: f64,
+    /// Of ties that yield.
+    tie: Option<TieReference>,
+}
+
+/// What ties have undergone; the side u > 0 first.
+#[derive(Deserialize)]
+struct TieReference {
+    /// Plastic elongations at the end.
+    elongation: [f64; 2],
+    /// When a tie broke.
+    breaks: [Option<f64>; 2],
 }
 
 fn folder() -> PathBuf {
@@ -40,13 +51,17 @@ struct Row {
     displacement: f64,
     velocity: f64,
     sensitivity: f64,
+    /// Force of the tie and plastic elongations, of ties that yield.
+    tie: Option<[f64; 3]>,
 }
 
 fn rows(name: &str) -> Vec<Row> {
     let parse = |line: &str| {
         let mut numbers = line.split(',').map(|field| field.parse::<f64>().unwrap());
-        let mut next = || numbers.next().unwrap();
-        Row { time: next(), displacement: next(), velocity: next(), sensitivity: next() }
+        let mut next = || numbers.next();
+        let [time, displacement, velocity, sensitivity] = std::array::from_fn(|_| next().unwrap());
+        let tie = next().map(|force| [force, next().unwrap(), next().unwrap()]);
+        Row { time, displacement, velocity, sensitivity, tie }
     };
     text(&format!("{name}.csv")).lines().skip(1).map(parse).collect()
 }
@@ -92,6 +107,17 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
             // at an impact on a row, the reference may have either velocity
             worst = worst.max(velocity_error / (10.0 * bound));
         }
+        if let (Some([force, positive, negative]), Some(tie)) = (row.tie, simulation.wall().tie()) {
+            let outputs = simulation.outputs(Support::default());
+            let elongation = outputs.tie_elongation;
+            let length = tie.lever * u_ins;
+            let errors = [
+                (outputs.tie_force - force) / (tie.stiffness * length),
+                (elongation.positive - positive) / length,
+                (elongation.negative - negative) / length,
+            ];
+            worst = errors.into_iter().fold(worst, |worst, error| worst.max(error.abs() / bound));
+        }
         compared += 1;
     }
     assert!(compared > 10, "{name}: compared {compared} rows");
@@ -104,6 +130,16 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
     } else {
         let (found, peak) = (progress.state.peaks.largest(), reference.u_max);
         assert!((found - peak).abs() / u_ins < 1e-7, "{name}: peak {found} for {peak}");
+    }
+    if let Some(TieReference { elongation, breaks }) = &reference.tie {
+        let found = simulation.outputs(Support::default()).tie_elongation;
+        let differences = [found.positive - elongation[0], found.negative - elongation[1]];
+        assert!(differences.iter().all(|difference| difference.abs() < 1e-7 * u_ins), "{name}: {found:?}");
+        for (found, wanted) in progress.tie_breaks.iter().zip(breaks) {
+            let near = |(found, wanted): (f64, f64)| (found - wanted).abs() < 1e-9;
+            assert!(found.is_some() == wanted.is_some(), "{name}: {found:?} for {wanted:?}");
+            assert!(found.zip(*wanted).is_none_or(near), "{name}: {found:?} for {wanted:?}");
+        }
     }
     assert!(worst <= 1.0, "{name}: the error takes {worst} of its bound");
     (worst, progress.work)
@@ -165,6 +201,12 @@ cases!(
     o03_one_sided_record,
     o04_one_sided_elastic_record,
     o05_one_sided_tie_record,
+    y01_free_cdc,
+    y03_pulse_brittle_sdr,
+    y07_one_sided_pulse,
+    y09_harmonic_ratchet_cdr,
+    y11_beyond_uins_back,
+    y13_start_beyond_yield,
 );
 
 /// The adaptive solver is an independent way to solve the cases with constant damping.

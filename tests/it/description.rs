@@ -31,11 +31,12 @@ fn the_names_others_rely_on_are_there_in_their_order() {
         u_start u_dot_start solver tolerance newmark_step
         mass effective_mass participation F0 F0_negative u_ins u_ins_negative omega1
         xi_used restitution_used
-        tie_height tie_stiffness tie_slack tie_strength tie_side rocking tie_force";
+        tie_height tie_stiffness tie_slack tie_strength tie_side rocking tie_force
+        tie_ultimate tie_elongation tie_elongation_negative tie_broken tie_break_time";
     let names: Vec<_> = variables().iter().map(|variable| variable.name).collect();
     assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
     let references: Vec<_> = variables().iter().map(|variable| variable.reference).collect();
-    assert!(references.iter().copied().eq(1..=60), "{references:?}");
+    assert!(references.iter().copied().eq(1..=65), "{references:?}");
 }
 
 #[test]

@@ -148,7 +148,7 @@ impl Way<'_> {
         let (c, slope) = (branch.damping_at(u), branch.damping_slope(u));
         let jerk = body.forcing(rate) - slope * v * v - c * a - branch.stiffness * v;
         let [now, later] = [(support, a, u), (rate, jerk, v)].map(|(s, a, u)| body.reactions(s, a, u, false));
-        let tie = wall.tie_on(self.branch).map_or(0.0, |tie| tie.stiffness * tie.lever * u.signum());
+        let tie = wall.tie_slope(self.branch) * u.signum();
         let values = [u, v, a, now.bottom, now.top, wall.tie_force(self.branch, u)];
         let slopes = [v, a, jerk, later.bottom, later.top, tie * v];
         for (index, [highest, lowest]) in self.ranges.iter_mut().enumerate() {

@@ -1,6 +1,7 @@
 //! State of the runs that share a vector: position in the record, bounds of the block, extremes.
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
+use rocking_wall::wall::TieMemory;
 
 use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
 use crate::number::{Row, WIDTH, index};
@@ -46,6 +47,7 @@ pub(crate) struct Run {
     pub(crate) overturned: bool,
     pub(crate) departed: bool,
     pub(crate) peaks: Peaks,
+    pub(crate) tie: TieMemory,
     /// Bound f̂ on the force per mass while |u| stays within the reach of the block \[m/s²\].
     pub(crate) force: f64,
     pub(crate) overturning: Option<f64>,
@@ -175,7 +177,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Returns the state of the run in a lane.
     pub(crate) fn state(&self, lane: usize) -> State {
-        let (Run { phase, overturned, departed, peaks, .. }, rows) = (&self.runs[lane], &self.rows);
+        let (Run { phase, overturned, departed, peaks, tie, .. }, rows) = (&self.runs[lane], &self.rows);
         State {
             displacement: rows.u[lane],
             velocity: rows.v[lane],
@@ -184,6 +186,7 @@ impl<O: Observer> Lanes<'_, O> {
             overturned: *overturned,
             departed: *departed,
             peaks: *peaks,
+            tie: *tie,
         }
     }
 

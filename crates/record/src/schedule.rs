@@ -101,7 +101,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Starts a run in a lane, over some samples.
     fn start(&mut self, lane: usize, block: Block, last: usize) {
         let Block { state, factor, number, first, share, .. } = block;
-        let State { displacement, velocity, branch, phase, overturned, departed, peaks } = state;
+        let State { displacement, velocity, branch, phase, overturned, departed, peaks, tie } = state;
         let run = Run {
             block,
             last,
@@ -109,6 +109,7 @@ impl<O: Observer> Lanes<'_, O> {
             overturned,
             departed,
             peaks,
+            tie,
             force: 0.0,
             overturning: self.outcomes[number].overturning,
             searched: Work::default(),
@@ -163,10 +164,13 @@ impl<O: Observer> Lanes<'_, O> {
         false
     }
 
-    /// Returns how the run of a lane takes steps.
+    /// Returns how the run of a lane takes steps. Once a tie has changed, the steps that are prepared are those
+    /// of another wall.
     #[inline(always)]
     fn stepping(&self, lane: usize) -> Stepping {
-        match self.runs[lane].phase {
+        let run = &self.runs[lane];
+        match run.phase {
+            Phase::Moving if run.tie != *self.solver.motion.wall().tie_memory() => Stepping::General,
             Phase::Moving => self.solver.table.steppings[index(self.rows.branch[lane])],
             Phase::Resting | Phase::Landed => Stepping::General,
         }
@@ -237,7 +241,7 @@ impl<O: Observer> Lanes<'_, O> {
         run.searched.add(report.work);
         run.put_to_rest |= report.put_to_rest;
         (run.phase, run.overturned, run.departed) = (state.phase, state.overturned, state.departed);
-        run.peaks = state.peaks;
+        (run.peaks, run.tie) = (state.peaks, state.tie);
         if let (Some(offset), None) = (report.overturning, run.overturning) {
             run.overturning = Some((sample as f64 + share) * step + offset);
             if self.pass == (Pass::Motion { until_overturning: true }) {

@@ -3,7 +3,7 @@
 use oscillator::Oscillator;
 use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
-use rocking_wall::wall::Corner;
+use rocking_wall::wall::{Corner, TieAction};
 
 use crate::affine::Affine;
 use crate::forcing::MOST_AT_ONCE;
@@ -259,8 +259,9 @@ impl Table {
             let (Some(corner), Some(next_stepping)) = (corner, self.steppings.get(next)) else {
                 return end_kind::CLOSED;
             };
-            let Corner { passage, stop, overturning, departure, landing, .. } = *corner;
-            if stop || overturning || departure || landing || !short(branch) || !short(next) {
+            let Corner { passage, stop, overturning, departure, fracture, landing, .. } = *corner;
+            let changes = overturning || departure || fracture || landing;
+            if stop || changes || !short(branch) || !short(next) {
                 return end_kind::CLOSED;
             }
             match next_stepping {
@@ -318,6 +319,9 @@ fn stepping(motion: &Motion, branch: usize, step: f64) -> Stepping {
     let wall = motion.wall();
     let adaptive = matches!(motion.method(), Method::Adaptive { .. });
     if wall.branches().len() > MOST_BRANCHES || matches!(motion.method(), Method::Newmark { .. }) {
+        Stepping::General
+    } else if wall.branches()[branch].tie == TieAction::Yields {
+        // it ends where the wall turns back
         Stepping::General
     } else if motion.secants()[branch].is_some() {
         if largest_damping(motion, branch) * step < 1.0 { Stepping::Curved } else { Stepping::General }

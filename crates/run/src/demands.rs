@@ -78,7 +78,7 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     if has_top {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
     }
-    if let Some(TieDemands { force, strength }) = &demands.tie {
+    if let Some(TieDemands { force, strength, yielding: _ }) = &demands.tie {
         let reached = strength.map_or(String::new(), |at| format!(", strength reached at {:.4} s", at.time));
         let peak = figure(1e-3 * force.value);
         lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));

@@ -22,7 +22,9 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     let KinematicState { displacement, velocity, acceleration } = piece.start();
     let reactions = wall.body().reactions(support, acceleration, displacement, true);
     let from = START[0] + START[1];
-    let mut demands = Demands::new(wall, from, [displacement, velocity, acceleration], reactions, &[]);
+    let tie_force = wall.tie().map_or(0.0, |tie| tie.force(displacement));
+    let motion = [displacement, velocity, acceleration];
+    let mut demands = Demands::new(wall, from, motion, reactions, tie_force, &[]);
     let segment = Segment { duration: START[1] + piece.horizon(), from: support, to: support };
     let branch = wall.branch_of(displacement, 1.0);
     let displacement = piece.motion(piece.horizon()).displacement;
@@ -39,7 +41,7 @@ fn a_rest_has_its_extremes_at_its_ends() {
     let wall = Wall::new(&Parameters { u_start: 0.0, ..Parameters::default() }).unwrap();
     let (from, to) = (Support::rigid(-1.0), Support::rigid(3.0));
     let at = |ground: f64| wall.body().reactions(Support::rigid(ground), 0.0, 0.0, false);
-    let mut demands = Demands::new(&wall, START[0], [0.0; 3], at(1.0), &[]);
+    let mut demands = Demands::new(&wall, START[0], [0.0; 3], at(1.0), 0.0, &[]);
     let segment = Segment { duration: 0.4, from, to };
     Watch { demands: &mut demands, wall: &wall, segment: &segment, time: START[0], drift: false }
         .rest(0.1, 0.4);
@@ -112,7 +114,7 @@ fn the_force_of_a_tie_is_accurate_relative_to_its_terms() {
             let piece = sway(amplitude, turned + earlier, 0.04);
             let (found, count) = watched(&wall, &piece, Support::default());
             evaluations.push(count);
-            let TieDemands { force, strength } = found.tie.unwrap();
+            let TieDemands { force, strength, .. } = found.tie.unwrap();
             let turn = f64::max(0.5 * std::f64::consts::PI / RATE - earlier, 0.0);
             let largest = amplitude * libm::sin(RATE * (turn + earlier));
             let size = tie.stiffness * tie.lever * largest;

@@ -118,6 +118,7 @@ fn a_parameter_without_effect_is_warned_of() {
         ("tie_slack=0.01", "tie_slack", "tie_stiffness is not 0"),
         ("tie_strength=1000", "tie_strength", "tie_stiffness is not 0"),
         ("tie_side=both", "tie_side", "tie_stiffness is not 0"),
+        ("tie_ultimate=0.1", "tie_ultimate", "tie_strength is not 0 and tie_stiffness is not 0"),
         (
             "damping_model=constant_coefficient tolerance=1e-10",
             "tolerance",
