@@ -32,6 +32,7 @@ mod peaks;
 mod properties;
 mod record_path;
 mod refusals;
+mod return_mapping;
 mod runge_kutta;
 mod ties;
 mod trigonometric;
