@@ -191,7 +191,7 @@ impl Tie {
     pub(crate) fn memory_at(&self, displacement: f64) -> TieMemory {
         let mut memory = TieMemory::default();
         let yields = self.ultimate.and(self.strength_displacement());
-        if self.holds(displacement) && yields.is_some_and(|yields| displacement.abs() > yields) {
+        if self.holds(displacement) && yields.is_some_and(|yields| displacement.abs() >= yields) {
             self.stretch(&mut memory, displacement);
         }
         memory

@@ -202,3 +202,31 @@ fn the_wheel_takes_what_the_tests_have_built() {
     assert!(other.is_empty(), "the tests build these with other features: {other:?}");
     assert!(same.len() > 50, "{same:?}");
 }
+
+/// Crates outside the workspace have locks of their own, which builds with `--locked` refuse once a crate of
+/// the workspace has other dependencies. `cargo metadata --manifest-path fuzz/Cargo.toml` mends one.
+#[test]
+fn other_locks_have_the_dependencies_of_today() {
+    for lock in ["fuzz/Cargo.lock", "tests/peers/Cargo.lock"] {
+        let text = read(lock);
+        let mut compared = 0;
+        for package in packages(&["--no-deps"]) {
+            let name = package["name"].as_str().unwrap();
+            let Some((_, locked)) = text.split_once(&format!("\nname = \"{name}\"\n")) else { continue };
+            let locked = locked.split("[[package]]").next().unwrap();
+            // a name, and a version where there are several
+            let listed = locked.lines().filter_map(|line| line.trim().strip_prefix('"'));
+            let locked: BTreeSet<_> = listed.map(|line| line.split(['"', ' ']).next().unwrap()).collect();
+            let dependencies = package["dependencies"].as_array().unwrap();
+            let declared = dependencies.iter().filter(|dependency| dependency["kind"] != "dev");
+            let names = |optional: bool| {
+                let chosen = declared.clone().filter(move |one| optional || one["optional"] == false);
+                chosen.map(|dependency| dependency["name"].as_str().unwrap()).collect::<BTreeSet<_>>()
+            };
+            assert!(names(false).is_subset(&locked), "{lock}: {name} lacks some of {:?}", names(false));
+            assert!(locked.is_subset(&names(true)), "{lock}: {name} has more than {:?}", names(true));
+            compared += 1;
+        }
+        assert!(compared > 3, "{lock}: {compared} packages");
+    }
+}
