@@ -24,19 +24,20 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{Mechanism, RealVariable};
-use crate::wall::{COMPUTABLE, Kinematics, Parameters, usage};
+use crate::wall::{Bar, COMPUTABLE, Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, check_tail, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
-pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
+pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text, set_names};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::read_text;
 use error::check_duration;
 pub use error::{Place, SceneError};
 pub use nearest::suggestion;
+use parameter::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits, number};
 pub use schema::{
     Described, Schema, file_schema, fraction, names, object, one_of, parameter, parameters, positive, text,
@@ -327,6 +328,8 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
         if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
             let _ = writeln!(text, "{KINEMATICS} = {:?}", scene.parameters.kinematics.name());
         }
+        let bar = scene.parameters.bar.filter(|_| group == TIE_GROUP);
+        text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
         for name in names {
             match (&scene.parameters.multilinear, *name) {
                 (Some(points), "force_law") => {
@@ -334,7 +337,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
                     let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
                     let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
                 }
-                _ if is_left_out(name) => {}
+                (_, name) if is_left_out(name) || (bar.is_some() && OF_BAR.contains(&name)) => {}
                 _ => {
                     if let Some(value) = parameter_text(&scene.parameters, name) {
                         let _ = writeln!(text, "{name} = {value}");
@@ -348,6 +351,13 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
         let _ = write!(text, "\n[motion]\n{motion}");
     }
     text
+}
+
+/// Writes the numbers of a bar as they stand in its table.
+fn bar_text(bar: &Bar) -> String {
+    let numbers = Bar::NUMBERS.iter().enumerate();
+    let given = numbers.filter_map(|(at, number)| Some(format!("{} = {:?}", number.key, bar.get(at)?)));
+    given.collect::<Vec<_>>().join(", ")
 }
 
 /// Writes a text as a basic TOML string.

@@ -6,11 +6,12 @@ use fmu_export::{Causality, Kind, Variable, VariableId};
 use toml::{Spanned, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
-use crate::wall::{Kinematics, Parameters};
+use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
 use super::syntax::number_meant;
+use super::toml_text::inner_span;
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -19,6 +20,13 @@ pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
 pub const POINTS: &str = "points";
 /// The key in `[geometry]` that chooses small or full rotations.
 pub const KINEMATICS: &str = "kinematics";
+
+/// The key in `[tie]` of the bar, a table of its own.
+pub(super) const BAR: &str = "bar";
+/// The table that holds the tie.
+pub(super) const TIE_GROUP: &str = "tie";
+/// The parameters that follow from the bar of a tie.
+pub(super) const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 
 /// The name in `force_law` that stands for a law of points.
 pub(super) const MULTILINEAR: &str = "multilinear";
@@ -56,6 +64,7 @@ pub fn apply_group(
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
     let mut multilinear = None;
     let mut points = None;
+    let mut bar = None;
     for (key, value) in entries {
         let name = key.get_ref().as_str();
         if group == "force_law" && name == POINTS {
@@ -64,6 +73,10 @@ pub fn apply_group(
         }
         if group == "force_law" && name == "force_law" && value.get_ref().as_str() == Some(MULTILINEAR) {
             multilinear = Some(key);
+            continue;
+        }
+        if (group, name) == (TIE_GROUP, BAR) {
+            bar = Some(value);
             continue;
         }
         if !names.contains(&name) && (group, name) != (KINEMATICS_GROUP, KINEMATICS) {
@@ -88,15 +101,68 @@ pub fn apply_group(
         }
         (None, None) => {}
     }
+    let Some(bar) = bar else { return Ok(()) };
+    if let Some(key) = entries.keys().find(|key| OF_BAR.contains(&key.get_ref().as_str())) {
+        let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
+        return Err(place.error(key.span(), message));
+    }
+    read_bar(parameters, bar, place)
+}
+
+/// Reads the table `[tie.bar]`.
+fn read_bar(
+    parameters: &mut Parameters,
+    table: &Spanned<Value>,
+    place: &Place<'_>,
+) -> Result<(), SceneError> {
+    let Some(entries) = table.get_ref().as_table() else {
+        let message = format!("{BAR} = {}: expected a table, [tie.bar]", shown(table.get_ref()));
+        return Err(place.error(table.span(), message));
+    };
+    let mut bar = Bar::default();
+    for (key, value) in entries {
+        let fail = |message| place.error(inner_span(place, table.span(), key), message);
+        let Some(index) = Bar::NUMBERS.iter().position(|number| number.key == key) else {
+            let keys = Bar::NUMBERS.map(|number| number.key);
+            let meant = suggestion(key, keys.iter().copied());
+            let keys = keys.join(", ");
+            return Err(fail(format!("unknown key {key:?} in [tie.bar]{meant}; it holds {keys}")));
+        };
+        bar.set(index, real(key, value).map_err(fail)?);
+    }
+    let missing = Bar::NUMBERS.iter().enumerate().find(|(at, of)| of.is_required && bar.get(*at).is_none());
+    if let Some((_, number)) = missing {
+        return Err(place.error(table.span(), format!("tie.bar needs {}; add it", number.key)));
+    }
+    parameters.bar = Some(bar);
+    follow_bar(parameters).map_err(|message| place.error(table.span(), message))
+}
+
+/// Gives the tie the numbers of its bar, once the bar is complete.
+fn follow_bar(parameters: &mut Parameters) -> Result<(), String> {
+    match parameters.apply_bar() {
+        Err(ParameterError::BarNeeds { .. }) => return Ok(()),
+        applied => applied.map_err(|error| error.to_string())?,
+    }
+    for name in OF_BAR {
+        if let Some(variable) = RealVariable::from_name(name) {
+            let value = parameters.real(variable).unwrap_or_default();
+            check_limits(variable.variable(), value).map_err(|error| format!("of this bar {error}"))?;
+        }
+    }
     Ok(())
+}
+
+/// Returns the names by which parameters are set one by one.
+pub fn set_names() -> impl Iterator<Item = &'static str> {
+    let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+    names.chain([KINEMATICS]).chain(Bar::NUMBERS.map(|number| number.usual.name))
 }
 
 /// Sets a parameter from text: a number, or the name of an item with or without quotes.
 pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str) -> Result<(), SceneError> {
-    let known = name == KINEMATICS || GROUPS.iter().any(|(_, names)| names.contains(&name));
-    if !known {
-        let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
-        let all: Vec<_> = names.chain([KINEMATICS]).collect();
+    if set_names().all(|known| known != name) {
+        let all: Vec<_> = set_names().collect();
         let meant = suggestion(name, all.iter().copied());
         let message = format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "));
         return Err(SceneError::Value { message });
@@ -109,7 +175,12 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     if name == "force_law" {
         parameters.multilinear = None;
     }
-    set(parameters, name, &value).map_err(|message| SceneError::Value { message })
+    if OF_BAR.contains(&name) {
+        parameters.bar = None;
+    }
+    set(parameters, name, &value)
+        .and_then(|()| follow_bar(parameters))
+        .map_err(|message| SceneError::Value { message })
 }
 
 fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), String> {
@@ -121,11 +192,13 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
             found.ok_or_else(|| format!("{name} = {} is not one of {names}", shown(value)))?;
         return Ok(());
     }
+    if let Some(index) = Bar::NUMBERS.iter().position(|number| number.usual.name == name) {
+        let number = real(name, value)?;
+        parameters.bar.get_or_insert_default().set(index, number);
+        return Ok(());
+    }
     if let Some(variable) = RealVariable::from_name(name) {
-        let number = number(value).ok_or_else(|| {
-            let meant = value.as_str().and_then(|text| number_meant(name, text));
-            meant.unwrap_or_else(|| format!("{name} = {} is not a number", shown(value)))
-        })?;
+        let number = real(name, value)?;
         check_limits(variable.variable(), number)?;
         if parameters.set_real(variable, number) {
             return Ok(());
@@ -145,6 +218,14 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
         return Err(format!("{name} = {} is not one of {}", shown(value), names.join(", ")));
     }
     Err(format!("{name} is not a parameter"))
+}
+
+/// Reads the number of a key.
+fn real(name: &str, value: &Value) -> Result<f64, String> {
+    number(value).ok_or_else(|| {
+        let meant = value.as_str().and_then(|text| number_meant(name, text));
+        meant.unwrap_or_else(|| format!("{name} = {} is not a number", shown(value)))
+    })
 }
 
 /// Formats a value as the file states it.

@@ -14,9 +14,9 @@ use serde::de::{Deserializer, IgnoredAny, Visitor};
 use toml::{Spanned, Table, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
-use crate::wall::Kinematics;
+use crate::wall::{Bar, BarNumber, Kinematics};
 
-use super::parameter::{Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS};
+use super::parameter::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
 
 /// What a schema says about a value, or about a whole file.
 pub type Schema = Table;
@@ -307,6 +307,9 @@ pub fn parameters(group: &str) -> Schema {
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
     let mut members: Schema =
         names.iter().filter_map(|name| Some(((*name).to_owned(), parameter(variable(name)?)?))).collect();
+    if group == TIE_GROUP {
+        members.insert(BAR.into(), bar().into());
+    }
     if group == KINEMATICS_GROUP {
         let text = "Small rotations, or full ones (rigid_linear without damping, not in an FMU).";
         let choice = with(one_of(Kinematics::ALL.map(Kinematics::name)), "description", text);
@@ -320,6 +323,26 @@ pub fn parameters(group: &str) -> Schema {
         members.insert(POINTS.into(), with(points, "description", text).into());
     }
     members
+}
+
+/// Describes the bar of a tie.
+fn bar() -> Schema {
+    let describe = |number: BarNumber| {
+        let unit = Some(number.usual.unit).filter(|unit| !unit.is_empty());
+        let text = format!("{}{}", number.text, unit.map_or(String::new(), |unit| format!(" [{unit}]")));
+        (number.key.to_owned(), with(positive(), "description", text).into())
+    };
+    let required = Bar::NUMBERS.iter().filter(|number| number.is_required).map(|number| number.key);
+    let bar = with(
+        object(Bar::NUMBERS.map(describe).into_iter().collect()),
+        "required",
+        required.collect::<Vec<_>>(),
+    );
+    with(
+        bar,
+        "description",
+        "The tie as it is built, in place of tie_stiffness, tie_strength and tie_ultimate.",
+    )
 }
 
 fn variable(name: &str) -> Option<&'static Variable> {

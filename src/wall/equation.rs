@@ -58,6 +58,9 @@ impl Wall {
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
         }
+        if let Some(bar) = &parameters.bar {
+            bar.tie(parameters.width)?;
+        }
         let tie = Tie::new(parameters, &body)?;
         let at_impacts = impact.then_some(restitution);
         let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);

@@ -71,6 +71,12 @@ pub enum ParameterError {
          for a tie that stays elastic"
     )]
     TieUltimate { ultimate: f64 },
+    /// A number that the bar of a tie lacks.
+    #[error("the bar of the tie needs {name}: give it, or leave the other numbers of the bar out")]
+    BarNeeds { name: &'static str },
+    /// A number of the bar of a tie.
+    #[error("{name} = {value}{}{unit} must be above 0", if unit.is_empty() { "" } else { " " })]
+    Bar { name: &'static str, value: f64, unit: &'static str },
     /// Parameters that one-sided rocking does not allow.
     #[error(
         "rocking = {rocking} does not go with {}; or set rocking = two_sided",
@@ -131,6 +137,7 @@ impl ParameterError {
             Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
             Self::TieUltimate { .. } => vec!["tie_ultimate"],
+            Self::BarNeeds { name } | Self::Bar { name, .. } => vec![name],
             Self::OneSided { conflicts, .. } => {
                 std::iter::once("rocking").chain(conflicts.iter().map(|conflict| conflict.name)).collect()
             }

@@ -8,6 +8,7 @@
 //! pieces of the restoring force per unit effective mass, and of the [`Corner`]s between them. A solver sees
 //! only the branch it is on.
 
+mod bar;
 mod branch;
 mod capacity;
 mod damping;
@@ -27,6 +28,7 @@ mod usage;
 mod usual;
 mod warning;
 
+pub use bar::{Bar, BarNumber, BarTie, TiePart};
 pub use branch::{Branch, Corner};
 pub use capacity::CapacityPoint;
 pub(crate) use damping::DampingSeries;

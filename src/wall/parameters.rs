@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::bar::Bar;
 use super::error::ParameterError;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
@@ -57,12 +58,15 @@ pub struct Parameters {
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
     /// replaces `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
     pub multilinear: Option<Arc<[[f64; 2]]>>,
+    /// The bar of the tie, which [`Parameters::apply_bar`] turns into the tie's own numbers. Only scenes
+    /// carry it.
+    pub bar: Option<Bar>,
 }
 
 impl Default for Parameters {
     /// The start values of the model description.
     fn default() -> Self {
-        start_values!(Self { kinematics: Kinematics::Linear, multilinear: None })
+        start_values!(Self { kinematics: Kinematics::Linear, multilinear: None, bar: None })
     }
 }
 

@@ -274,4 +274,4 @@ impl Tie {
 }
 
 /// The value of `tie_ultimate` for a tie that stays elastic.
-const ELASTIC: f64 = -1.0;
+pub(super) const ELASTIC: f64 = -1.0;

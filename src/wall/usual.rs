@@ -1,5 +1,6 @@
 //! Numbers that walls usually have, and the units in which others were perhaps meant.
 
+use super::bar::Bar;
 use super::parameters::Parameters;
 use super::warning::Warning;
 
@@ -17,9 +18,9 @@ pub struct Usual {
 }
 
 /// Lengths in m.
-const LENGTHS: &[(&str, f64)] = &[("in cm", 0.01), ("in mm", 0.001)];
+pub(super) const LENGTHS: &[(&str, f64)] = &[("in cm", 0.01), ("in mm", 0.001)];
 /// Forces in N.
-const FORCES: &[(&str, f64)] = &[("in kN", 1e3)];
+pub(super) const FORCES: &[(&str, f64)] = &[("in kN", 1e3)];
 
 impl Usual {
     /// A period in s: 5 s is beyond that of any building with masonry walls, 0.02 s below that of a storey.
@@ -57,7 +58,9 @@ impl Warning {
     /// Finds the parameters of a wall whose values are improbable.
     pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> + use<> {
         let Parameters { height, thickness, width, overburden, tie_strength, .. } = *parameters;
-        let has_tie = parameters.tie_stiffness > 0.0;
+        let of_bar: Vec<_> = parameters.bar.iter().flat_map(Bar::warnings).collect();
+        // of a bar with a number in another unit, stiffness and strength say nothing more
+        let has_tie = parameters.tie_stiffness > 0.0 && of_bar.is_empty();
         let half = thickness / 2.0;
         let usual = |name, unit, range, others| Usual { name, unit, range, others };
         let of_shape = [
@@ -92,6 +95,6 @@ impl Warning {
         ];
         let of_shape = of_shape.map(|(value, usual)| (true, value, usual));
         let all = of_shape.into_iter().chain(of_wall);
-        all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value))
+        all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_bar)
     }
 }

@@ -11,6 +11,7 @@ use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;
 use rocking_wall::wall::{Parameters, Support};
 
+mod bars;
 mod broken;
 mod broken_scenes;
 mod capacity;
