@@ -1,12 +1,12 @@
 //! Checks what the FMI 2.0 schema cannot: units, variables, enumerations and interfaces.
 
 use crate::element::Element;
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use crate::names::camel_case;
 use crate::structure;
 use crate::usage;
 use crate::variable::{
-    BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, simple_type,
+    BaseType, Causality, EnumerationType, Initial, Item, Kind, Variability, Variable, simple_type,
 };
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -31,7 +31,10 @@ pub(crate) fn all(
         enumeration_start(variable, enumerations)?;
         derivative(variable, variables)?;
         if grouped && variable.causality == Causality::Parameter && variable.group.is_none() {
-            return Err(variable.fault(Problem::NoGroup { name: variable.name.clone() }));
+            let name = &variable.name;
+            return Err(variable.fault(format!(
+                "the parameter `{name}` has no annotation <Group name=\"…\"/>, but others have one"
+            )));
         }
     }
     usage::check(variables, enumerations)?;
@@ -47,29 +50,24 @@ fn interfaces(root: &Element, variables: &[Variable]) -> Result<(), Fault> {
     for element in [exchange, steps].into_iter().flatten() {
         let own = element.required("modelIdentifier")?;
         if let Some(other) = identifier.replace(own).filter(|other| *other != own) {
-            let (own, other) = (own.to_owned(), other.to_owned());
-            return Err(element.fault(Problem::TwoLibraries { own, other }));
+            return Err(element.fault(format!(
+                "the modelIdentifier is {own:?} here and {other:?} in <ModelExchange>: one library serves \
+                 both kinds"
+            )));
         }
     }
     let count = root.parsed::<usize>("numberOfEventIndicators", "a number of event indicators")?;
+    let derivative = variables.iter().any(|variable| variable.derivative.is_some());
+    let listed = root.child("ModelStructure").is_some_and(|list| list.child("Derivatives").is_some());
     match exchange {
-        None if steps.is_none() => Err(root.fault(Problem::MissingElement { element: "CoSimulation" })),
+        None if steps.is_none() => Err(root.missing("CoSimulation")),
         None if count.is_some() => {
-            Err(root.fault(Problem::EventIndicators { why: "belongs to <ModelExchange>, which is missing" }))
+            Err(root.fault("numberOfEventIndicators belongs to <ModelExchange>, which is missing"))
         }
-        None => Ok(()),
-        Some(element) => {
-            if count.is_none() {
-                let why = "is missing, which <ModelExchange> needs; 0 if there are none";
-                return Err(root.fault(Problem::EventIndicators { why }));
-            }
-            let derivative = variables.iter().any(|variable| variable.derivative.is_some());
-            let listed = root.child("ModelStructure").is_some_and(|list| list.child("Derivatives").is_some());
-            if derivative && !listed {
-                return Err(element.fault(Problem::MissingElement { element: "Derivatives" }));
-            }
-            Ok(())
-        }
+        Some(_) if count.is_none() => Err(root
+            .fault("numberOfEventIndicators is missing, which <ModelExchange> needs; 0 if there are none")),
+        Some(element) if derivative && !listed => Err(element.missing("Derivatives")),
+        _ => Ok(()),
     }
 }
 
@@ -77,7 +75,8 @@ fn names(variables: &[Variable]) -> Result<(), Fault> {
     let mut seen = HashMap::new();
     for variable in variables {
         if let Some(first) = seen.insert(&variable.name, variable.line) {
-            return Err(variable.fault(Problem::RepeatedName { name: variable.name.clone(), first }));
+            let name = &variable.name;
+            return Err(variable.fault(format!("the name `{name}` was used on line {first} already")));
         }
     }
     for base in BaseType::ALL {
@@ -91,11 +90,11 @@ fn names(variables: &[Variable]) -> Result<(), Fault> {
 fn rust_names<'a>(names: impl Iterator<Item = (usize, &'a str)>) -> Result<(), Fault> {
     let mut seen: HashMap<String, (usize, &str)> = HashMap::new();
     for (line, name) in names {
-        let fault = |problem| Fault { line, problem };
-        let rust = camel_case(name).ok_or_else(|| fault(Problem::NoRustName { name: name.to_owned() }))?;
+        let rust = camel_case(name)
+            .ok_or_else(|| Fault::new(line, format!("`{name}` cannot be turned into a Rust name")))?;
         if let Some((first, other)) = seen.insert(rust.clone(), (line, name)) {
-            let (name, other) = (name.to_owned(), other.to_owned());
-            return Err(fault(Problem::RustNameClash { name, other, first, rust }));
+            let clash = format!("`{name}` and `{other}` on line {first} both become the Rust name {rust}");
+            return Err(Fault::new(line, clash));
         }
     }
     Ok(())
@@ -109,13 +108,11 @@ fn references(variables: &[Variable]) -> Result<(), Fault> {
         // Some value of 0..=count is free, there being count variables.
         let taken = |free: &u32| variables.iter().any(|variable| variable.reference == *free);
         let free = (0..=u32::MAX).find(|free| !taken(free)).unwrap_or_default();
-        return Err(variable.fault(Problem::RepeatedReference {
-            name: variable.name.clone(),
-            reference,
-            other: other.name.clone(),
-            first: other.line,
-            free,
-        }));
+        return Err(variable.fault(format!(
+            "`{}` has value reference {reference}, which `{}` on line {} has already; take a free one, \
+             {free} for example",
+            variable.name, other.name, other.line
+        )));
     }
     Ok(())
 }
@@ -132,16 +129,17 @@ fn combination(variable: &Variable) -> Result<(), Fault> {
         (C::CalculatedParameter | C::Local, V::Fixed | V::Tunable, initial) => initial != Some(I::Exact),
         _ => false,
     };
+    let name = &variable.name;
     if !legal {
-        return Err(variable.fault(Problem::IllegalCombination {
-            name: variable.name.clone(),
-            causality: variable.causality.name(),
-            variability: variable.variability.name(),
-            initial: variable.initial.map_or("without initial", Initial::name).to_owned(),
-        }));
+        let (causality, variability) = (variable.causality.name(), variable.variability.name());
+        let initial = variable.initial.map_or("without initial", Initial::name);
+        let problem = format!("`{name}` cannot be {causality}, {variability} and {initial} at once");
+        return Err(variable.fault(problem));
     }
     if variable.variability == Variability::Continuous && !matches!(variable.kind, Kind::Real { .. }) {
-        return Err(variable.fault(Problem::ContinuousNotReal { name: variable.name.clone() }));
+        return Err(variable.fault(format!(
+            "`{name}` is continuous (which is what leaving out the variability means), but only a Real can be"
+        )));
     }
     Ok(())
 }
@@ -153,7 +151,7 @@ fn start_presence(variable: &Variable) -> Result<(), Fault> {
         Kind::Boolean { start } => start.is_some(),
         Kind::String { start } => start.is_some(),
     };
-    let name = variable.name.clone();
+    let name = &variable.name;
     let (needed, why) = match (variable.causality, variable.initial_or_default()) {
         (Causality::Input, _) => (true, "an input"),
         (Causality::Parameter, _) => (true, "a parameter"),
@@ -163,8 +161,8 @@ fn start_presence(variable: &Variable) -> Result<(), Fault> {
         (_, Some(Initial::Calculated) | None) => (false, "calculated"),
     };
     match (needed, present) {
-        (true, false) => Err(variable.fault(Problem::MissingStart { name, why })),
-        (false, true) => Err(variable.fault(Problem::ForbiddenStart { name, why })),
+        (true, false) => Err(variable.fault(format!("`{name}` needs a start value, being {why}"))),
+        (false, true) => Err(variable.fault(format!("`{name}` must not have a start value, being {why}"))),
         _ => Ok(()),
     }
 }
@@ -181,18 +179,16 @@ fn units_of_types(root: &Element) -> Result<(), Fault> {
 
 fn units(root: &Element, variable: &Variable) -> Result<(), Fault> {
     let declared = variable.declared_type.as_deref().and_then(|name| simple_type(root, name, "Real"));
-    match (declared.and_then(|real| real.attribute("unit")), &variable.unit) {
-        (Some(type_unit), Some(unit)) if type_unit != unit => Err(variable.fault(Problem::UnitMismatch {
-            name: variable.name.clone(),
-            unit: unit.clone(),
-            declared_type: variable.declared_type.clone().unwrap_or_default(),
-            type_unit: type_unit.to_owned(),
-        })),
-        (_, unit) => {
-            unit_is_declared(root, &variable.name, unit.as_deref(), variable.display_unit.as_deref())
-                .map_err(|problem| variable.fault(problem))
-        }
+    let (name, unit) = (&variable.name, variable.unit.as_deref());
+    if let (Some(type_unit), Some(unit)) = (declared.and_then(|real| real.attribute("unit")), unit)
+        && type_unit != unit
+    {
+        let of_type = variable.declared_type.as_deref().unwrap_or_default();
+        let problem = format!("`{name}` has the unit `{unit}`, but its type `{of_type}` has `{type_unit}`");
+        return Err(variable.fault(problem));
     }
+    unit_is_declared(root, name, unit, variable.display_unit.as_deref())
+        .map_err(|problem| variable.fault(problem))
 }
 
 fn unit_is_declared(
@@ -200,20 +196,16 @@ fn unit_is_declared(
     name: &str,
     unit: Option<&str>,
     display_unit: Option<&str>,
-) -> Result<(), Problem> {
+) -> Result<(), String> {
     let Some(unit) = unit else { return Ok(()) };
     let named = |element: &&Element, name: &str| element.attribute("name") == Some(name);
     let mut units = root.children_of("UnitDefinitions").iter();
     let declared = units
         .find(|element| named(element, unit))
-        .ok_or_else(|| Problem::UndeclaredUnit { name: name.to_owned(), unit: unit.to_owned() })?;
+        .ok_or_else(|| format!("the unit `{unit}` of `{name}` is not declared in UnitDefinitions"))?;
     match display_unit {
         Some(shown) if shown != unit && !declared.children.iter().any(|element| named(&element, shown)) => {
-            Err(Problem::UndeclaredDisplayUnit {
-                name: name.to_owned(),
-                unit: unit.to_owned(),
-                display_unit: shown.to_owned(),
-            })
+            Err(format!("the display unit `{shown}` of `{name}` is not declared with the unit `{unit}`"))
         }
         _ => Ok(()),
     }
@@ -227,15 +219,16 @@ fn limits(variable: &Variable) -> Result<(), Fault> {
         max: Option<T>,
     ) -> Result<(), Fault> {
         let text = |limit: Option<T>| limit.map_or("none".to_owned(), |limit| limit.to_string());
-        let name = variable.name.clone();
+        let (name, least, most) = (&variable.name, text(min), text(max));
         if min.is_some() && max.is_some() && min > max {
-            let (min, max) = (text(min), text(max));
-            return Err(variable.fault(Problem::CrossedLimits { name, min, max }));
+            let crossed = format!("the limits of `{name}` are crossed: min {least} exceeds max {most}");
+            return Err(variable.fault(crossed));
         }
-        let Some(value) = start else { return Ok(()) };
-        if min.is_some_and(|min| value < min) || max.is_some_and(|max| value > max) {
-            let (start, min, max) = (value.to_string(), text(min), text(max));
-            return Err(variable.fault(Problem::StartOutsideLimits { name, start, min, max }));
+        let Some(start) = start else { return Ok(()) };
+        if min.is_some_and(|min| start < min) || max.is_some_and(|max| start > max) {
+            return Err(variable.fault(format!(
+                "the start value {start} of `{name}` is outside its limits {least} to {most}"
+            )));
         }
         Ok(())
     }
@@ -251,11 +244,13 @@ fn items(enumeration: &EnumerationType) -> Result<(), Fault> {
     let mut seen = HashMap::new();
     for item in &enumeration.items {
         if let Some(first) = seen.insert(item.value, item.line) {
-            let (name, value) = (item.name.clone(), item.value);
-            return Err(Fault {
-                line: item.line,
-                problem: Problem::RepeatedItemValue { name, value, first },
-            });
+            let Item { line, name, value, .. } = item;
+            return Err(Fault::new(
+                *line,
+                format!(
+                    "the item `{name}` has the value {value}, which the item on line {first} has already"
+                ),
+            ));
         }
     }
     Ok(())
@@ -266,25 +261,22 @@ fn enumeration_start(variable: &Variable, enumerations: &[EnumerationType]) -> R
     if variable.items(enumerations).iter().any(|item| item.value == start) {
         return Ok(());
     }
-    let declared_type = variable.declared_type.clone().unwrap_or_default();
-    Err(variable.fault(Problem::StartNotAnItem { name: variable.name.clone(), start, declared_type }))
+    let (name, of_type) = (&variable.name, variable.declared_type.as_deref().unwrap_or_default());
+    let problem = format!("the start value {start} of `{name}` is not an item of its type `{of_type}`");
+    Err(variable.fault(problem))
 }
 
 fn derivative(variable: &Variable, variables: &[Variable]) -> Result<(), Fault> {
     let Some(index) = variable.derivative else { return Ok(()) };
-    let state = index.checked_sub(1).and_then(|at| variables.get(at)).ok_or_else(|| {
-        variable.fault(Problem::NoSuchIndex {
-            name: variable.name.clone(),
-            attribute: "derivative",
-            index,
-            count: variables.len(),
-        })
-    })?;
+    let name = &variable.name;
+    let at = structure::position(variables.len(), index, "derivative", name);
+    let state = &variables[at.map_err(|problem| variable.fault(problem))?];
     let continuous = |variable: &Variable| {
         matches!(variable.kind, Kind::Real { .. }) && variable.variability == Variability::Continuous
     };
     if continuous(variable) && continuous(state) && state.name != variable.name {
         return Ok(());
     }
-    Err(variable.fault(Problem::BadDerivative { name: variable.name.clone(), of: state.name.clone() }))
+    let rule = "both must be continuous Reals and not the same";
+    Err(variable.fault(format!("`{name}` is the derivative of `{}`, and {rule}", state.name)))
 }

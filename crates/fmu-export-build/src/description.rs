@@ -2,7 +2,7 @@
 
 use crate::check;
 use crate::element::Element;
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use crate::fingerprint::{fingerprint, with_guid, without_annotations};
 use crate::usage::{condition, written};
 use crate::variable::{Causality, EnumerationType, Variable};
@@ -20,7 +20,7 @@ impl Description {
     /// Reads and checks the description `text`.
     ///
     /// # Errors
-    /// The first [`Problem`] found, with its line.
+    /// The first problem found, with its line.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         Self::from_root(Element::parse(text)?, text.to_owned())
     }
@@ -30,7 +30,7 @@ impl Description {
         root.expect("fmiModelDescription")?;
         let version = root.required("fmiVersion")?;
         if version != "2.0" {
-            return Err(root.fault(Problem::Version { found: version.to_owned() }));
+            return Err(root.fault(format!("fmiVersion is {version:?}: only \"2.0\" is understood")));
         }
         for name in ["modelName", "guid"] {
             root.required(name)?;

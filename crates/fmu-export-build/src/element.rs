@@ -1,6 +1,6 @@
 //! XML elements with their lines, read and written by quick-xml.
 
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
 use quick_xml::{Reader, Writer, XmlVersion};
 
@@ -35,10 +35,10 @@ impl Element {
         loop {
             // A tag's line is the one its `<` is on: text before it is an event of its own.
             let line = lines.line_at(reader.buffer_position());
-            let malformed = |message: String| Fault { line, problem: Problem::Malformed { message } };
+            let malformed = |message: String| Fault::new(line, not_well_formed(&message));
             let event = reader.read_event().map_err(|error| {
                 let line = LineCounter { text, offset: 0, line: 1 }.line_at(reader.error_position());
-                Fault { line, problem: Problem::Malformed { message: error.to_string() } }
+                Fault::new(line, not_well_formed(&error.to_string()))
             })?;
             let closed = match event {
                 Event::Start(tag) => {
@@ -113,20 +113,24 @@ impl Element {
     }
 
     /// The value of the attribute `name`, which must be there.
-    pub(crate) fn required(&self, name: &'static str) -> Result<&str, Fault> {
-        self.attribute(name).ok_or_else(|| {
-            self.fault(Problem::MissingAttribute { element: self.name.clone(), attribute: name })
-        })
+    pub(crate) fn required(&self, name: &str) -> Result<&str, Fault> {
+        let missing = || self.fault(format!("<{}> needs the attribute `{name}`", self.name));
+        self.attribute(name).ok_or_else(missing)
     }
 
     /// The value of the attribute `name`, if it is there, as a `T`; `expected` describes a `T` in the error.
     pub(crate) fn parsed<T: std::str::FromStr>(
         &self,
         name: &str,
-        expected: &'static str,
+        expected: &str,
     ) -> Result<Option<T>, Fault> {
         let Some(text) = self.attribute(name) else { return Ok(None) };
-        text.trim().parse().map(Some).map_err(|_| self.fault(Problem::bad_value(name, text, expected)))
+        text.trim().parse().map(Some).map_err(|_| self.bad_value(name, text, expected))
+    }
+
+    /// The value `text` of an attribute is not what is expected.
+    pub(crate) fn bad_value(&self, name: &str, text: &str, expected: &str) -> Fault {
+        self.fault(format!("{name}=\"{text}\" is not {expected}"))
     }
 
     /// The index that a checked attribute states.
@@ -148,8 +152,13 @@ impl Element {
     }
 
     /// The first child element called `name`, which must be there.
-    pub(crate) fn required_child(&self, name: &'static str) -> Result<&Element, Fault> {
-        self.child(name).ok_or_else(|| self.fault(Problem::MissingElement { element: name }))
+    pub(crate) fn required_child(&self, name: &str) -> Result<&Element, Fault> {
+        self.child(name).ok_or_else(|| self.missing(name))
+    }
+
+    /// A child element called `name` is missing.
+    pub(crate) fn missing(&self, name: &str) -> Fault {
+        self.fault(format!("<{name}> is missing"))
     }
 
     /// The children of the first child element called `name`; none if there is no such element.
@@ -169,17 +178,23 @@ impl Element {
     }
 
     /// Refuses an element that is not called `expected`.
-    pub(crate) fn expect(&self, expected: &'static str) -> Result<(), Fault> {
-        if self.name == expected {
-            return Ok(());
-        }
-        Err(self.fault(Problem::UnexpectedElement { expected, found: self.name.clone() }))
+    pub(crate) fn expect(&self, expected: &str) -> Result<(), Fault> {
+        if self.name == expected { Ok(()) } else { Err(self.unexpected(expected)) }
+    }
+
+    /// This element stands where one called `expected` should.
+    pub(crate) fn unexpected(&self, expected: &str) -> Fault {
+        self.fault(format!("expected <{expected}>, found <{}>", self.name))
     }
 
     /// A problem on this element's line.
-    pub(crate) fn fault(&self, problem: Problem) -> Fault {
-        Fault { line: self.line, problem }
+    pub(crate) fn fault(&self, problem: impl Into<String>) -> Fault {
+        Fault::new(self.line, problem)
     }
+}
+
+fn not_well_formed(message: &str) -> String {
+    format!("not well-formed XML: {message}")
 }
 
 /// Turns growing byte offsets into line numbers, reading the text once.
@@ -229,7 +244,7 @@ mod tests {
             ("<!DOCTYPE a>\n<a/>", 1),
         ] {
             let fault = Element::parse(text).unwrap_err();
-            assert!(matches!(fault.problem, Problem::Malformed { .. }), "{text}: {fault}");
+            assert!(fault.problem.starts_with("not well-formed XML"), "{text}: {fault}");
             assert_eq!(fault.line, line, "{text}: {fault}");
         }
     }

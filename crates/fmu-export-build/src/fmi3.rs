@@ -22,7 +22,7 @@
 
 use crate::description::Description;
 use crate::element::Element;
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use crate::types3::{Types, is_of_type, type_name};
 use crate::variable::{Causality, Variable};
 use fmu_export::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE};
@@ -53,7 +53,7 @@ impl Additions {
         for member in self.root.children_of("Terminals").iter().flat_map(|terminal| &terminal.children) {
             let name = member.required("variableName")?;
             if description.variable_names().all(|variable| variable != name) {
-                return Err(member.fault(Problem::NoSuchVariable { name: name.to_owned() }));
+                return Err(member.fault(format!("there is no variable `{name}`")));
             }
         }
         Ok(())
@@ -136,10 +136,10 @@ impl Description {
         };
         match self.variables.iter().find(taken) {
             None => Ok(()),
-            Some(variable) => {
-                let (name, reference) = (variable.name.clone(), variable.reference);
-                Err(variable.fault(Problem::Reserved { name, reference }))
-            }
+            Some(variable) => Err(variable.fault(format!(
+                "FMI 3.0 needs the name `{}` or the value reference {} for a variable of its own",
+                variable.name, variable.reference
+            ))),
         }
     }
 

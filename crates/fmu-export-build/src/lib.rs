@@ -52,7 +52,7 @@ mod variable;
 mod version;
 
 pub use description::Description;
-pub use error::{DescriptionError, Fault, Problem};
+pub use error::{DescriptionError, Fault};
 pub use fingerprint::fingerprint;
 pub use fmi3::Additions;
 pub use reduced::{DefaultExperiment, Reduction, ReductionError};
@@ -92,7 +92,7 @@ pub fn build_script(xml: &str) -> ExitCode {
 /// `fmu_export`, and needs `Parameters` and the enumerations in scope.
 ///
 /// # Errors
-/// A file that cannot be read or written, and any [`Problem`] of the description, with its line.
+/// A file that cannot be read or written, and any problem of the description, with its line.
 pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let text = std::fs::read_to_string(xml)
         .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;

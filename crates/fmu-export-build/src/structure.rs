@@ -1,7 +1,7 @@
 //! The `ModelStructure`: which unknowns there are and what they depend on.
 
 use crate::element::Element;
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use crate::variable::{Causality, Initial, Variable};
 use std::collections::HashSet;
 
@@ -91,15 +91,14 @@ impl List<'_> {
         for unknown in &element.children {
             unknown.required("index")?;
             let index = unknown.parsed("index", "an index")?.unwrap_or_default();
-            let at =
-                position(variables, index, "index", self.name).map_err(|problem| unknown.fault(problem))?;
-            let name = variables[at].name.clone();
+            let at = position(variables.len(), index, "index", self.name)
+                .map_err(|problem| unknown.fault(problem))?;
+            let (list, name) = (self.name, &variables[at].name);
             if !(self.belongs)(at, &variables[at]) {
-                let problem = Problem::NotInList { list: self.name, name, why: self.belongs_not };
-                return Err(unknown.fault(problem));
+                return Err(unknown.fault(format!("{list} lists `{name}`, which {}", self.belongs_not)));
             }
             if !listed.insert(at) {
-                return Err(unknown.fault(Problem::ListedTwice { list: self.name, name }));
+                return Err(unknown.fault(format!("{list} lists `{name}` twice")));
             }
             self.dependencies(variables, unknown, name).map_err(|problem| unknown.fault(problem))?;
         }
@@ -113,57 +112,47 @@ impl List<'_> {
             .find(|(at, variable)| (self.belongs)(*at, variable) && !listed.contains(at));
         match missing {
             None => Ok(()),
-            Some((_, variable)) => {
-                let name = variable.name.clone();
-                Err(Fault { line, problem: Problem::LeftOut { list: self.name, name, why: self.belongs_if } })
+            Some((_, Variable { name, .. })) => {
+                Err(Fault::new(line, format!("{} leaves out `{name}`, which {}", self.name, self.belongs_if)))
             }
         }
     }
 
-    fn dependencies(&self, variables: &[Variable], unknown: &Element, name: String) -> Result<(), Problem> {
+    fn dependencies(&self, variables: &[Variable], unknown: &Element, name: &str) -> Result<(), String> {
+        let list = self.name;
         let words = |attribute| unknown.attribute(attribute).map(|text: &str| text.split_ascii_whitespace());
         let mut dependencies = 0;
         for word in words("dependencies").into_iter().flatten() {
             let index = word.parse();
-            let index = index.map_err(|_| Problem::bad_value("dependencies", word, "an index"))?;
-            let at = position(variables, index, "dependencies", &name)?;
+            let index = index.map_err(|_| format!("dependencies=\"{word}\" is not an index"))?;
+            let at = position(variables.len(), index, "dependencies", name)?;
             if !(self.known)(at, &variables[at]) {
-                let on = variables[at].name.clone();
-                return Err(Problem::UnknownDependency { name, on, list: self.name, why: self.known_not });
+                let (on, why) = (&variables[at].name, self.known_not);
+                return Err(format!("in {list}, `{name}` cannot depend on `{on}`, which {why}"));
             }
             dependencies += 1;
         }
         let Some(kinds) = words("dependenciesKind") else { return Ok(()) };
         if let Some(kind) = kinds.clone().find(|kind| !self.kinds.contains(kind)) {
-            let (name, kind) = (name, kind.to_owned());
-            return Err(Problem::BadDependencyKind {
-                name,
-                kind,
-                list: self.name,
-                allowed: self.kinds.join(", "),
-            });
+            let allowed = self.kinds.join(", ");
+            let why = format!("cannot contain {kind:?}, only {allowed}");
+            return Err(format!("in {list}, the dependenciesKind of `{name}` {why}"));
         }
         let kinds = kinds.count();
-        if kinds == dependencies {
-            Ok(())
-        } else {
-            Err(Problem::UnequalDependencies { name, dependencies, kinds })
+        if kinds != dependencies {
+            return Err(format!(
+                "`{name}` has {dependencies} dependencies, but dependenciesKind has {kinds} entries"
+            ));
         }
+        Ok(())
     }
 }
 
-/// The 0-based position of the variable with the 1-based `index`; `attribute` of `owner` says it.
-fn position(
-    variables: &[Variable],
-    index: usize,
-    attribute: &'static str,
-    owner: &str,
-) -> Result<usize, Problem> {
-    let count = variables.len();
-    index.checked_sub(1).filter(|at| *at < count).ok_or_else(|| Problem::NoSuchIndex {
-        name: owner.to_owned(),
-        attribute,
-        index,
-        count,
+/// The 0-based position of the variable with the 1-based `index` among `count`; `attribute` of `owner` says
+/// it.
+pub(crate) fn position(count: usize, index: usize, attribute: &str, owner: &str) -> Result<usize, String> {
+    index.checked_sub(1).filter(|at| *at < count).ok_or_else(|| {
+        let there = format!("there are only the variables 1 to {count}");
+        format!("`{owner}` gives the index {index} in `{attribute}`, but {there}")
     })
 }

@@ -1,7 +1,7 @@
 //! What the conditions of variables mean for each other: their check, and their Rust.
 
 use crate::condition::{Test, words};
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 use crate::names::{camel, field, type_name};
 use crate::variable::{Causality, EnumerationType, Kind, Variable};
 
@@ -12,17 +12,15 @@ const MOST_LINKS: usize = 8;
 /// itself.
 pub(crate) fn check(variables: &[Variable], enumerations: &[EnumerationType]) -> Result<(), Fault> {
     for variable in variables {
+        let name = &variable.name;
         for alternative in &variable.conditions {
-            let wrong = |why: String| Fault {
-                line: alternative.line,
-                problem: Problem::BadCondition { name: variable.name.clone(), why },
-            };
+            let wrong = |why: &str| Fault::new(alternative.line, format!("<Where> of `{name}` {why}"));
             if alternative.tests.is_empty() {
-                return Err(wrong("is empty".to_owned()));
+                return Err(wrong("is empty"));
             }
             for Test { parameter, values, .. } in &alternative.tests {
                 let of = parameter_called(variables, parameter)
-                    .ok_or_else(|| wrong(format!("names `{parameter}`, which is not a parameter")))?;
+                    .ok_or_else(|| wrong(&format!("names `{parameter}`, which is not a parameter")))?;
                 let is_value = |value: &&String| match of.kind {
                     Kind::Enumeration { .. } => {
                         of.items(enumerations).iter().any(|item| item.name == **value)
@@ -30,16 +28,15 @@ pub(crate) fn check(variables: &[Variable], enumerations: &[EnumerationType]) ->
                     _ => value.parse::<f64>().is_ok_and(f64::is_finite),
                 };
                 if values.is_empty() {
-                    return Err(wrong(format!("gives no value of `{parameter}`")));
+                    return Err(wrong(&format!("gives no value of `{parameter}`")));
                 }
                 if let Some(value) = values.iter().find(|value| !is_value(value)) {
-                    return Err(wrong(format!("gives {value:?}, which `{parameter}` cannot be")));
+                    return Err(wrong(&format!("gives {value:?}, which `{parameter}` cannot be")));
                 }
             }
         }
         if links(variables, variable, MOST_LINKS).is_none() {
-            let why = "depends on itself, by way of others".to_owned();
-            return Err(variable.fault(Problem::BadCondition { name: variable.name.clone(), why }));
+            return Err(variable.fault(format!("<Where> of `{name}` depends on itself, by way of others")));
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::condition::{self, Alternative};
 use crate::element::Element;
-use crate::error::{Fault, Problem};
+use crate::error::Fault;
 
 /// One `<ScalarVariable>`.
 #[derive(Clone, Debug)]
@@ -124,7 +124,7 @@ impl Variable {
             .children
             .iter()
             .find(|child| child.name != "Annotations")
-            .ok_or_else(|| element.fault(Problem::MissingElement { element: "Real" }))?;
+            .ok_or_else(|| element.missing("Real"))?;
         let declared_type = typed.attribute("declaredType").map(str::to_owned);
         // Attributes the variable does not have itself come from its type.
         let inherited = match &declared_type {
@@ -183,8 +183,8 @@ impl Variable {
     }
 
     /// A problem on its line.
-    pub(crate) fn fault(&self, problem: Problem) -> Fault {
-        Fault { line: self.line, problem }
+    pub(crate) fn fault(&self, problem: impl Into<String>) -> Fault {
+        Fault::new(self.line, problem)
     }
 }
 
@@ -202,17 +202,15 @@ fn type_of<'a>(
     typed: &Element,
 ) -> Result<&'a Element, Fault> {
     simple_type(root, declared_type, &typed.name).ok_or_else(|| {
-        typed.fault(Problem::UndeclaredType {
-            name: name.to_owned(),
-            declared_type: declared_type.to_owned(),
-            kind: match typed.name.as_str() {
-                "Real" => "a Real",
-                "Integer" => "an Integer",
-                "Enumeration" => "an Enumeration",
-                "Boolean" => "a Boolean",
-                _ => "a String",
-            },
-        })
+        let kind = match typed.name.as_str() {
+            "Real" => "a Real",
+            "Integer" => "an Integer",
+            "Enumeration" => "an Enumeration",
+            "Boolean" => "a Boolean",
+            _ => "a String",
+        };
+        let expected = format!("is not declared in TypeDefinitions as {kind}");
+        typed.fault(format!("the type `{declared_type}` of `{name}` {expected}"))
     })
 }
 
@@ -223,9 +221,7 @@ impl Kind {
             let value: Option<f64> = own_or_inherited(typed, inherited, name, "a number")?;
             // Importers write these as text, and infinity has several spellings.
             match value.filter(|value| !value.is_finite()) {
-                Some(value) => {
-                    Err(typed.fault(Problem::bad_value(name, &value.to_string(), "a finite number")))
-                }
+                Some(value) => Err(typed.bad_value(name, &value.to_string(), "a finite number")),
                 None => Ok(value),
             }
         };
@@ -246,9 +242,7 @@ impl Kind {
             }
             "Boolean" => Ok(Self::Boolean { start: boolean(typed)? }),
             "String" => Ok(Self::String { start: typed.attribute("start").map(str::to_owned) }),
-            found => {
-                Err(typed.fault(Problem::UnexpectedElement { expected: "Real", found: found.to_owned() }))
-            }
+            _ => Err(typed.unexpected("Real")),
         }
     }
 }
@@ -272,7 +266,7 @@ fn boolean(typed: &Element) -> Result<Option<bool>, Fault> {
         None => Ok(None),
         Some("true" | "1") => Ok(Some(true)),
         Some("false" | "0") => Ok(Some(false)),
-        Some(value) => Err(typed.fault(Problem::bad_value("start", value, "true or false"))),
+        Some(value) => Err(typed.bad_value("start", value, "true or false")),
     }
 }
 
