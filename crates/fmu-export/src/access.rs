@@ -1,8 +1,7 @@
 //! Which functions a variable belongs to, and the phases in which it may be set.
 
 use crate::call::{Call, Phase, Version};
-use crate::model::Failure;
-use crate::model::Model;
+use crate::model::{Failure, Model};
 use crate::variable::{Causality, Kind, TIME_REFERENCE, Variability, Variable, VariableId};
 
 /// What a function does with the variables whose references it is given.

@@ -112,177 +112,145 @@ const GET_3: u16 = INST | GET;
 const GET_CONTINUOUS: u16 = INIT | EVENT | TIME | END;
 
 /// What one version of FMI says about a call.
-struct Rule {
-    /// The C function.
-    name: &'static str,
+pub(crate) struct Rule {
     /// The one kind of instance that the call is for; none if it is for both.
-    only_for: Option<Interface>,
+    pub(crate) only_for: Option<Interface>,
     /// The phases in which it is allowed.
     phases: u16,
     /// Why it is never served; none for the others.
-    why_never: Option<&'static str>,
+    pub(crate) why_never: Option<&'static str>,
+}
+
+impl Rule {
+    pub(crate) const fn allows(&self, phase: Phase) -> bool {
+        self.phases & phase.bit() != 0
+    }
 }
 
 /// A call for both kinds of instance.
-const fn any(name: &'static str, phases: u16) -> Rule {
-    Rule { name, only_for: None, phases, why_never: None }
+const fn any(phases: u16) -> Rule {
+    Rule { only_for: None, phases, why_never: None }
 }
 
 /// A call of co-simulation.
-const fn cs(name: &'static str, phases: u16) -> Rule {
-    Rule { only_for: Some(Interface::CoSimulation), ..any(name, phases) }
+const fn cs(phases: u16) -> Rule {
+    Rule { only_for: Some(Interface::CoSimulation), ..any(phases) }
 }
 
 /// A call of Model Exchange.
-const fn me(name: &'static str, phases: u16) -> Rule {
-    Rule { only_for: Some(Interface::ModelExchange), ..any(name, phases) }
+const fn me(phases: u16) -> Rule {
+    Rule { only_for: Some(Interface::ModelExchange), ..any(phases) }
 }
 
 /// A call that no FMU of this layer supports.
-const fn never(name: &'static str, why_never: Option<&'static str>) -> Rule {
-    Rule { why_never, ..any(name, NEVER) }
+const fn never(why_never: &'static str) -> Rule {
+    Rule { why_never: Some(why_never), ..any(NEVER) }
 }
 
 /// There is no such call in this version.
-const NONE: Rule = any("", NEVER);
+const NONE: Rule = any(NEVER);
 
-const NO_STEP: Option<&str> = Some("there is no step to cancel: fmi2DoStep returns when the step is done");
-const NO_CONFIGURATION: Option<&str> = Some("there are no structural parameters to configure");
-const IN_DESCRIPTION: Option<&str> =
-    Some("dependencies are in modelDescription.xml: providesPerElementDependencies is false");
-const UPDATE_INSTEAD: Option<&str> =
-    Some("use fmi3UpdateDiscreteStates: providesEvaluateDiscreteStates is false");
-const NO_CLOCKS: Option<&str> = Some("there are no clocks");
+const NO_STEP: &str = "there is no step to cancel: fmi2DoStep returns when the step is done";
+const NO_CONFIGURATION: &str = "there are no structural parameters to configure";
+const IN_DESCRIPTION: &str =
+    "dependencies are in modelDescription.xml: providesPerElementDependencies is false";
+const UPDATE_INSTEAD: &str = "use fmi3UpdateDiscreteStates: providesEvaluateDiscreteStates is false";
+const NO_CLOCKS: &str = "there are no clocks";
 
-/// Declares the calls, each with its rule in FMI 2.0 and in FMI 3.0.
+/// Declares the calls: those with the same rules, then their rule in FMI 2.0 and in FMI 3.0.
 macro_rules! calls {
-    ($($call:ident: $fmi2:expr, $fmi3:expr;)*) => {
-        /// The functions whose order is checked, each with its counterpart in the other version.
+    ($($($call:ident)+: $fmi2:expr, $fmi3:expr;)*) => {
+        /// The functions whose order is checked, each with its counterpart in the other version, by their
+        /// names in FMI 2.0 or else in FMI 3.0.
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-        pub(crate) enum Call { $($call),* }
+        pub(crate) enum Call { $($($call),+),* }
 
-        /// The rules of each call in FMI 2.0 and in FMI 3.0.
-        const TABLE: &[[Rule; 2]] = &[$([$fmi2, $fmi3]),*];
+        impl Call {
+            const ALL: &[Self] = &[$($(Self::$call),+),*];
+
+            /// The names in FMI 2.0 and in FMI 3.0, where they are alike.
+            const NAMES: &[[&str; 2]] =
+                &[$($([concat!("fmi2", stringify!($call)), concat!("fmi3", stringify!($call))]),+),*];
+
+            /// The rules in FMI 2.0 and in FMI 3.0.
+            const RULES: &[[Rule; 2]] = &[$($({ let _ = Self::$call; [$fmi2, $fmi3] }),+),*];
+        }
     };
 }
 
 #[rustfmt::skip]
 calls! {
-    SetDebugLogging: any("fmi2SetDebugLogging", ALIVE), any("fmi3SetDebugLogging", ALIVE);
-    SetupExperiment: any("fmi2SetupExperiment", INST), NONE;
-    EnterInitializationMode: any("fmi2EnterInitializationMode", INST),
-        any("fmi3EnterInitializationMode", INST);
-    ExitInitializationMode: any("fmi2ExitInitializationMode", INIT), any("fmi3ExitInitializationMode", INIT);
-    Terminate: any("fmi2Terminate", RUN), any("fmi3Terminate", RUN);
-    Reset: any("fmi2Reset", ALIVE), any("fmi3Reset", ALIVE);
-    GetReal: any("fmi2GetReal", GET), any("fmi3GetFloat64", GET_3);
-    GetInteger: any("fmi2GetInteger", GET), any("fmi3GetInt32", GET_3);
-    GetBoolean: any("fmi2GetBoolean", GET), any("fmi3GetBoolean", GET_3);
-    GetString: any("fmi2GetString", GET), any("fmi3GetString", GET_3);
-    SetReal: any("fmi2SetReal", SET), any("fmi3SetFloat64", SET | UPDATE);
-    SetInteger: any("fmi2SetInteger", SET_DISCRETE), any("fmi3SetInt32", SET_DISCRETE);
-    SetBoolean: any("fmi2SetBoolean", SET_DISCRETE), any("fmi3SetBoolean", SET_DISCRETE);
-    SetString: any("fmi2SetString", SET_DISCRETE), any("fmi3SetString", SET_DISCRETE);
-    GetFmuState: any("fmi2GetFMUstate", ALIVE), any("fmi3GetFMUState", ALIVE);
-    SetFmuState: any("fmi2SetFMUstate", ALIVE), any("fmi3SetFMUState", ALIVE);
-    FreeFmuState: any("fmi2FreeFMUstate", ALIVE), any("fmi3FreeFMUState", ALIVE);
-    SerializedFmuStateSize: any("fmi2SerializedFMUstateSize", ALIVE),
-        any("fmi3SerializedFMUStateSize", ALIVE);
-    SerializeFmuState: any("fmi2SerializeFMUstate", ALIVE), any("fmi3SerializeFMUState", ALIVE);
-    DeSerializeFmuState: any("fmi2DeSerializeFMUstate", ALIVE), any("fmi3DeserializeFMUState", ALIVE);
-    GetDirectionalDerivative: any("fmi2GetDirectionalDerivative", GET),
-        any("fmi3GetDirectionalDerivative", GET);
+    SetDebugLogging Reset: any(ALIVE), any(ALIVE);
+    GetFMUstate SetFMUstate FreeFMUstate SerializedFMUstateSize SerializeFMUstate DeSerializeFMUstate:
+        any(ALIVE), any(ALIVE);
+    SetupExperiment: any(INST), NONE;
+    EnterInitializationMode: any(INST), any(INST);
+    ExitInitializationMode: any(INIT), any(INIT);
+    Terminate: any(RUN), any(RUN);
+    GetReal GetInteger GetBoolean GetString: any(GET), any(GET_3);
+    SetReal: any(SET), any(SET | UPDATE);
+    SetInteger SetBoolean SetString: any(SET_DISCRETE), any(SET_DISCRETE);
+    GetDirectionalDerivative: any(GET), any(GET);
+    GetAdjointDerivative: NONE, any(GET);
     // Values of types of FMI 3.0 alone. Enumerations are 64-bit integers there; the other types have none.
-    GetInt64: NONE, any("fmi3GetInt64", GET_3);
-    GetFloat32: NONE, any("fmi3GetFloat32", GET_3);
-    GetInt8: NONE, any("fmi3GetInt8", GET_3);
-    GetUInt8: NONE, any("fmi3GetUInt8", GET_3);
-    GetInt16: NONE, any("fmi3GetInt16", GET_3);
-    GetUInt16: NONE, any("fmi3GetUInt16", GET_3);
-    GetUInt32: NONE, any("fmi3GetUInt32", GET_3);
-    GetUInt64: NONE, any("fmi3GetUInt64", GET_3);
-    GetBinary: NONE, any("fmi3GetBinary", GET_3);
-    SetInt64: NONE, any("fmi3SetInt64", SET_DISCRETE);
-    SetFloat32: NONE, any("fmi3SetFloat32", SET);
-    SetInt8: NONE, any("fmi3SetInt8", SET_DISCRETE);
-    SetUInt8: NONE, any("fmi3SetUInt8", SET_DISCRETE);
-    SetInt16: NONE, any("fmi3SetInt16", SET_DISCRETE);
-    SetUInt16: NONE, any("fmi3SetUInt16", SET_DISCRETE);
-    SetUInt32: NONE, any("fmi3SetUInt32", SET_DISCRETE);
-    SetUInt64: NONE, any("fmi3SetUInt64", SET_DISCRETE);
-    SetBinary: NONE, any("fmi3SetBinary", SET_DISCRETE);
-    GetAdjointDerivative: NONE, any("fmi3GetAdjointDerivative", GET);
-    EnterConfigurationMode: NONE, never("fmi3EnterConfigurationMode", NO_CONFIGURATION);
-    ExitConfigurationMode: NONE, never("fmi3ExitConfigurationMode", NO_CONFIGURATION);
-    GetNumberOfVariableDependencies: NONE, never("fmi3GetNumberOfVariableDependencies", IN_DESCRIPTION);
-    GetVariableDependencies: NONE, never("fmi3GetVariableDependencies", IN_DESCRIPTION);
-    EvaluateDiscreteStates: NONE, never("fmi3EvaluateDiscreteStates", UPDATE_INSTEAD);
-    GetClock: NONE, never("fmi3GetClock", NO_CLOCKS);
-    SetClock: NONE, never("fmi3SetClock", NO_CLOCKS);
-    GetIntervalDecimal: NONE, never("fmi3GetIntervalDecimal", NO_CLOCKS);
-    GetIntervalFraction: NONE, never("fmi3GetIntervalFraction", NO_CLOCKS);
-    GetShiftDecimal: NONE, never("fmi3GetShiftDecimal", NO_CLOCKS);
-    GetShiftFraction: NONE, never("fmi3GetShiftFraction", NO_CLOCKS);
-    SetIntervalDecimal: NONE, never("fmi3SetIntervalDecimal", NO_CLOCKS);
-    SetIntervalFraction: NONE, never("fmi3SetIntervalFraction", NO_CLOCKS);
-    SetShiftDecimal: NONE, never("fmi3SetShiftDecimal", NO_CLOCKS);
-    SetShiftFraction: NONE, never("fmi3SetShiftFraction", NO_CLOCKS);
-    ActivateModelPartition: NONE, never("fmi3ActivateModelPartition", NO_CLOCKS);
-    EnterEventMode: me("fmi2EnterEventMode", EVENT | TIME), any("fmi3EnterEventMode", TIME | STEP);
-    NewDiscreteStates: me("fmi2NewDiscreteStates", EVENT), any("fmi3UpdateDiscreteStates", EVENT);
-    // FMI 3.0 has none: the name is that of fmi-ls-wasm.
-    SetRealInputDerivatives: cs("fmi2SetRealInputDerivatives", INIT | STEP),
-        cs("set-input-derivatives", INIT | STEP);
-    GetRealOutputDerivatives: cs("fmi2GetRealOutputDerivatives", STEP | END),
-        cs("fmi3GetOutputDerivatives", STEP | END);
-    EnterStepMode: NONE, cs("fmi3EnterStepMode", EVENT);
-    DoStep: cs("fmi2DoStep", STEP), cs("fmi3DoStep", STEP);
-    FinishStep: NONE, cs("fmi3DoStep", STEP | UPDATE);
-    CancelStep: Rule { why_never: NO_STEP, ..cs("fmi2CancelStep", NEVER) }, NONE;
-    GetStatus: cs("fmi2GetStatus", STEP | END), NONE;
-    GetRealStatus: cs("fmi2GetRealStatus", STEP | END), NONE;
-    GetIntegerStatus: cs("fmi2GetIntegerStatus", STEP | END), NONE;
-    GetBooleanStatus: cs("fmi2GetBooleanStatus", STEP | END), NONE;
-    GetStringStatus: cs("fmi2GetStringStatus", STEP | END), NONE;
-    EnterContinuousTimeMode: me("fmi2EnterContinuousTimeMode", EVENT),
-        me("fmi3EnterContinuousTimeMode", EVENT);
-    CompletedIntegratorStep: me("fmi2CompletedIntegratorStep", TIME), me("fmi3CompletedIntegratorStep", TIME);
-    SetTime: me("fmi2SetTime", EVENT | TIME), me("fmi3SetTime", EVENT | TIME);
-    SetContinuousStates: me("fmi2SetContinuousStates", TIME), me("fmi3SetContinuousStates", TIME);
-    GetDerivatives: me("fmi2GetDerivatives", EVENT | TIME | END),
-        me("fmi3GetContinuousStateDerivatives", GET_CONTINUOUS);
-    GetEventIndicators: me("fmi2GetEventIndicators", GET_CONTINUOUS),
-        me("fmi3GetEventIndicators", GET_CONTINUOUS);
-    GetContinuousStates: me("fmi2GetContinuousStates", GET_CONTINUOUS),
-        me("fmi3GetContinuousStates", GET_CONTINUOUS);
-    GetNominalsOfContinuousStates: me("fmi2GetNominalsOfContinuousStates", INST | EVENT | TIME | END),
-        me("fmi3GetNominalsOfContinuousStates", INST | EVENT | TIME | END);
-    GetNumberOfEventIndicators: NONE, me("fmi3GetNumberOfEventIndicators", ALIVE);
-    GetNumberOfContinuousStates: NONE, me("fmi3GetNumberOfContinuousStates", ALIVE);
+    GetInt64 GetFloat32 GetInt8 GetUInt8 GetInt16 GetUInt16 GetUInt32 GetUInt64 GetBinary: NONE, any(GET_3);
+    SetInt64 SetInt8 SetUInt8 SetInt16 SetUInt16 SetUInt32 SetUInt64 SetBinary: NONE, any(SET_DISCRETE);
+    SetFloat32: NONE, any(SET);
+    EnterConfigurationMode ExitConfigurationMode: NONE, never(NO_CONFIGURATION);
+    GetNumberOfVariableDependencies GetVariableDependencies: NONE, never(IN_DESCRIPTION);
+    EvaluateDiscreteStates: NONE, never(UPDATE_INSTEAD);
+    GetClock GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction
+    SetClock SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction
+    ActivateModelPartition: NONE, never(NO_CLOCKS);
+    EnterEventMode: me(EVENT | TIME), any(TIME | STEP);
+    NewDiscreteStates: me(EVENT), any(EVENT);
+    SetRealInputDerivatives: cs(INIT | STEP), cs(INIT | STEP);
+    GetRealOutputDerivatives: cs(STEP | END), cs(STEP | END);
+    EnterStepMode: NONE, cs(EVENT);
+    DoStep: cs(STEP), cs(STEP);
+    FinishStep: NONE, cs(STEP | UPDATE);
+    CancelStep: Rule { why_never: Some(NO_STEP), ..cs(NEVER) }, NONE;
+    GetStatus GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus: cs(STEP | END), NONE;
+    EnterContinuousTimeMode: me(EVENT), me(EVENT);
+    CompletedIntegratorStep SetContinuousStates: me(TIME), me(TIME);
+    SetTime: me(EVENT | TIME), me(EVENT | TIME);
+    GetDerivatives: me(EVENT | TIME | END), me(GET_CONTINUOUS);
+    GetEventIndicators GetContinuousStates: me(GET_CONTINUOUS), me(GET_CONTINUOUS);
+    GetNominalsOfContinuousStates: me(INST | EVENT | TIME | END), me(INST | EVENT | TIME | END);
+    GetNumberOfEventIndicators GetNumberOfContinuousStates: NONE, me(ALIVE);
 }
 
 impl Call {
-    const fn rule(self, version: Version) -> &'static Rule {
-        &TABLE[self as usize][version as usize]
+    pub(crate) const fn rule(self, version: Version) -> &'static Rule {
+        &Self::RULES[self as usize][version as usize]
+    }
+
+    /// The call of the function of FMI 3.0 with this name.
+    pub(crate) fn of_fmi3(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|call| call.name(Version::Fmi3) == name)
     }
 
     /// The name of the C function.
     pub(crate) const fn name(self, version: Version) -> &'static str {
-        self.rule(version).name
-    }
-
-    pub(crate) const fn is_allowed(self, version: Version, phase: Phase) -> bool {
-        self.rule(version).phases & phase.bit() != 0
-    }
-
-    /// The one kind of instance that this call is for; none if it is for both.
-    pub(crate) const fn only_for(self, version: Version) -> Option<Interface> {
-        self.rule(version).only_for
-    }
-
-    /// Returns why this call is never served; `None` for the others.
-    pub(crate) const fn why_never(self, version: Version) -> Option<&'static str> {
-        self.rule(version).why_never
+        match (version, self) {
+            (Version::Fmi3, Self::GetReal) => "fmi3GetFloat64",
+            (Version::Fmi3, Self::SetReal) => "fmi3SetFloat64",
+            (Version::Fmi3, Self::GetInteger) => "fmi3GetInt32",
+            (Version::Fmi3, Self::SetInteger) => "fmi3SetInt32",
+            (Version::Fmi3, Self::GetFMUstate) => "fmi3GetFMUState",
+            (Version::Fmi3, Self::SetFMUstate) => "fmi3SetFMUState",
+            (Version::Fmi3, Self::FreeFMUstate) => "fmi3FreeFMUState",
+            (Version::Fmi3, Self::SerializedFMUstateSize) => "fmi3SerializedFMUStateSize",
+            (Version::Fmi3, Self::SerializeFMUstate) => "fmi3SerializeFMUState",
+            (Version::Fmi3, Self::DeSerializeFMUstate) => "fmi3DeserializeFMUState",
+            (Version::Fmi3, Self::NewDiscreteStates) => "fmi3UpdateDiscreteStates",
+            (Version::Fmi3, Self::GetRealOutputDerivatives) => "fmi3GetOutputDerivatives",
+            (Version::Fmi3, Self::GetDerivatives) => "fmi3GetContinuousStateDerivatives",
+            (Version::Fmi3, Self::FinishStep) => "fmi3DoStep",
+            // FMI 3.0 has none: the name is that of fmi-ls-wasm.
+            (Version::Fmi3, Self::SetRealInputDerivatives) => "set-input-derivatives",
+            _ => Self::NAMES[self as usize][version as usize],
+        }
     }
 
     /// Returns whether a failure of this call ends the simulation.
@@ -294,11 +262,11 @@ impl Call {
         !(reads
             || matches!(
                 self,
-                Self::SetFmuState
-                    | Self::FreeFmuState
-                    | Self::SerializedFmuStateSize
-                    | Self::SerializeFmuState
-                    | Self::DeSerializeFmuState
+                Self::SetFMUstate
+                    | Self::FreeFMUstate
+                    | Self::SerializedFMUstateSize
+                    | Self::SerializeFMUstate
+                    | Self::DeSerializeFMUstate
             ))
     }
 }

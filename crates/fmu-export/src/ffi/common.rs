@@ -9,8 +9,7 @@ use super::types::{
 use crate::call::{Call, Phase};
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
-use crate::model::Failure;
-use crate::model::{Experiment, Model};
+use crate::model::{Experiment, Failure, Model};
 use std::ffi::{CStr, CString};
 use std::ptr;
 
@@ -56,7 +55,7 @@ pub unsafe fn instantiate<M: Model>(
     };
     // SAFETY: `functions` is NULL or points to callbacks of the stated types, which are copied here.
     let callbacks = unsafe { array("functions", functions, 1) }.ok().and_then(<[_]>::first);
-    let sink = || callbacks.and_then(|callbacks| sink(*callbacks, name.clone()));
+    let sink = || callbacks.and_then(|callbacks| logger_of(*callbacks, name.clone()));
     let logger = || Logger::new(sink(), logging_on != 0);
     make("fmi2Instantiate", logger, |logger| {
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
@@ -84,25 +83,23 @@ pub(super) fn make<M: Model>(
 }
 
 /// Passes messages on to the importer's logger.
-fn sink(callbacks: CallbackFunctions, name: CString) -> Option<Box<Sink>> {
+fn logger_of(callbacks: CallbackFunctions, name: CString) -> Option<Box<Sink>> {
     let logger = callbacks.logger?;
-    Some(Box::new(move |weight, category, message| {
-        let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
-        let category = CString::new(category.name()).unwrap_or_default();
-        let environment = callbacks.component_environment;
+    let (environment, format) = (callbacks.component_environment, c"%s".as_ptr());
+    Some(sink(move |status, category, message| {
         // The message goes through "%s": it may hold what printf would take for a format.
         // SAFETY: the importer promised a logger of this type; the texts live until it returns.
-        unsafe {
-            logger(
-                environment,
-                name.as_ptr(),
-                status(weight),
-                category.as_ptr(),
-                c"%s".as_ptr(),
-                message.as_ptr(),
-            );
-        }
+        unsafe { logger(environment, name.as_ptr(), status, category.as_ptr(), format, message.as_ptr()) };
     }))
+}
+
+/// Passes messages on to `log`, as C has them: status, category and text.
+pub(super) fn sink(log: impl Fn(Status, &CStr, &CStr) + 'static) -> Box<Sink> {
+    Box::new(move |weight, category, message| {
+        let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let category = CString::new(category.name()).unwrap_or_default();
+        log(status(weight), &category, &message);
+    })
 }
 
 /// `fmi2FreeInstance`, `fmi3FreeInstance`
@@ -189,7 +186,7 @@ functions! {
         // during the call.
         let (knowns, seeds) =
             unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
-        instance.directional_derivative(unknowns, knowns, seeds, values)
+        instance.derivatives_along([knowns, unknowns], seeds, values, false)
     };
 }
 

@@ -127,41 +127,38 @@ macro_rules! __fmi3_module {
             }
 
             $crate::__fmi3_unsupported! { Exported,
-                fn fmi3GetClock = get_clock(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Clock);
-                fn fmi3SetClock = set_clock(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Clock);
-                fn fmi3GetNumberOfVariableDependencies = get_number_of_variable_dependencies(
+                fn fmi3GetClock(c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Clock);
+                fn fmi3SetClock(c: Instance, vr: *const ValueReference, nvr: usize, values: *const Clock);
+                fn fmi3GetNumberOfVariableDependencies(
                     c: Instance, valueReference: ValueReference, nDependencies: *mut usize);
-                fn fmi3GetVariableDependencies = get_variable_dependencies(
+                fn fmi3GetVariableDependencies(
                     c: Instance, dependent: ValueReference, elementIndicesOfDependent: *mut usize,
                     independents: *mut ValueReference, elementIndicesOfIndependents: *mut usize,
                     dependencyKinds: *mut DependencyKind, nDependencies: usize);
-                fn fmi3EnterConfigurationMode = enter_configuration_mode(c: Instance);
-                fn fmi3ExitConfigurationMode = exit_configuration_mode(c: Instance);
-                fn fmi3GetIntervalDecimal = get_interval_decimal(
+                fn fmi3EnterConfigurationMode(c: Instance);
+                fn fmi3ExitConfigurationMode(c: Instance);
+                fn fmi3GetIntervalDecimal(
                     c: Instance, vr: *const ValueReference, nvr: usize, intervals: *mut f64,
                     qualifiers: *mut IntervalQualifier);
-                fn fmi3GetIntervalFraction = get_interval_fraction(
+                fn fmi3GetIntervalFraction(
                     c: Instance, vr: *const ValueReference, nvr: usize, counters: *mut u64,
                     resolutions: *mut u64, qualifiers: *mut IntervalQualifier);
-                fn fmi3GetShiftDecimal = get_shift_decimal(
-                    c: Instance, vr: *const ValueReference, nvr: usize, shifts: *mut f64);
-                fn fmi3GetShiftFraction = get_shift_fraction(
+                fn fmi3GetShiftDecimal(c: Instance, vr: *const ValueReference, nvr: usize, shifts: *mut f64);
+                fn fmi3GetShiftFraction(
                     c: Instance, vr: *const ValueReference, nvr: usize, counters: *mut u64,
                     resolutions: *mut u64);
-                fn fmi3SetIntervalDecimal = set_interval_decimal(
+                fn fmi3SetIntervalDecimal(
                     c: Instance, vr: *const ValueReference, nvr: usize, intervals: *const f64);
-                fn fmi3SetIntervalFraction = set_interval_fraction(
+                fn fmi3SetIntervalFraction(
                     c: Instance, vr: *const ValueReference, nvr: usize, counters: *const u64,
                     resolutions: *const u64);
-                fn fmi3SetShiftDecimal = set_shift_decimal(
+                fn fmi3SetShiftDecimal(
                     c: Instance, vr: *const ValueReference, nvr: usize, shifts: *const f64);
-                fn fmi3SetShiftFraction = set_shift_fraction(
+                fn fmi3SetShiftFraction(
                     c: Instance, vr: *const ValueReference, nvr: usize, counters: *const u64,
                     resolutions: *const u64);
-                fn fmi3EvaluateDiscreteStates = evaluate_discrete_states(c: Instance);
-                fn fmi3ActivateModelPartition = activate_model_partition(
+                fn fmi3EvaluateDiscreteStates(c: Instance);
+                fn fmi3ActivateModelPartition(
                     c: Instance, clockReference: ValueReference, activationTime: f64);
             }
         }
@@ -190,7 +187,7 @@ macro_rules! __fmi3_values {
 macro_rules! __fmi3_unsupported {
     (
         $model:ident,
-        $(fn $name:ident = $generic:ident($c:ident: $c_type:ty $(, $unused:ident: $type:ty)*);)*
+        $(fn $name:ident($c:ident: $c_type:ty $(, $unused:ident: $type:ty)*);)*
     ) => { $(
         #[doc = concat!("`", stringify!($name), "`: always an error.")]
         #[unsafe(no_mangle)]
@@ -198,7 +195,7 @@ macro_rules! __fmi3_unsupported {
             $(let _ = $unused;)*
             // SAFETY: the standard asks of the importer that the instance is NULL or one of this model that
             // is not freed.
-            unsafe { $crate::ffi::fmi3::$generic::<$model>($c) }
+            unsafe { $crate::ffi::fmi3::refuse::<$model>($c, stringify!($name)) }
         }
     )* };
 }

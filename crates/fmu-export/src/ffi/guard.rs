@@ -3,8 +3,7 @@
 use super::types::{self, Component, ERROR, Status};
 use crate::call::Call;
 use crate::instance::Instance;
-use crate::model::Failure;
-use crate::model::Model;
+use crate::model::{Failure, Model};
 use std::any::Any;
 use std::cell::{Cell, RefCell, UnsafeCell};
 use std::panic::{self, AssertUnwindSafe};

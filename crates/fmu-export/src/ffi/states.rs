@@ -7,8 +7,7 @@ use super::arguments::{array, array_mut, place};
 use super::guard::functions;
 use super::types::{Component, FmuState, Status};
 use crate::call::Call;
-use crate::model::Failure;
-use crate::model::Model;
+use crate::model::{Failure, Model};
 use std::mem::MaybeUninit;
 use std::ptr;
 
@@ -16,18 +15,18 @@ functions! {
     /// `fmi2GetFMUstate`, `fmi3GetFMUState`
     ///
     /// A state that `state` already points to is used again.
-    get_fmu_state<Model>(state: *mut FmuState): GetFmuState, |instance| {
+    get_fmu_state<Model>(state: *mut FmuState): GetFMUstate, |instance| {
         // SAFETY: `state` is NULL or points to a state or to NULL, and nobody else uses it during the call.
         let state = unsafe { initialized_place("FMUstate", state) }?;
         *state = handle(instance.save(state.addr())?);
         Ok(())
     };
     /// `fmi2SetFMUstate`, `fmi3SetFMUState`
-    set_fmu_state<Model>(state: FmuState): SetFmuState, |instance| instance.restore(state.addr());
+    set_fmu_state<Model>(state: FmuState): SetFMUstate, |instance| instance.restore(state.addr());
     /// `fmi2FreeFMUstate`, `fmi3FreeFMUState`
     ///
     /// NULL, and a pointer to NULL, are fine.
-    free_fmu_state<Model>(state: *mut FmuState): FreeFmuState, |instance| {
+    free_fmu_state<Model>(state: *mut FmuState): FreeFMUstate, |instance| {
         if state.is_null() {
             return Ok(());
         }
@@ -40,7 +39,7 @@ functions! {
         Ok(())
     };
     /// `fmi2SerializedFMUstateSize`, `fmi3SerializedFMUStateSize`
-    serialized_fmu_state_size<Model>(state: FmuState, size: *mut usize): SerializedFmuStateSize, |instance| {
+    serialized_fmu_state_size<Model>(state: FmuState, size: *mut usize): SerializedFMUstateSize, |instance| {
         // SAFETY: `size` is NULL or points to room for one value that nobody else uses during the call.
         unsafe { place("size", size) }?.write(instance.serialize(state.addr())?.len());
         Ok(())
@@ -48,7 +47,7 @@ functions! {
     /// `fmi2SerializeFMUstate`, `fmi3SerializeFMUState`
     serialize_fmu_state<Model>(
         state: FmuState, bytes: *mut impl Sized, size: usize
-    ): SerializeFmuState, |instance| {
+    ): SerializeFMUstate, |instance| {
         // SAFETY: `bytes` is NULL or points to room for `size` bytes that nobody else uses during the call.
         let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size) }?;
         let source = instance.serialize(state.addr())?;
@@ -68,7 +67,7 @@ functions! {
     /// Makes a new state, whatever `state` points to. Bytes that are refused leave it as it is.
     de_serialize_fmu_state<Model>(
         bytes: *const impl Sized, size: usize, state: *mut FmuState
-    ): DeSerializeFmuState, |instance| {
+    ): DeSerializeFMUstate, |instance| {
         // SAFETY: `bytes` is NULL or points to `size` bytes that stay as they are during the call; `state`
         // is NULL or points to room for one state that nobody else uses.
         let (bytes, state) =

@@ -3,8 +3,7 @@
 use super::Instance;
 use crate::access::Access;
 use crate::limits;
-use crate::model::Failure;
-use crate::model::{Interface, ModelExchange, Update};
+use crate::model::{Failure, Interface, ModelExchange, Update};
 use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
 use std::mem::MaybeUninit;
 

@@ -5,11 +5,10 @@ mod saved;
 mod step;
 mod values;
 
-use crate::call::{Call, Phase, Version};
+use crate::call::{Call, Phase, Rule, Version};
 use crate::guid;
 use crate::log::{Category, Filter, Logger, Status};
-use crate::model::Failure;
-use crate::model::{Environment, Experiment, Interface, Model, Step};
+use crate::model::{Environment, Experiment, Failure, Interface, Model, Step};
 use crate::uri::path_from_location;
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -134,10 +133,10 @@ impl<M: Model> Instance<M> {
     /// Carries out `call`, if it is allowed in the present phase. A failure is logged, and ends the
     /// simulation where [`Call::failure_is_final`].
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
-        let Purpose { version, interface, .. } = self.purpose;
-        let suits = call.only_for(version).is_none_or(|only| only == interface);
-        let in_turn = suits && call.is_allowed(version, self.now.phase);
-        let done = if in_turn { body(self) } else { Err(self.out_of_turn(call)) };
+        let rule = call.rule(self.purpose.version);
+        let suits = rule.only_for.is_none_or(|only| only == self.purpose.interface);
+        let in_turn = suits && rule.allows(self.now.phase);
+        let done = if in_turn { body(self) } else { Err(self.out_of_turn(rule, suits)) };
         match done {
             Ok(()) => Status::Ok,
             Err(failure) => self.failed(call, &failure),
@@ -159,13 +158,13 @@ impl<M: Model> Instance<M> {
     }
 
     #[cold]
-    fn out_of_turn(&self, call: Call) -> Failure {
+    fn out_of_turn(&self, rule: &Rule, suits: bool) -> Failure {
         let Purpose { version, interface, .. } = self.purpose;
-        if call.only_for(version).is_some_and(|only| only != interface) {
-            return Failure(format!("not for an instance of {interface}"));
-        }
-        let phase = || format!("not allowed now: the instance is {}", self.now.phase.describe(version));
-        Failure(call.why_never(version).map_or_else(phase, str::to_owned))
+        Failure(match rule.why_never {
+            _ if !suits => format!("not for an instance of {interface}"),
+            Some(why_never) => why_never.to_owned(),
+            None => format!("not allowed now: the instance is {}", self.now.phase.describe(version)),
+        })
     }
 
     #[cold]

@@ -3,8 +3,7 @@
 use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
 use crate::log::Status;
-use crate::model::Failure;
-use crate::model::{Experiment, Model};
+use crate::model::{Experiment, Failure, Model};
 use crate::state::{self, StateCodec};
 
 /// A handle is the address of a state in `saved`.

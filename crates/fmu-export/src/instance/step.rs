@@ -5,8 +5,7 @@ use crate::access::{self, Access};
 use crate::call::{Call, Phase};
 use crate::limits;
 use crate::log::{Category, Status};
-use crate::model::Failure;
-use crate::model::{Model, Step};
+use crate::model::{Failure, Model, Step};
 use crate::variable::VariableId;
 
 /// Largest relative difference between a communication point and the instance's own time: communication

@@ -4,8 +4,7 @@ use super::Instance;
 use crate::access::{self, Access};
 use crate::call::{Call, Phase};
 use crate::limits;
-use crate::model::Failure;
-use crate::model::Model;
+use crate::model::{Failure, Model};
 use crate::variable::{Causality, Kind, Variability, Variable, VariableId};
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
@@ -271,31 +270,10 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Σ ∂unknown/∂known · seed over the knowns, for each unknown. Knowns with seed 0 are not looked at, so
-    /// that importers may list parameters among them.
-    pub(crate) fn directional_derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seeds: &[f64],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Result<(), Failure> {
-        self.sum_partials([knowns, unknowns], seeds, values, false)
-    }
-
-    /// Σ seed · ∂unknown/∂known over the unknowns, for each known. Unknowns with seed 0 are not looked at.
-    pub(crate) fn adjoint_derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seeds: &[f64],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Result<(), Failure> {
-        self.sum_partials([unknowns, knowns], seeds, values, true)
-    }
-
-    /// The sum over the `seeded` for each of the `wanted`; if `adjoint`, the seeded are the unknowns.
-    fn sum_partials(
+    /// Σ ∂unknown/∂known · seed over the knowns, for each unknown: the `seeded` are the knowns, and the
+    /// unknowns are `wanted`. If `adjoint`, the seeded are the unknowns. Those with seed 0 are not looked at,
+    /// so that importers may list parameters among them.
+    pub(crate) fn derivatives_along(
         &mut self,
         [seeded, wanted]: [&[u32]; 2],
         seeds: &[f64],

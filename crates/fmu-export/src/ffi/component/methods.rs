@@ -103,7 +103,7 @@ macro_rules! common_methods {
         }
 
         fn get_fmu_state(&self) -> Result<Vec<u8>, Status> {
-            self.0.ask(Call::GetFmuState, |instance| {
+            self.0.ask(Call::GetFMUstate, |instance| {
                 let handle = instance.save(0)?;
                 let bytes = instance.serialize(handle);
                 instance.forget(handle)?;
@@ -112,7 +112,7 @@ macro_rules! common_methods {
         }
 
         fn set_fmu_state(&self, state: Vec<u8>) -> Status {
-            self.0.run(Call::SetFmuState, |instance| {
+            self.0.run(Call::SetFMUstate, |instance| {
                 let handle = instance.deserialize(&state)?;
                 instance.restore(handle)?;
                 instance.forget(handle)
@@ -134,7 +134,7 @@ macro_rules! common_methods {
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetDirectionalDerivative, unknowns.len(), |instance, values| {
                 crate::ffi::fmi3::check_count("nSeed", seed.len(), knowns.len())?;
-                instance.directional_derivative(&unknowns, &knowns, &seed, values)
+                instance.derivatives_along([&knowns, &unknowns], &seed, values, false)
             })
         }
 
@@ -146,7 +146,7 @@ macro_rules! common_methods {
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetAdjointDerivative, knowns.len(), |instance, values| {
                 crate::ffi::fmi3::check_count("nSeed", seed.len(), unknowns.len())?;
-                instance.adjoint_derivative(&unknowns, &knowns, &seed, values)
+                instance.derivatives_along([&unknowns, &knowns], &seed, values, true)
             })
         }
     };

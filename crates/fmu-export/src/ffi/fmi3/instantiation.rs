@@ -7,13 +7,12 @@ use super::types::{
 use crate::access::{self, Access};
 use crate::call::Version;
 use crate::ffi::arguments::{array, bytes, required_text, text};
-use crate::ffi::common::make;
-use crate::ffi::types::{Text, ValueReference, status};
+use crate::ffi::common::{make, sink};
+use crate::ffi::types::{Text, ValueReference};
 use crate::instance::{self, Purpose};
-use crate::log::{Logger, Sink};
+use crate::log::Logger;
 use crate::model::{Interface, ModelExchange};
 use crate::variable::VariableId;
-use std::ffi::CString;
 use std::rc::Rc;
 
 /// `fmi3GetVersion`
@@ -39,7 +38,7 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
     environment: InstanceEnvironment,
     log_message: LogMessageCallback,
 ) -> Instance {
-    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    let logger = || logger(environment, log_message, logging_on);
     make("fmi3InstantiateModelExchange", logger, |logger| {
         let purpose = Purpose::fmi3(Interface::ModelExchange, M::STATES);
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
@@ -71,7 +70,7 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
     log_message: LogMessageCallback,
     intermediate_update: IntermediateUpdateCallback,
 ) -> Instance {
-    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    let logger = || logger(environment, log_message, logging_on);
     make("fmi3InstantiateCoSimulation", logger, |mut logger| {
         // SAFETY: `intermediate_variables` is NULL or points to `intermediate_variable_count` references
         // that stay as they are during the call.
@@ -125,7 +124,7 @@ pub unsafe fn instantiate_scheduled_execution<M: ModelExchange>(
     _lock_preemption: PreemptionCallback,
     _unlock_preemption: PreemptionCallback,
 ) -> Instance {
-    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    let logger = || logger(environment, log_message, logging_on);
     make::<M>("fmi3InstantiateScheduledExecution", logger, |_| {
         Err("this FMU is for Model Exchange and co-simulation only".into())
     })
@@ -146,12 +145,12 @@ unsafe fn texts<'a>(
 }
 
 /// Passes messages on to the importer's callback.
-fn sink(environment: InstanceEnvironment, log_message: LogMessageCallback) -> Option<Box<Sink>> {
-    let log_message = log_message?;
-    Some(Box::new(move |weight, category, message| {
-        let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
-        let category = CString::new(category.name()).unwrap_or_default();
-        // SAFETY: the importer promised a callback of this type; the texts live until it returns.
-        unsafe { log_message(environment, status(weight), category.as_ptr(), message.as_ptr()) };
-    }))
+fn logger(environment: InstanceEnvironment, log_message: LogMessageCallback, logging_on: bool) -> Logger {
+    let sink = log_message.map(|log_message| {
+        sink(move |status, category, message| {
+            // SAFETY: the importer promised a callback of this type; the texts live until it returns.
+            unsafe { log_message(environment, status, category.as_ptr(), message.as_ptr()) };
+        })
+    });
+    Logger::new(sink, logging_on)
 }

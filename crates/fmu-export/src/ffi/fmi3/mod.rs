@@ -8,8 +8,8 @@
 //! ```
 
 use crate::call::Call;
-use crate::ffi::guard::functions;
-use crate::ffi::types::{Component, Status};
+use crate::ffi::guard;
+use crate::ffi::types::{Component, ERROR, Status};
 use crate::model::Model;
 
 mod instantiation;
@@ -25,32 +25,14 @@ pub use steps::*;
 pub(super) use values::check_count;
 pub use values::*;
 
-/// Defines functions for what no FMU of this layer has, such as clocks: their call is never allowed, whatever
-/// their arguments.
-macro_rules! never {
-    ($($name:ident $call:ident;)*) => {
-        functions! { $(
-            /// Always an error.
-            $name<Model>(): $call, |_| Ok(());
-        )* }
-    };
-}
-
-never! {
-    enter_configuration_mode EnterConfigurationMode;
-    exit_configuration_mode ExitConfigurationMode;
-    get_number_of_variable_dependencies GetNumberOfVariableDependencies;
-    get_variable_dependencies GetVariableDependencies;
-    evaluate_discrete_states EvaluateDiscreteStates;
-    get_clock GetClock;
-    set_clock SetClock;
-    get_interval_decimal GetIntervalDecimal;
-    get_interval_fraction GetIntervalFraction;
-    get_shift_decimal GetShiftDecimal;
-    get_shift_fraction GetShiftFraction;
-    set_interval_decimal SetIntervalDecimal;
-    set_interval_fraction SetIntervalFraction;
-    set_shift_decimal SetShiftDecimal;
-    set_shift_fraction SetShiftFraction;
-    activate_model_partition ActivateModelPartition;
+/// Refuses a function for what no FMU of this layer has, such as `fmi3GetClock`: its call is never allowed,
+/// whatever its other arguments.
+///
+/// # Safety
+/// `component` is NULL or an instance.
+pub unsafe fn refuse<M: Model>(component: Component, function: &str) -> Status {
+    // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
+    let instance = unsafe { guard::instance::<M>(component) };
+    let call = Call::of_fmi3(function);
+    call.map_or(ERROR, |call| guard::run(instance, call, |_| Ok(())))
 }

@@ -6,7 +6,8 @@ use crate::call::{Call, Phase};
 use crate::ffi::arguments::{array, array_mut, place, to_get};
 use crate::ffi::guard::{self, functions};
 use crate::ffi::types::{Component, OK, Status, ValueReference};
-use crate::model::{Experiment, Model, ModelExchange, Update};
+use crate::instance::Instance;
+use crate::model::{Experiment, Failure, Model, ModelExchange, Update};
 
 /// `fmi3DoStep`
 ///
@@ -132,17 +133,11 @@ functions! {
         knowns: *const ValueReference, known_count: usize,
         seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
     ): GetDirectionalDerivative, |instance| {
-        check_count("nSeed", seed_count, known_count)?;
-        check_count("nSensitivity", sensitivity_count, unknown_count)?;
-        // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
-        let (unknowns, knowns) =
-            unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
-        // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state,
-        // those of `sensitivity` used by nobody else during the call.
-        let (seeds, values) = unsafe {
-            (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
-        };
-        instance.directional_derivative(unknowns, knowns, seeds, values)
+        let variables = [(unknowns, unknown_count), (knowns, known_count)];
+        let numbers = (seeds, seed_count, sensitivity, sensitivity_count);
+        // SAFETY: all are NULL or point to as many elements as stated, those of `sensitivity` used by nobody
+        // else during the call.
+        unsafe { derivatives_along(instance, variables, numbers, false) }
     };
     /// `fmi3GetAdjointDerivative`
     get_adjoint_derivative<Model>(
@@ -150,16 +145,34 @@ functions! {
         knowns: *const ValueReference, known_count: usize,
         seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
     ): GetAdjointDerivative, |instance| {
-        check_count("nSeed", seed_count, unknown_count)?;
-        check_count("nSensitivity", sensitivity_count, known_count)?;
-        // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
-        let (unknowns, knowns) =
-            unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
-        // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state,
-        // those of `sensitivity` used by nobody else during the call.
-        let (seeds, values) = unsafe {
-            (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
-        };
-        instance.adjoint_derivative(unknowns, knowns, seeds, values)
+        let variables = [(unknowns, unknown_count), (knowns, known_count)];
+        let numbers = (seeds, seed_count, sensitivity, sensitivity_count);
+        // SAFETY: all are NULL or point to as many elements as stated, those of `sensitivity` used by nobody
+        // else during the call.
+        unsafe { derivatives_along(instance, variables, numbers, true) }
     };
+}
+
+/// Directional derivatives of the unknowns by the knowns; if `adjoint`, adjoint derivatives.
+///
+/// # Safety
+/// As for [`array`] and [`array_mut`].
+unsafe fn derivatives_along<M: Model>(
+    instance: &mut Instance<M>,
+    [(unknowns, unknown_count), (knowns, known_count)]: [(*const ValueReference, usize); 2],
+    (seeds, seed_count, sensitivity, sensitivity_count): (*const f64, usize, *mut f64, usize),
+    adjoint: bool,
+) -> Result<(), Failure> {
+    // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
+    let (unknowns, knowns) =
+        unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
+    let (seeded, wanted) = if adjoint { (unknowns, knowns) } else { (knowns, unknowns) };
+    check_count("nSeed", seed_count, seeded.len())?;
+    check_count("nSensitivity", sensitivity_count, wanted.len())?;
+    // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state, those of
+    // `sensitivity` used by nobody else during the call.
+    let (seeds, values) = unsafe {
+        (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
+    };
+    instance.derivatives_along([seeded, wanted], seeds, values, adjoint)
 }

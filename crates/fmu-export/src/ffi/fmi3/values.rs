@@ -8,8 +8,7 @@ use crate::ffi::common::{get_texts, set_texts};
 use crate::ffi::guard::functions;
 use crate::ffi::types::{Component, Status, Text, ValueReference};
 use crate::instance::Instance;
-use crate::model::Failure;
-use crate::model::{Model, ModelExchange};
+use crate::model::{Failure, Model, ModelExchange};
 use crate::variable::Kind;
 
 functions! {
