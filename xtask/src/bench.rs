@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::command::{Result, cargo, output, program, root, succeed, target};
+use crate::command::{Result, cargo, output, program, read, remove_folder, root, succeed, target, write};
 use crate::python::Environment;
 
 /// The measurements of the peers.
@@ -71,7 +71,7 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
     let mut valgrind = program("valgrind");
     valgrind.args(["--tool=callgrind", "--quiet"]).arg(format!("--callgrind-out-file={}", file.display()));
     let samples = output(valgrind.args([binary, "--count", path, &runs.to_string()]), "")?;
-    let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+    let text = read(&file)?;
     let total = text.lines().find_map(|line| line.strip_prefix("totals: ")).unwrap_or_default();
     let total = total.trim().parse().map_err(|error| format!("{}: totals: {error}", file.display()))?;
     let samples = samples.trim().parse().map_err(|error| format!("samples `{samples}`: {error}"))?;
@@ -84,9 +84,7 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Returns the table it prints, which names a peer that cannot be installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
+    remove_folder(&folder)?;
     let mut rust = cargo();
     rust.args(["run", "--release", "--locked", "--quiet", "--manifest-path", "tests/peers/Cargo.toml", "--"]);
     rust.arg(&folder);
@@ -102,15 +100,12 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
             missing.extend(tools.iter().map(|(_, tool)| format!("{tool}: {}", message.replace('\n', " "))));
         }
     }
-    let path = folder.join("rows.csv");
-    let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let text = read(folder.join("rows.csv"))?;
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
     let table = report(&rows, &missing);
     print!("{table}");
-    let output = root().join(PEERS);
-    std::fs::write(&output, with_missing(text, &missing))
-        .map_err(|error| format!("{}: {error}", output.display()))?;
-    println!("written {}", output.display());
+    write(PEERS, with_missing(text, &missing))?;
+    println!("written {}", root().join(PEERS).display());
     Ok(table)
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::command::{Result, cargo, output, program, root, succeed, target};
+use crate::command::{Result, cargo, copy, output, program, read, succeed, target};
 use crate::fmu;
 
 /// The mdBook that builds the book.
@@ -13,15 +13,9 @@ pub(crate) fn run() -> Result<()> {
     let programs = fmu::programs("demo", &["--package", "rocking-wall-cli"])?;
     let folder = target().join("book");
     let mut prepare = program("python3");
-    prepare
-        .arg("xtask/book/prepare.py")
-        .arg(programs.join("wall"))
-        .arg(repository()?)
-        .arg(folder.join("src"));
-    succeed(&mut prepare, "see its message above")?;
-    let settings = folder.join("book.toml");
-    std::fs::copy(root().join("xtask/book/book.toml"), &settings)
-        .map_err(|error| format!("{}: {error}", settings.display()))?;
+    prepare.arg("xtask/book/prepare.py").arg(programs.join("wall"));
+    succeed(prepare.arg(repository()?).arg(folder.join("src")), "see its message above")?;
+    copy("xtask/book/book.toml", folder.join("book.toml"))?;
     succeed(program(mdbook()?).arg("build").arg(&folder), "see its message above")?;
     println!("{}", folder.join("book/index.html").display());
     Ok(())
@@ -44,7 +38,7 @@ fn mdbook() -> Result<PathBuf> {
 
 /// The repository that the manifest names, for links to files that are not in the book.
 fn repository() -> Result<String> {
-    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).map_err(|error| error.to_string())?;
+    let manifest = read("Cargo.toml")?;
     let line = manifest.lines().find_map(|line| line.strip_prefix("repository = "));
     line.map(|url| url.trim_matches('"').to_owned())
         .ok_or_else(|| "Cargo.toml names no repository".to_owned())

@@ -1,6 +1,6 @@
 //! `codemeta.json`, from `Cargo.toml` and `CITATION.cff`.
 
-use crate::command::{Result, root};
+use crate::command::{Result, read, write};
 
 /// Where an address says that the project has no public home yet.
 const PLACEHOLDER: &str = "https://example.org/";
@@ -9,17 +9,12 @@ const PLACEHOLDER: &str = "https://example.org/";
 pub(crate) fn run(check: bool) -> Result<()> {
     let text = text(&read("Cargo.toml")?, &read("CITATION.cff")?)?;
     if !check {
-        let path = root().join("codemeta.json");
-        return std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()));
+        return write("codemeta.json", text);
     }
     if read("codemeta.json")? == text {
         return Ok(());
     }
     Err("codemeta.json is not what Cargo.toml and CITATION.cff say: run `cargo xtask generate`".to_owned())
-}
-
-fn read(name: &str) -> Result<String> {
-    std::fs::read_to_string(root().join(name)).map_err(|error| format!("{name}: {error}"))
 }
 
 /// Makes the file's text.

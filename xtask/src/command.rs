@@ -1,7 +1,8 @@
 //! Knows the folders of the jobs, and runs other programs in them.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What went wrong, with the remedy.
@@ -58,6 +59,38 @@ pub(crate) fn output(command: &mut Command, remedy: &str) -> Result<String> {
         }
         Err(error) => Err(format!("`{shown}` cannot start: {error}; {remedy}")),
     }
+}
+
+/// Says which file or folder an error is of.
+pub(crate) fn at(path: &Path) -> impl Fn(std::io::Error) -> String {
+    move |error| format!("{}: {error}", path.display())
+}
+
+/// Reads a text; a path begins at the root.
+pub(crate) fn read(path: impl AsRef<Path>) -> Result<String> {
+    fs::read_to_string(root().join(&path)).map_err(at(path.as_ref()))
+}
+
+/// Writes a file; a path begins at the root.
+pub(crate) fn write(path: impl AsRef<Path>, content: impl AsRef<[u8]>) -> Result<()> {
+    fs::write(root().join(&path), content).map_err(at(path.as_ref()))
+}
+
+/// Copies a file; paths begin at the root.
+pub(crate) fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<()> {
+    let (from, to) = (from.as_ref(), to.as_ref());
+    let failed = |error| format!("{} to {}: {error}", from.display(), to.display());
+    fs::copy(root().join(from), root().join(to)).map(drop).map_err(failed)
+}
+
+/// Makes a folder, and those that it is in.
+pub(crate) fn make_folder(path: &Path) -> Result<()> {
+    fs::create_dir_all(path).map_err(at(path))
+}
+
+/// Removes a folder with all that is in it, if it is there.
+pub(crate) fn remove_folder(path: &Path) -> Result<()> {
+    if path.exists() { fs::remove_dir_all(path).map_err(at(path)) } else { Ok(()) }
 }
 
 fn shown(command: &Command) -> String {

@@ -1,7 +1,7 @@
 //! `cargo xtask coupling`: measures coupling error against communication step and run time; writes a
 //! table and the figures of `docs/coupling.md`.
 
-use crate::command::{Result, root, succeed};
+use crate::command::{Result, read, root, succeed};
 use crate::figures;
 use crate::fmu;
 use crate::python::Environment;
@@ -17,9 +17,7 @@ pub(crate) fn run() -> Result<()> {
     let mut measure = python.program("python");
     measure.arg("tests/coupling/measure.py").arg(wall).arg(floor).arg(&folder);
     succeed(&mut measure, "see its message above")?;
-    let path = folder.join("coupling.md");
-    let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    figures::write(DOCUMENT, &[("figures", table)])?;
+    figures::write_marked(DOCUMENT, &[("figures", read(folder.join("coupling.md"))?)])?;
     println!("written {DOCUMENT}, fmu_out/coupling.csv");
     Ok(())
 }

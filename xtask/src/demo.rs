@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::command::{Result, output, root, succeed};
+use crate::command::{Result, output, read, root, succeed};
 use crate::fmu;
 use crate::python::Environment;
 
@@ -47,7 +47,7 @@ fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[
     };
     let record = motion.strip_prefix(&["--record"]).unwrap_or(motion);
     run_quietly(crate::command::program(wall).arg("record").args(record).arg("--samples").arg(&input))?;
-    let text = std::fs::read_to_string(&input).map_err(|error| format!("{}: {error}", input.display()))?;
+    let text = read(&input)?;
     let stop = text.lines().last().and_then(|line| line.split(',').next()).unwrap_or("30").to_owned();
     let mut fmpy = python.program("python");
     fmpy.arg("tests/python/shake.py").arg(unit).arg(&input).arg(&stop).arg(&history);

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::bench;
-use crate::command::{Result, root, target};
+use crate::command::{Result, at, read, root, target, write};
 use crate::images::{self, wall};
 
 const DOCUMENT: &str = "docs/accuracy.md";
@@ -32,17 +32,13 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let rotations = accuracy.find(ROTATIONS).map_or("", |start| &accuracy[start..]);
     let stability =
         wall(&["verify", "stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
-    let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
-        .map_err(failed("fmu_out/accuracy.csv"))?;
-    write(
-        DOCUMENT,
-        &[
-            ("accuracy", condensed(&csv)),
-            ("stability", fenced(&stability)),
-            ("rotations", fenced(rotations)),
-            ("peers", fenced(&outlined(&peers))),
-        ],
-    )?;
+    let figures = [
+        ("accuracy", condensed(&read("fmu_out/accuracy.csv")?)),
+        ("stability", fenced(&stability)),
+        ("rotations", fenced(rotations)),
+        ("peers", fenced(&outlined(&peers))),
+    ];
+    write_marked(DOCUMENT, &figures)?;
     beside_other_tools()?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
@@ -50,14 +46,9 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     images::run()
 }
 
-/// Says which file an error is of.
-fn failed(name: &'static str) -> impl Fn(std::io::Error) -> String {
-    move |error| format!("{name}: {error}")
-}
-
 /// Draws one wall of the peers for the README: single runs, and not the reference beside itself.
 fn beside_other_tools() -> Result<()> {
-    let text = std::fs::read_to_string(root().join(bench::PEERS)).map_err(failed(bench::PEERS))?;
+    let text = read(bench::PEERS)?;
     if let Some(missing) = text.lines().find(|line| line.starts_with("all,")) {
         println!("docs/images/peers.svg stays as it is: {missing}");
         return Ok(());
@@ -66,7 +57,7 @@ fn beside_other_tools() -> Result<()> {
         |line: &&str| line.starts_with(SHOWN) && !["by step", "at once"].iter().any(|w| line.contains(w));
     let lines = text.lines().filter(shown);
     let path = target().join("shown_peers.csv");
-    std::fs::write(&path, lines.collect::<Vec<_>>().join("\n")).map_err(failed("shown_peers.csv"))?;
+    write(&path, lines.collect::<Vec<_>>().join("\n"))?;
     let path = path.display().to_string();
     let scene = ["verify", "accuracy", "scenes/parapet_on_a_roof.toml", "--budget", "0"];
     wall(&[&scene[..], &["--peers", &path, "--plot", "docs/images/peers.svg"]].concat()).map(drop)
@@ -75,14 +66,14 @@ fn beside_other_tools() -> Result<()> {
 /// Compares the model with each published test: its numbers and its picture.
 pub(crate) fn validation() -> Result<()> {
     let mut figures = Vec::new();
-    for entry in std::fs::read_dir(root().join(TESTS)).map_err(failed(TESTS))? {
-        let file = entry.map_err(failed(TESTS))?.file_name().to_string_lossy().into_owned();
+    for entry in std::fs::read_dir(root().join(TESTS)).map_err(at(TESTS.as_ref()))? {
+        let file = entry.map_err(at(TESTS.as_ref()))?.file_name().to_string_lossy().into_owned();
         let Some(name) = file.strip_suffix(".toml") else { continue };
         let plot = format!("docs/images/{name}.svg");
         let table = wall(&["verify", "tests", &format!("{TESTS}/{file}"), "--plot", &plot])?;
         figures.push((name.to_owned(), fenced(&table)));
     }
-    write(VALIDATION, &figures)?;
+    write_marked(VALIDATION, &figures)?;
     println!("written {VALIDATION} and its pictures");
     Ok(())
 }
@@ -93,7 +84,7 @@ pub(crate) fn validation() -> Result<()> {
 /// As [`run`].
 pub(crate) fn verification() -> Result<()> {
     let formulas = wall(&["verify", "formulas", "--markdown", "-"])?;
-    write(VERIFICATION, &[("formulas", format!("\n{formulas}"))])?;
+    write_marked(VERIFICATION, &[("formulas", format!("\n{formulas}"))])?;
     println!("written {VERIFICATION}");
     Ok(())
 }
@@ -103,13 +94,12 @@ fn fenced(text: &str) -> String {
 }
 
 /// Writes figures between the marks `<!-- mark -->` and `<!-- end mark -->` of a document.
-pub(crate) fn write(document: &'static str, figures: &[(impl AsRef<str>, String)]) -> Result<()> {
-    let path = root().join(document);
-    let mut text = std::fs::read_to_string(&path).map_err(failed(document))?;
+pub(crate) fn write_marked(document: &str, figures: &[(impl AsRef<str>, String)]) -> Result<()> {
+    let mut text = read(document)?;
     for (mark, figures) in figures {
         text = replaced(document, &text, mark.as_ref(), figures)?;
     }
-    std::fs::write(path, text).map_err(failed(document))
+    write(document, text)
 }
 
 fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<String> {

@@ -3,17 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{Result, cargo, program, root, succeed, target};
+use crate::command::{Result, cargo, make_folder, program, root, succeed, target};
 use crate::platform::{self, Platform, check_rust_library, reproducible};
-
-/// The linker of the library.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Linker {
-    /// The machine's own linker and C library.
-    System,
-    /// Zig, for a platform.
-    Zig(&'static Platform),
-}
 
 /// An FMU of this workspace.
 #[derive(Clone, Copy)]
@@ -51,15 +42,14 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 const COMPONENT: &str = "wasm32-wasip2";
 
 /// The beginning and ending of this machine's libraries.
-const SYSTEM: (&str, &str) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+pub(crate) const SYSTEM: (&str, &str) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
 
 /// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
-    let library = library(unit, Linker::System)?;
-    pack(unit, &[(host(), library)], &packer()?)
+    pack(unit, &[(host(), library(unit, None)?)], &packer()?)
 }
 
 /// Builds `fmu-pack`, and returns its folder.
@@ -88,7 +78,7 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
     let mut libraries: Vec<(&str, PathBuf)> = Vec::new();
     for platform in platforms {
         let folder = platform.fmi2.unwrap_or(platform.fmi3);
-        let library = library(unit, Linker::Zig(platform))?;
+        let library = library(unit, Some(platform))?;
         match libraries.iter_mut().find(|(other, _)| *other == folder) {
             Some((_, joined)) => {
                 let universal = library.with_extension("universal");
@@ -109,16 +99,17 @@ pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     Ok(target().join(if profile == "dev" { "debug" } else { profile }))
 }
 
-/// Builds the library, without the command line's crates, and returns its path.
-pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
+/// Builds the library for a platform, or with this machine's own linker and C library, and without the
+/// command line's crates; returns its path.
+pub(crate) fn library(unit: Unit, platform: Option<&Platform>) -> Result<PathBuf> {
     let folder = target().join("fmu");
-    let (mut build, built, names) = match linker {
-        Linker::System => {
+    let (mut build, built, names) = match platform {
+        None => {
             let mut build = cargo();
             reproducible(build.arg("rustc"), &[]);
             (build, folder.clone(), SYSTEM)
         }
-        Linker::Zig(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
+        Some(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
     link(build.arg("--release").env("CARGO_TARGET_DIR", &folder), unit, "fmu")?;
     Ok(built.join("release").join(file_name(unit, names)))
@@ -143,7 +134,7 @@ fn link(build: &mut Command, unit: Unit, features: &str) -> Result<()> {
 
 /// Returns the name of the file that a build gives the library of a unit, of the platform's beginning and
 /// ending.
-fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String {
+pub(crate) fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String {
     format!("{beginning}{}{ending}", unit.package.replace('-', "_"))
 }
 
@@ -156,12 +147,10 @@ pub(crate) fn check_component() -> Result<()> {
 pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let mut build = cargo();
-    build.args(["rustc", "--release", "--locked", "--package", unit.package, "--lib"]);
-    build.args(["--crate-type", "cdylib", "--features", "component", "--target", COMPONENT]);
-    reproducible(build.env("CARGO_TARGET_DIR", &folder), &[]);
-    succeed(&mut build, "see the compiler's message above")?;
-    let name = format!("{}.wasm", unit.package.replace('-', "_"));
-    Ok(folder.join(COMPONENT).join("release").join(name))
+    build.args(["rustc", "--release", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
+    reproducible(&mut build, &[]);
+    link(&mut build, unit, "component")?;
+    Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ("", ".wasm"))))
 }
 
 /// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 and, below `fmi3/`, for FMI 3.0. Returns
@@ -187,7 +176,7 @@ pub(crate) fn pack_version(
     version: &str,
 ) -> Result<PathBuf> {
     let folder = root().join(if version == "3" { "fmu_out/fmi3" } else { "fmu_out" });
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    make_folder(&folder)?;
     let output = folder.join(unit.file);
     let mut pack = program(programs.join("fmu-pack"));
     let description = Path::new(unit.description);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::command::{Result, cargo, output, program, succeed, target};
+use crate::command::{Result, cargo, make_folder, output, program, succeed, target};
 
 /// The readers that are fuzzed, and folders of texts to start from.
 const READERS: [(&str, &[&str]); 5] = [
@@ -79,7 +79,7 @@ fn calls(folder: &str, profile: &str, count: &str) -> Result<()> {
 
 fn read(name: &str, folders: &[&str], profile: &str) -> Result<()> {
     let corpus = target().join("fuzz/corpus").join(name);
-    std::fs::create_dir_all(&corpus).map_err(|error| format!("{}: {error}", corpus.display()))?;
+    make_folder(&corpus)?;
     let mut fuzzer = program(built("readers").join(profile).join(name));
     fuzzer.arg(format!("-max_total_time={SECONDS}")).arg(format!("-seed={SEED}"));
     fuzzer.args(["-timeout=10", "-rss_limit_mb=4096", "-verbosity=0", "-print_final_stats=1"]);

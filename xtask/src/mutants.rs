@@ -1,7 +1,7 @@
 //! `cargo xtask mutants`: changes the code in one place at a time, and counts the changes that no Rust test
 //! notices.
 
-use crate::command::{Result, find, output, program, root, succeed, target};
+use crate::command::{Result, find, make_folder, output, program, root, succeed, target};
 
 /// What is mutated unless paths are given: the rooms in which motion is computed.
 const ROOMS: [&str; 6] =
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<()> {
     tests.args(["--copy-vcs", "true"]);
     // neither examples nor documentation, which are built and linked each by itself
     tests.arg("--cargo-arg=--tests").args(TESTED.map(|name| format!("--cargo-arg=--package={name}")));
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    make_folder(&folder)?;
     succeed(tests.arg("--output").arg(&folder), &format!("see {}", folder.join("mutants.out").display()))
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{Result, output, program, root, target};
+use crate::command::{Result, at, output, program, root, target, write};
 use crate::python::Environment;
 
 /// A machine that users have.
@@ -161,9 +161,9 @@ const ALIGNMENT: u32 = 14;
 
 /// Joins Mach-O files of different processors into a universal one: a header, then the files.
 pub(crate) fn join(parts: &[&Path], output: &Path) -> Result<()> {
-    let read = |path: &&Path| std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
+    let read = |path: &&Path| std::fs::read(path).map_err(at(path));
     let contents = parts.iter().map(read).collect::<Result<Vec<_>>>()?;
-    std::fs::write(output, joined(&contents)).map_err(|error| format!("{}: {error}", output.display()))
+    write(output, joined(&contents))
 }
 
 /// The header has magic and count, then for each file: processor, its variant, offset, size, alignment

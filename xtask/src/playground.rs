@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::command::{Result, cargo, program, root, succeed, target};
+use crate::command::{Result, at, cargo, program, root, succeed, target};
 use crate::platform::{check_rust_library, reproducible};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -28,7 +28,7 @@ pub(crate) fn build() -> Result<PathBuf> {
     let page = root().join(PAGE);
     let mut pack = program("python3");
     succeed(pack.arg("xtask/playground/pack.py").args([&library, &page]), "see its message above")?;
-    let size = std::fs::metadata(&page).map_err(|error| format!("{PAGE}: {error}"))?.len();
+    let size = std::fs::metadata(&page).map_err(at(PAGE.as_ref()))?.len();
     if size > LARGEST {
         return Err(format!("{PAGE} has {size} bytes, more than {LARGEST}"));
     }

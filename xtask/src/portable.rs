@@ -6,7 +6,7 @@ use crate::command::{Result, cargo, find, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
 use crate::python::Environment;
-use crate::test::{TESTS, records};
+use crate::test::{TESTS, pytest, records};
 
 /// Builds the FMUs for all platforms into `fmu_out/` and tests them: the Linux library in FMPy, the Windows
 /// library and `wall.exe` under wine; the macOS library is only inspected.
@@ -21,8 +21,7 @@ pub(crate) fn run() -> Result<()> {
     compile("windows_driver.c", &programs.join("driver.exe"), &[])?;
     compile("windows_random.c", &programs.join("bcryptprimitives.dll"), &["-shared", "-ladvapi32"])?;
     let python = Environment::of(TESTS.0, TESTS.1)?;
-    let mut pytest = python.program("python");
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
+    let mut pytest = pytest(&python, "tests/python", None);
     for (name, path) in [
         ("ROCKING_WALL_FMU", root().join("fmu_out/wall.fmu")),
         ("ROCKING_FLOOR_FMU", root().join("fmu_out/floor.fmu")),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::command::{Result, output, program, root, succeed, target};
+use crate::command::{Result, output, program, read, remove_folder, root, succeed, target, write};
 
 /// Python as it is called.
 const PYTHON: &str = if cfg!(windows) { "python" } else { "python3" };
@@ -19,24 +19,19 @@ impl Environment {
     pub(crate) fn of(name: &str, lock: &str) -> Result<Self> {
         let environment = Self { folder: target().join("python").join(name) };
         let lock = root().join(lock);
-        let packages = std::fs::read(&lock).map_err(|error| format!("{}: {error}", lock.display()))?;
         // environments made with a pip of their own are made again
-        let wanted = [b"without pip\n".as_slice(), &packages].concat();
+        let wanted = format!("without pip\n{}", read(&lock)?);
         let stamp = environment.folder.join("lock");
-        if std::fs::read(&stamp).is_ok_and(|found| found == wanted) {
-            return Ok(environment);
+        if !read(&stamp).is_ok_and(|found| found == wanted) {
+            environment.make(&lock)?;
+            write(&stamp, wanted)?;
         }
-        environment.make(&lock)?;
-        std::fs::write(&stamp, wanted).map_err(|error| format!("{}: {error}", stamp.display()))?;
         Ok(environment)
     }
 
     fn make(&self, lock: &Path) -> Result<()> {
         println!("installing the packages of {}", lock.display());
-        if self.folder.exists() {
-            std::fs::remove_dir_all(&self.folder)
-                .map_err(|error| format!("{}: {error}", self.folder.display()))?;
-        }
+        remove_folder(&self.folder)?;
         // without a pip of its own, which takes longer to install than most packages
         venv(&["--without-pip"], &self.folder)?;
         let mut pip = self.pip_install()?;
@@ -57,7 +52,7 @@ impl Environment {
         let mut able = [Path::new(PYTHON), &own].into_iter();
         let able = able.find(|python| output(into(python).arg("--version"), "").is_ok());
         if able.is_none() {
-            let _ = std::fs::remove_dir_all(&installer);
+            let _ = remove_folder(&installer);
             venv(&[], &installer)?;
         }
         let mut pip = into(able.unwrap_or(&own));

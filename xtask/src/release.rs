@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::command::{Result, cargo, find, output, program, root, succeed, target};
+use crate::command::{
+    Result, cargo, copy, find, make_folder, output, program, read, remove_folder, succeed, target, write,
+};
 use crate::fmu;
 use crate::platform::Platform;
 use crate::python::Environment;
@@ -33,29 +35,28 @@ pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
     fmu::check_component()?;
     let folder = target().join("release-files");
     // nothing of an earlier release may stay
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let beside = target().join("release-notes.md");
-    std::fs::write(&beside, notes).map_err(|error| format!("{}: {error}", beside.display()))?;
+    remove_folder(&folder)?;
+    make_folder(&folder)?;
+    write(target().join("release-notes.md"), notes)?;
     for unit in fmu::build_all(Some(names))? {
         let name = unit.file_name().unwrap_or_default().to_string_lossy();
-        copy(&unit, &folder.join(&*name))?;
-        copy(&unit.with_file_name("fmi3").join(&*name), &folder.join(format!("fmi3-{name}")))?;
+        copy(&unit, folder.join(&*name))?;
+        copy(unit.with_file_name("fmi3").join(&*name), folder.join(format!("fmi3-{name}")))?;
     }
     let beside = target().join("fmi-compatibility");
-    let _ = std::fs::remove_dir_all(&beside);
+    remove_folder(&beside)?;
     compatibility(&folder, &beside)?;
     let unit = folder.join("wall.fmu");
     let mut packages = vec![wheel::sources(&unit)?];
     for platform in platforms {
         let (built, ending) = wall(platform)?;
-        copy(&built, &folder.join(format!("wall-{VERSION}-{}{ending}", platform.fmi3)))?;
+        copy(&built, folder.join(format!("wall-{VERSION}-{}{ending}", platform.fmi3)))?;
         if wheel::is_linked_here(platform) {
             packages.push(wheel::build("release", &unit, Some(platform))?);
         }
     }
     for package in packages {
-        copy(&package, &folder.join(package.file_name().unwrap_or_default()))?;
+        copy(&package, folder.join(package.file_name().unwrap_or_default()))?;
     }
     let mut components = program("python3");
     components.arg("xtask/release/components.py").arg(folder.join(format!("rocking-wall-{VERSION}")));
@@ -76,12 +77,11 @@ const REFERENCE: &str = "modelDescription/extra/org.fmi-standard.fmi-ls-ref/free
 fn compatibility(files: &Path, folder: &Path) -> Result<()> {
     for (version, unit) in [("fmi2", "wall.fmu"), ("fmi3", "fmi3-wall.fmu")] {
         let folder = folder.join(version);
-        std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        copy(&files.join(unit), &folder.join("wall.fmu"))?;
-        copy(&root().join(REFERENCE), &folder.join("wall_ref.csv"))?;
+        make_folder(&folder)?;
+        copy(files.join(unit), folder.join("wall.fmu"))?;
+        copy(REFERENCE, folder.join("wall_ref.csv"))?;
     }
-    let path = root().join("docs/fmi.md");
-    let text = std::fs::read_to_string(&path).map_err(|error| format!("docs/fmi.md: {error}"))?;
+    let text = read("docs/fmi.md")?;
     let section = text.split("\n## ").find_map(|section| section.strip_prefix("Importers\n"));
     let section = section.ok_or("docs/fmi.md has no section `## Importers`")?;
     let page = format!(
@@ -91,8 +91,7 @@ fn compatibility(files: &Path, folder: &Path) -> Result<()> {
          velocity `u_dot` [m/s] of a parapet that rocks freely, computed from the equations by SciPy.\n\n{}",
         without_links(section.trim_start())
     );
-    let page_path = folder.join("README.md");
-    std::fs::write(&page_path, page).map_err(|error| format!("{}: {error}", page_path.display()))
+    write(folder.join("README.md"), page)
 }
 
 /// Returns Markdown with the text of each link alone: elsewhere its target is not beside it.
@@ -110,8 +109,7 @@ fn without_links(text: &str) -> String {
 
 /// Returns what the changelog says of this version.
 fn notes() -> Result<String> {
-    let changelog = root().join("CHANGELOG.md");
-    let text = std::fs::read_to_string(&changelog).map_err(|error| format!("CHANGELOG.md: {error}"))?;
+    let text = read("CHANGELOG.md")?;
     let section = text.split("\n## ").skip(1).find(|section| section.starts_with(&format!("{VERSION} ")));
     let section = section.ok_or_else(|| format!("CHANGELOG.md has no section `## {VERSION} – date`"))?;
     let (_, told) = section.split_once('\n').unwrap_or_default();
@@ -126,11 +124,6 @@ fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
     succeed(&mut build, "see the compiler's message above")?;
     let ending = if platform.library.1 == ".dll" { ".exe" } else { "" };
     Ok((folder.join(platform.target).join("release").join(format!("wall{ending}")), ending))
-}
-
-fn copy(from: &Path, to: &Path) -> Result<()> {
-    let copied = std::fs::copy(from, to);
-    copied.map(drop).map_err(|error| format!("{} to {}: {error}", from.display(), to.display()))
 }
 
 /// Packages that are not published: `publish = false` in their manifests, which a test compares.

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::command::{Result, cargo, find, output, program, root, succeed, target};
-use crate::fmu::{self, Linker};
+use crate::fmu;
 use crate::playground;
 use crate::python::Environment;
 use crate::wheel;
@@ -106,7 +106,7 @@ fn prepare() {
         let _ = Environment::of(name, lock);
     }
     for unit in fmu::UNITS {
-        let _ = fmu::library(unit, Linker::System);
+        let _ = fmu::library(unit, None);
         if fmu::check_component().is_ok() {
             let _ = fmu::component(unit);
         }
@@ -123,11 +123,12 @@ fn build() -> Command {
     build
 }
 
-/// Prepares the Python tests in a folder, in two processes that share them as `sharing` says.
-fn pytest(python: &Environment, folder: &str, sharing: &str) -> Command {
+/// Prepares the Python tests in a folder. Two processes share them as `sharing` says; without it one runs
+/// them all.
+pub(crate) fn pytest(python: &Environment, folder: &str, sharing: Option<&str>) -> Command {
     let mut pytest = python.program("python");
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "-n", "2", "--dist", sharing]);
-    pytest.arg(folder);
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", folder]);
+    pytest.args(sharing.map(|sharing| ["-n", "2", "--dist", sharing]).into_iter().flatten());
     pytest
 }
 
@@ -154,15 +155,13 @@ fn programs() -> PathBuf {
 
 /// Packs an FMU of the release library.
 fn packed(unit: fmu::Unit) -> Result<PathBuf> {
-    let library = fmu::library(unit, Linker::System)?;
-    fmu::pack(unit, &[(fmu::host(), library)], &programs())
+    fmu::pack(unit, &[(fmu::host(), fmu::library(unit, None)?)], &programs())
 }
 
 /// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
 fn example() -> Result<PathBuf> {
     succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
-    let [beginning, ending] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
-    let library = programs().join(format!("{beginning}bouncing_ball{ending}"));
+    let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
     fmu::pack(fmu::BALL, &[(fmu::host(), library)], &programs())
 }
 
@@ -170,7 +169,7 @@ fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of(TESTS.0, TESTS.1)?;
     // whole files: what a file builds or unpacks is made once
-    let mut pytest = pytest(&python, "tests/python", "loadfile");
+    let mut pytest = pytest(&python, "tests/python", Some("loadfile"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     pytest.env("ROCKING_WALL_BALL", example()?);
@@ -189,7 +188,7 @@ fn python_package() -> Result<()> {
     for environment in [&python, &bare, &fmpy] {
         wheel::install(&package, environment)?;
     }
-    let mut pytest = pytest(&python, "tests/wheel", "worksteal");
+    let mut pytest = pytest(&python, "tests/wheel", Some("worksteal"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", programs().join("wall"));
     pytest.env("ROCKING_WALL_BARE_PYTHON", bare.programs().join("python"));
     pytest.env("ROCKING_WALL_FMPY_PYTHON", fmpy.programs().join("python"));
@@ -202,8 +201,7 @@ fn masters() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
     let python = Environment::of(MASTERS.0, MASTERS.1).map_err(missing)?;
-    let mut pytest = python.program("python");
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/masters"]);
+    let mut pytest = pytest(&python, "tests/masters", None);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{Result, output, root, succeed, target};
+use crate::command::{Result, at, copy, output, remove_folder, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
 use crate::python::Environment;
@@ -67,10 +67,10 @@ pub(crate) fn sources(unit: &Path) -> Result<PathBuf> {
 
 /// Prepares a job of maturin, with a general FMU and the licences of others in their places.
 fn maturin(job: &str, unit: &Path) -> Result<Command> {
-    std::fs::copy(unit, root().join(UNIT)).map_err(|error| format!("{}: {error}", unit.display()))?;
+    copy(unit, UNIT)?;
     for text in TEXTS {
-        let [from, to] = LICENCES.map(|folder| root().join(folder).join(text));
-        std::fs::copy(from, &to).map_err(|error| format!("{}: {error}", to.display()))?;
+        let [from, to] = LICENCES.map(|folder| Path::new(folder).join(text));
+        copy(from, to)?;
     }
     let mut maturin = Environment::of("maturin", "xtask/locks/maturin.lock")?.program("maturin");
     maturin.args([job, "--manifest-path", "crates/python/Cargo.toml"]);
@@ -82,10 +82,9 @@ fn maturin(job: &str, unit: &Path) -> Result<Command> {
 /// Runs a job of maturin into a folder, and returns the file that it leaves there.
 fn written(job: &mut Command, folder: &Path, ending: &str) -> Result<PathBuf> {
     // files of other versions
-    let _ = std::fs::remove_dir_all(folder);
+    remove_folder(folder)?;
     succeed(job.arg("--out").arg(folder), "see its message above")?;
-    let failed = |error| format!("{}: {error}", folder.display());
-    let mut files = std::fs::read_dir(folder).map_err(failed)?.map_while(std::result::Result::ok);
+    let mut files = std::fs::read_dir(folder).map_err(at(folder))?.map_while(std::result::Result::ok);
     let file = files.find(|file| file.path().extension().is_some_and(|found| found == ending));
     file.map(|file| file.path()).ok_or_else(|| format!("{} has no .{ending}", folder.display()))
 }

@@ -48,54 +48,50 @@ fn run(arguments: Vec<OsString>) -> Result<(), String> {
     archive.to_bytes().and_then(|bytes| std::fs::write(&output, bytes)).map_err(failed)
 }
 
+/// The options that may be given once, and those that may be repeated.
+const ONCE: [&str; 4] = ["--description", "--documentation", "--resources", "--output"];
+const REPEATED: [&str; 3] = ["--binary", "--platform", "--fmi"];
+
 fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {
-    let (mut description, mut documentation, mut resources, mut output) = (None, None, None, None);
-    let (mut libraries, mut platforms, mut fmi3) = (Vec::new(), Vec::new(), false);
+    let mut given: Vec<(String, OsString)> = Vec::new();
     let mut arguments = arguments.into_iter();
     while let Some(option) = arguments.next() {
         let option = option.to_string_lossy().into_owned();
-        let mut value = || arguments.next().ok_or_else(|| format!("{option} needs a value; see --help"));
-        let single = match option.as_str() {
-            "--description" => &mut description,
-            "--documentation" => &mut documentation,
-            "--resources" => &mut resources,
-            "--output" => &mut output,
-            "--binary" => {
-                libraries.push(PathBuf::from(value()?));
-                continue;
-            }
-            "--fmi" => {
-                fmi3 = match value()?.to_string_lossy().as_ref() {
-                    "2" => false,
-                    "3" => true,
-                    other => return Err(format!("--fmi {other}: there are 2 and 3")),
-                };
-                continue;
-            }
-            "--platform" => {
-                platforms.push(value()?.to_string_lossy().into_owned());
-                continue;
-            }
-            _ => return Err(format!("{option:?} is not an option; see --help")),
-        };
-        if single.replace(PathBuf::from(value()?)).is_some() {
+        let is_single = ONCE.contains(&option.as_str());
+        if !is_single && !REPEATED.contains(&option.as_str()) {
+            return Err(format!("{option:?} is not an option; see --help"));
+        }
+        let value = arguments.next().ok_or_else(|| format!("{option} needs a value; see --help"))?;
+        if is_single && given.iter().any(|(other, _)| *other == option) {
             return Err(format!("{option} is given twice"));
         }
+        given.push((option, value));
     }
-    if libraries.is_empty() || libraries.len() != platforms.len() {
+    let given = &given;
+    let all = |wanted: &'static str| {
+        given.iter().filter(move |(option, _)| option == wanted).map(|(_, value)| value)
+    };
+    let texts = |wanted: &'static str| all(wanted).map(|value| value.to_string_lossy().into_owned());
+    let path = |wanted: &'static str| all(wanted).next().map(PathBuf::from);
+    let required =
+        |wanted: &'static str| path(wanted).ok_or_else(|| format!("{wanted} is missing; see --help"));
+    let fmi3 = match texts("--fmi").last().as_deref() {
+        None | Some("2") => false,
+        Some("3") => true,
+        Some(other) => return Err(format!("--fmi {other}: there are 2 and 3")),
+    };
+    let (libraries, platforms) = (all("--binary").count(), all("--platform").count());
+    if libraries == 0 || libraries != platforms {
         return Err(format!(
-            "{} --binary and {} --platform: each library needs its platform; see --help",
-            libraries.len(),
-            platforms.len()
+            "{libraries} --binary and {platforms} --platform: each library needs its platform; see --help"
         ));
     }
-    let missing = |option: &str| format!("{option} is missing; see --help");
     let package = Package {
-        description: description.ok_or_else(|| missing("--description"))?,
-        binaries: platforms.into_iter().zip(libraries).collect(),
-        documentation: documentation.ok_or_else(|| missing("--documentation"))?,
-        resources,
+        description: required("--description")?,
+        binaries: texts("--platform").zip(all("--binary").map(PathBuf::from)).collect(),
+        documentation: required("--documentation")?,
+        resources: path("--resources"),
         fmi3,
     };
-    Ok((package, output.ok_or_else(|| missing("--output"))?))
+    Ok((package, required("--output")?))
 }
