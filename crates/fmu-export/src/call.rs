@@ -41,24 +41,16 @@ pub(crate) enum Phase {
 }
 
 impl Phase {
-    /// The number that stands for it in a saved state.
-    pub(crate) const fn number(self) -> u64 {
-        self as u64
-    }
-
-    /// The phase of a saved state. A lost instance saves none.
-    pub(crate) fn from_number(number: u64) -> Option<Self> {
-        let saved = [
-            Self::Instantiated,
-            Self::InitializationMode,
-            Self::StepMode,
-            Self::Terminated,
-            Self::Error,
-            Self::EventMode,
-            Self::ContinuousTimeMode,
-        ];
-        saved.into_iter().find(|phase| phase.number() == number)
-    }
+    /// The phases of saved states. A lost instance saves none.
+    pub(crate) const SAVED: [Self; 7] = [
+        Self::Instantiated,
+        Self::InitializationMode,
+        Self::StepMode,
+        Self::Terminated,
+        Self::Error,
+        Self::EventMode,
+        Self::ContinuousTimeMode,
+    ];
 
     /// Returns whether parameters may still change, and with them the values that depend on them.
     pub(crate) const fn is_before_the_start(self) -> bool {

@@ -79,7 +79,7 @@ macro_rules! status_functions {
 
 status_functions! {
     Status: "fmi2GetStatus" get_status GetStatus, |instance, kind| {
-        (kind == DO_STEP_STATUS).then(|| status(instance.last_step()))
+        (kind == DO_STEP_STATUS).then(|| status(instance.last_step))
     };
     Real: "fmi2GetRealStatus" get_real_status GetRealStatus, |instance, kind| {
         (kind == LAST_SUCCESSFUL_TIME).then(|| instance.time())

@@ -77,12 +77,6 @@ macro_rules! __fmi3_module {
                 fn fmi3EnterInitializationMode = start_initialization(
                     c: Instance, toleranceDefined: Boolean, tolerance: f64, startTime: f64,
                     stopTimeDefined: Boolean, stopTime: f64) -> Status;
-                fn fmi3GetBinary = get_binary(
-                    c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *mut usize,
-                    values: *mut Binary, nValues: usize) -> Status;
-                fn fmi3SetBinary = set_binary(
-                    c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *const usize,
-                    values: *const Binary, nValues: usize) -> Status;
                 fn fmi3GetDirectionalDerivative = get_directional_derivative(
                     c: Instance, unknowns: *const ValueReference, nUnknowns: usize,
                     knowns: *const ValueReference, nKnowns: usize, seed: *const f64, nSeed: usize,
@@ -112,18 +106,30 @@ macro_rules! __fmi3_module {
             }
 
             $crate::__fmi3_values! { Exported,
-                f32: fmi3GetFloat32 = get_float32, fmi3SetFloat32 = set_float32;
                 f64: fmi3GetFloat64 = get_float64, fmi3SetFloat64 = set_float64;
-                i8: fmi3GetInt8 = get_int8, fmi3SetInt8 = set_int8;
-                u8: fmi3GetUInt8 = get_uint8, fmi3SetUInt8 = set_uint8;
-                i16: fmi3GetInt16 = get_int16, fmi3SetInt16 = set_int16;
-                u16: fmi3GetUInt16 = get_uint16, fmi3SetUInt16 = set_uint16;
                 i32: fmi3GetInt32 = get_int32, fmi3SetInt32 = set_int32;
-                u32: fmi3GetUInt32 = get_uint32, fmi3SetUInt32 = set_uint32;
                 i64: fmi3GetInt64 = get_int64, fmi3SetInt64 = set_int64;
-                u64: fmi3GetUInt64 = get_uint64, fmi3SetUInt64 = set_uint64;
                 Boolean: fmi3GetBoolean = get_boolean, fmi3SetBoolean = set_boolean;
                 Text: fmi3GetString = get_string, fmi3SetString = set_string;
+            }
+
+            $crate::__fmi3_unused! { Exported,
+                fn fmi3GetFloat32(values: *mut f32, nValues: usize);
+                fn fmi3SetFloat32(values: *const f32, nValues: usize);
+                fn fmi3GetInt8(values: *mut i8, nValues: usize);
+                fn fmi3SetInt8(values: *const i8, nValues: usize);
+                fn fmi3GetUInt8(values: *mut u8, nValues: usize);
+                fn fmi3SetUInt8(values: *const u8, nValues: usize);
+                fn fmi3GetInt16(values: *mut i16, nValues: usize);
+                fn fmi3SetInt16(values: *const i16, nValues: usize);
+                fn fmi3GetUInt16(values: *mut u16, nValues: usize);
+                fn fmi3SetUInt16(values: *const u16, nValues: usize);
+                fn fmi3GetUInt32(values: *mut u32, nValues: usize);
+                fn fmi3SetUInt32(values: *const u32, nValues: usize);
+                fn fmi3GetUInt64(values: *mut u64, nValues: usize);
+                fn fmi3SetUInt64(values: *const u64, nValues: usize);
+                fn fmi3GetBinary(valueSizes: *mut usize, values: *mut Binary, nValues: usize);
+                fn fmi3SetBinary(valueSizes: *const usize, values: *const Binary, nValues: usize);
             }
 
             $crate::__fmi3_unsupported! { Exported,
@@ -181,6 +187,24 @@ macro_rules! __fmi3_values {
     )* } };
 }
 
+/// Defines the getters and setters of types that no variable has, by their arguments after the references.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi3_unused {
+    ($model:ident, $(fn $name:ident($($unused:ident: $type:ty),*);)*) => { $(
+        #[doc = concat!("`", stringify!($name), "`: there are no variables of its type.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Instance, vr: *const ValueReference, nvr: usize, $($unused: $type),*
+        ) -> Status {
+            $(let _ = $unused;)*
+            // SAFETY: the standard asks of the importer that the instance is NULL or one of this model that
+            // is not freed, and that the references are NULL or as many as stated.
+            unsafe { $crate::ffi::fmi3::refuse::<$model>(c, stringify!($name), vr, nvr) }
+        }
+    )* };
+}
+
 /// Defines C functions that refuse, whatever their arguments after the instance.
 #[doc(hidden)]
 #[macro_export]
@@ -195,7 +219,7 @@ macro_rules! __fmi3_unsupported {
             $(let _ = $unused;)*
             // SAFETY: the standard asks of the importer that the instance is NULL or one of this model that
             // is not freed.
-            unsafe { $crate::ffi::fmi3::refuse::<$model>($c, stringify!($name)) }
+            unsafe { $crate::ffi::fmi3::refuse::<$model>($c, stringify!($name), std::ptr::null(), 0) }
         }
     )* };
 }

@@ -63,13 +63,14 @@ pub(crate) struct Instance<M: Model> {
     fresh: Snapshot<M>,
     guid: String,
     logger: Logger,
-    last_step: Status,
+    /// How the last step ended.
+    pub(crate) last_step: Status,
     /// The saved states, by the address that is their handle. An address that is not a key here is never
     /// dereferenced.
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
     /// Texts that the last get of strings returned pointers to.
     texts: Vec<CString>,
-    purpose: Purpose<M>,
+    pub(crate) purpose: Purpose<M>,
     /// The warning about a Boolean that is read as a Real has been logged.
     has_warned_of_boolean: bool,
     /// Asks the importer of FMI 3.0 for the inputs at a time [s].

@@ -53,12 +53,13 @@ impl<M: Model> Snapshot<M> {
     fn transfer(&mut self, codec: &mut StateCodec<'_>, purpose: &Purpose<M>) -> Result<(), Failure> {
         // 0 for Model Exchange, 1 for co-simulation
         let kind_here = purpose.interface as u64;
-        let (mut phase, mut kind) = (self.phase.number(), kind_here);
+        let (mut phase, mut kind) = (self.phase as u64, kind_here);
         codec.u64(&mut phase)?;
         codec.f64(&mut self.time)?;
         codec.bool(&mut self.stale)?;
         codec.u64(&mut kind)?;
-        self.phase = Phase::from_number(phase).ok_or("the state is of no known phase")?;
+        let saved = Phase::SAVED.into_iter().find(|saved| *saved as u64 == phase);
+        self.phase = saved.ok_or("the state is of no known phase")?;
         if kind != kind_here || !purpose.has(self.phase) {
             return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
         }

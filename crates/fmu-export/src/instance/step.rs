@@ -103,15 +103,6 @@ impl<M: Model> Instance<M> {
         Ok((size >= SHORTEST && duration >= SHORTEST).then_some((step, end)))
     }
 
-    pub(crate) fn uses_event_mode(&self) -> bool {
-        self.purpose.event_mode
-    }
-
-    /// Returns how the last step ended.
-    pub(crate) fn last_step(&self) -> Status {
-        self.last_step
-    }
-
     /// Returns the time at which the last successful step ended [s].
     pub(crate) fn time(&self) -> f64 {
         self.now.time

@@ -52,7 +52,7 @@ impl<M: ModelExchange> GuestCoSimulationInstance for CoSimulation<M> {
             let early_return = instance.do_step(point, size)?;
             Ok(DoStepResult {
                 last_successful_time: instance.time(),
-                event_handling_needed: early_return && instance.uses_event_mode(),
+                event_handling_needed: early_return && instance.purpose.event_mode,
                 terminate_simulation: false,
                 early_return,
             })

@@ -7,9 +7,11 @@
 //! assert_eq!((size_of::<Boolean>(), size_of::<LogMessageCallback>()), (1, size_of::<usize>()));
 //! ```
 
+use crate::access::Access;
 use crate::call::Call;
+use crate::ffi::arguments::array;
 use crate::ffi::guard;
-use crate::ffi::types::{Component, ERROR, Status};
+use crate::ffi::types::{Component, ERROR, Status, ValueReference};
 use crate::model::Model;
 
 mod instantiation;
@@ -25,14 +27,24 @@ pub use steps::*;
 pub(super) use values::check_count;
 pub use values::*;
 
-/// Refuses a function for what no FMU of this layer has, such as `fmi3GetClock`: its call is never allowed,
-/// whatever its other arguments.
+/// Refuses a function for what no FMU of this layer has: one that is never allowed, such as `fmi3GetClock`,
+/// whatever its arguments; and a getter or setter of a type that no variable has, unless it is given no
+/// references.
 ///
 /// # Safety
-/// `component` is NULL or an instance.
-pub unsafe fn refuse<M: Model>(component: Component, function: &str) -> Status {
+/// `component` is NULL or an instance; `references` is NULL or points to `count` references.
+pub unsafe fn refuse<M: Model>(
+    component: Component,
+    function: &str,
+    references: *const ValueReference,
+    count: usize,
+) -> Status {
+    let Some(call) = Call::of_fmi3(function) else { return ERROR };
+    let access = if function.starts_with("fmi3Get") { Access::Get } else { Access::Set };
     // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
     let instance = unsafe { guard::instance::<M>(component) };
-    let call = Call::of_fmi3(function);
-    call.map_or(ERROR, |call| guard::run(instance, call, |_| Ok(())))
+    guard::run(instance, call, |instance| {
+        // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
+        instance.none_served(access, unsafe { array("valueReferences", references, count) }?)
+    })
 }

@@ -56,7 +56,7 @@ pub unsafe fn do_step<M: Model>(
     }
     guard::run(instance(), Call::FinishStep, |instance| {
         let early = instance.finish_step()?;
-        answer(early && instance.uses_event_mode(), early, instance.time())
+        answer(early && instance.purpose.event_mode, early, instance.time())
     })
 }
 

@@ -1,13 +1,11 @@
 //! Getting and setting values (FMI 3.0.2, section 2.2.6). All variables are scalars.
 
-use super::types::{Binary, Boolean};
-use crate::access::Access;
+use super::types::Boolean;
 use crate::call::Call;
-use crate::ffi::arguments::{array, to_get, to_set};
+use crate::ffi::arguments::{to_get, to_set};
 use crate::ffi::common::{get_texts, set_texts};
 use crate::ffi::guard::functions;
 use crate::ffi::types::{Component, Status, Text, ValueReference};
-use crate::instance::Instance;
 use crate::model::{Failure, Model, ModelExchange};
 use crate::variable::Kind;
 
@@ -31,26 +29,6 @@ functions! {
         // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are
         // during the call.
         unsafe { set_texts(instance, references, values, count) }
-    };
-    /// `fmi3GetBinary`
-    ///
-    /// There are no binary variables.
-    get_binary<Model>(
-        references: *const ValueReference, count: usize, _sizes: *mut usize, _values: *mut Binary,
-        _value_count: usize
-    ): GetBinary, |instance| {
-        // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-        unsafe { none_served(instance, Access::Get, references, count) }
-    };
-    /// `fmi3SetBinary`
-    ///
-    /// There are no binary variables.
-    set_binary<Model>(
-        references: *const ValueReference, count: usize, _sizes: *const usize, _values: *const Binary,
-        _value_count: usize
-    ): SetBinary, |instance| {
-        // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-        unsafe { none_served(instance, Access::Set, references, count) }
     };
 }
 
@@ -94,54 +72,6 @@ values! {
         |kind| matches!(kind, Kind::Integer { .. });
     i64 as i64: get_int64<Model> GetInt64 get_integer, set_int64 SetInt64 set_integer,
         |kind| matches!(kind, Kind::Enumeration { .. });
-}
-
-/// Defines getters and setters of types that no variable has.
-macro_rules! unused_types {
-    ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident;)*) => {
-        functions! { $(
-            #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
-            $get<Model>(
-                references: *const ValueReference, count: usize, _values: *mut $type, _value_count: usize
-            ): $get_call, |instance| {
-                // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
-                // the call.
-                unsafe { none_served(instance, Access::Get, references, count) }
-            };
-            #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
-            $set<Model>(
-                references: *const ValueReference, count: usize, _values: *const $type, _value_count: usize
-            ): $set_call, |instance| {
-                // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
-                // the call.
-                unsafe { none_served(instance, Access::Set, references, count) }
-            };
-        )* }
-    };
-}
-
-unused_types! {
-    f32: get_float32 GetFloat32, set_float32 SetFloat32;
-    i8: get_int8 GetInt8, set_int8 SetInt8;
-    u8: get_uint8 GetUInt8, set_uint8 SetUInt8;
-    i16: get_int16 GetInt16, set_int16 SetInt16;
-    u16: get_uint16 GetUInt16, set_uint16 SetUInt16;
-    u32: get_uint32 GetUInt32, set_uint32 SetUInt32;
-    u64: get_uint64 GetUInt64, set_uint64 SetUInt64;
-}
-
-/// Refuses all references.
-///
-/// # Safety
-/// As for [`array`].
-unsafe fn none_served<M: Model>(
-    instance: &Instance<M>,
-    access: Access,
-    references: *const ValueReference,
-    count: usize,
-) -> Result<(), Failure> {
-    // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-    instance.none_served(access, unsafe { array("valueReferences", references, count) }?)
 }
 
 /// Refuses a number of values that is not that of the scalars they belong to.
