@@ -74,7 +74,8 @@ impl Description {
         ] {
             root.set_attribute(attribute, value.to_owned());
         }
-        let indices = Indices::new(&kept);
+        let old = (1..).zip(&kept).filter(|(_, kept)| **kept).map(|(old, _)| old);
+        let indices: Indices = old.zip(1..).collect();
         if let Some(variables) = root.child_mut("ModelVariables") {
             retain_variables(variables, &indices, reduction.starts);
         }
@@ -99,29 +100,18 @@ impl Description {
 }
 
 /// New 1-based indices by old ones, of the variables that stay.
-struct Indices(HashMap<usize, usize>);
-
-impl Indices {
-    fn new(kept: &[bool]) -> Self {
-        let old = kept.iter().enumerate().filter(|(_, kept)| **kept).map(|(at, _)| at + 1);
-        Self(old.enumerate().map(|(new, old)| (old, new + 1)).collect())
-    }
-
-    fn get(&self, old: usize) -> Option<usize> {
-        self.0.get(&old).copied()
-    }
-}
+type Indices = HashMap<usize, usize>;
 
 fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(String, String)]) {
     let mut old = 0;
     variables.children.retain(|_| {
         old += 1;
-        indices.get(old).is_some()
+        indices.contains_key(&old)
     });
     for variable in &mut variables.children {
         let name = variable.attribute("name").unwrap_or_default().to_owned();
         let Some(typed) = variable.children.first_mut() else { continue };
-        match typed.index("derivative").and_then(|old| indices.get(old)) {
+        match typed.index("derivative").and_then(|old| indices.get(&old)) {
             Some(state) => typed.set_attribute("derivative", state.to_string()),
             // The state is not kept, so this is no longer a derivative of it.
             None => typed.attributes.retain(|(attribute, _)| attribute != "derivative"),
@@ -133,7 +123,7 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
 }
 
 fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Variable]) {
-    let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.get(old).is_some());
+    let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.contains_key(&old));
     // A derivative counts only while its state is kept, and a state only while its derivative is kept.
     let is_derivative =
         |old: usize| kept(old).and_then(|variable| variable.derivative).is_some_and(|of| kept(of).is_some());
@@ -160,10 +150,10 @@ fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Vari
         };
         list.children.retain(|unknown| unknown.index("index").is_some_and(belongs));
         for unknown in &mut list.children {
-            if let Some(new) = unknown.index("index").and_then(|old| indices.get(old)) {
+            if let Some(new) = unknown.index("index").and_then(|old| indices.get(&old)) {
                 unknown.set_attribute("index", new.to_string());
             }
-            retain_dependencies(unknown, |old| indices.get(old).filter(|_| initial || known(old)));
+            retain_dependencies(unknown, |old| indices.get(&old).copied().filter(|_| initial || known(old)));
         }
     }
     structure.children.retain(|list| !list.children.is_empty());

@@ -124,6 +124,14 @@ pub(super) unsafe fn required_text<'a>(name: &str, start: Text) -> Result<&'a st
     unsafe { text(name, start) }?.ok_or_else(|| Failure(format!("{name} is NULL")))
 }
 
+/// Refuses a number of values that is not that of the scalars they belong to.
+pub(super) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
+    if given == scalars {
+        return Ok(());
+    }
+    Err(Failure(format!("{name} = {given}, but the value references are of {scalars} scalars")))
+}
+
 fn check_array<T>(name: &str, start: *const T, count: usize) -> Result<(), Failure> {
     if start.is_null() {
         return Err(Failure(format!("{name} is NULL")));

@@ -1,11 +1,9 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
 use super::Kinds;
-use super::arguments::{array, array_mut, bytes, required_text, text, to_get, to_set};
+use super::arguments::{array, array_mut, bytes, required_text, text};
 use super::guard::{self, Slot, functions};
-use super::types::{
-    Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
-};
+use super::types::{Boolean, CallbackFunctions, Component, Real, Status, Text, Type, ValueReference, status};
 use crate::call::{Call, Phase};
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
@@ -151,26 +149,6 @@ functions! {
         instance.reset();
         Ok(())
     };
-    /// `fmi2GetString`
-    ///
-    /// The texts live until the next call of this for the instance.
-    get_string<Model>(
-        references: *const ValueReference, count: usize, values: *mut Text
-    ): GetString, |instance| {
-        // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
-        // during the call.
-        unsafe { get_texts(instance, references, values, count) }
-    };
-    /// `fmi2SetString`
-    ///
-    /// If one value is refused, none is set.
-    set_string<Model>(
-        references: *const ValueReference, count: usize, values: *const Text
-    ): SetString, |instance| {
-        // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are
-        // during the call.
-        unsafe { set_texts(instance, references, values, count) }
-    };
     /// `fmi2GetDirectionalDerivative`
     get_directional_derivative<Model>(
         unknowns: *const ValueReference, unknown_count: usize,
@@ -188,80 +166,4 @@ functions! {
             unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         instance.derivatives_along([knowns, unknowns], seeds, values, false)
     };
-}
-
-/// Gets texts, which live until the next call of this for the instance.
-///
-/// # Safety
-/// As for [`to_get`].
-pub(super) unsafe fn get_texts<M: Model>(
-    instance: &mut Instance<M>,
-    references: *const ValueReference,
-    values: *mut Text,
-    count: usize,
-) -> Result<(), Failure> {
-    // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
-    // during the call.
-    let (references, values) = unsafe { to_get(references, values, count) }?;
-    for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
-        slot.write(text.as_ptr());
-    }
-    Ok(())
-}
-
-/// Sets texts.
-///
-/// # Safety
-/// As for [`to_set`]; the texts end with a NUL.
-pub(super) unsafe fn set_texts<M: Model>(
-    instance: &mut Instance<M>,
-    references: *const ValueReference,
-    values: *const Text,
-    count: usize,
-) -> Result<(), Failure> {
-    // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are during
-    // the call.
-    let (references, values) = unsafe { to_set(references, values, count) }?;
-    let texts = values.iter().map(|&value| {
-        // SAFETY: `value` is NULL or a text that ends with a NUL.
-        unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
-    });
-    instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
-}
-
-/// Defines the getter and the setter of the values of a type.
-macro_rules! values {
-    ($(
-        $type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal
-            $(, $serves:expr)?;
-    )*) => {
-        functions! { $(
-            #[doc = concat!("`", $get_name, "`")]
-            $get<Model>(
-                references: *const ValueReference, count: usize, values: *mut $type
-            ): $get_call, |instance| {
-                // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else
-                // changes during the call.
-                let (references, values) = unsafe { to_get(references, values, count) }?;
-                instance.$get(references, values $(, $serves)?)
-            };
-            #[doc = concat!("`", $set_name, "`")]
-            ///
-            /// If one value is refused, none is set.
-            $set<Model>(
-                references: *const ValueReference, count: usize, values: *const $type
-            ): $set_call, |instance| {
-                // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they
-                // are during the call.
-                let (references, values) = unsafe { to_set(references, values, count) }?;
-                instance.$set(references, values $(, $serves)?)
-            };
-        )* }
-    };
-}
-
-values! {
-    Real: get_real GetReal "fmi2GetReal", set_real SetReal "fmi2SetReal";
-    Integer: get_integer GetInteger "fmi2GetInteger", set_integer SetInteger "fmi2SetInteger", |_| true;
-    Boolean: get_boolean GetBoolean "fmi2GetBoolean", set_boolean SetBoolean "fmi2SetBoolean";
 }

@@ -58,26 +58,17 @@ macro_rules! __fmi2_module {
                 fn fmi2ExitInitializationMode = exit_initialization_mode(c: Component) -> Status;
                 fn fmi2Terminate = terminate(c: Component) -> Status;
                 fn fmi2Reset = reset(c: Component) -> Status;
-                fn fmi2GetReal = get_real(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *mut Real) -> Status;
-                fn fmi2GetInteger = get_integer(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *mut Integer) -> Status;
-                fn fmi2GetBoolean = get_boolean(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *mut Boolean) -> Status;
-                fn fmi2GetString = get_string(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *mut Text) -> Status;
-                fn fmi2SetReal = set_real(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *const Real) -> Status;
-                fn fmi2SetInteger = set_integer(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *const Integer) -> Status;
-                fn fmi2SetBoolean = set_boolean(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *const Boolean) -> Status;
-                fn fmi2SetString = set_string(
-                    c: Component, vr: *const ValueReference, nvr: usize, value: *const Text) -> Status;
                 fn fmi2GetDirectionalDerivative = get_directional_derivative(
                     c: Component, vUnknown_ref: *const ValueReference, nUnknown: usize,
                     vKnown_ref: *const ValueReference, nKnown: usize,
                     dvKnown: *const Real, dvUnknown: *mut Real) -> Status;
+            }
+
+            $crate::__fmi2_values! { Exported,
+                Real: fmi2GetReal = get_real, fmi2SetReal = set_real;
+                Integer: fmi2GetInteger = get_integer, fmi2SetInteger = set_integer;
+                Boolean: fmi2GetBoolean = get_boolean, fmi2SetBoolean = set_boolean;
+                Text: fmi2GetString = get_string, fmi2SetString = set_string;
             }
 
             $crate::__fmi_functions! { Exported, states,
@@ -120,6 +111,35 @@ macro_rules! __fmi2_module {
             }
         }
     };
+}
+
+/// Defines the getters and setters of the values of some types.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi2_values {
+    (
+        $model:ident,
+        $($type:ty: $get:ident = $get_generic:ident, $set:ident = $set_generic:ident;)*
+    ) => { $(
+        #[doc = concat!("`", stringify!($get), "`")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $get(
+            c: Component, vr: *const ValueReference, nvr: usize, value: *mut $type
+        ) -> Status {
+            // SAFETY: the standard asks of the importer that the component is NULL or an instance of this
+            // model that is not freed, and that pointers are NULL or point to as many elements as stated.
+            unsafe { $crate::ffi::values::$get_generic::<$model>(c, vr, nvr, value, nvr) }
+        }
+
+        #[doc = concat!("`", stringify!($set), "`")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $set(
+            c: Component, vr: *const ValueReference, nvr: usize, value: *const $type
+        ) -> Status {
+            // SAFETY: as for the getter; texts end with a NUL.
+            unsafe { $crate::ffi::values::$set_generic::<$model>(c, vr, nvr, value, nvr) }
+        }
+    )* };
 }
 
 /// The functions of co-simulation alone.

@@ -109,7 +109,7 @@ macro_rules! __fmi3_module {
                 f64: fmi3GetFloat64 = get_float64, fmi3SetFloat64 = set_float64;
                 i32: fmi3GetInt32 = get_int32, fmi3SetInt32 = set_int32;
                 i64: fmi3GetInt64 = get_int64, fmi3SetInt64 = set_int64;
-                Boolean: fmi3GetBoolean = get_boolean, fmi3SetBoolean = set_boolean;
+                Boolean: fmi3GetBoolean = get_bool, fmi3SetBoolean = set_bool;
                 Text: fmi3GetString = get_string, fmi3SetString = set_string;
             }
 
@@ -178,7 +178,7 @@ macro_rules! __fmi3_values {
     (
         $model:ident,
         $($type:ty: $get:ident = $get_generic:ident, $set:ident = $set_generic:ident;)*
-    ) => { $crate::__fmi_functions! { $model, fmi3, $(
+    ) => { $crate::__fmi_functions! { $model, values, $(
         fn $get = $get_generic(
             c: Instance, vr: *const ValueReference, nvr: usize, values: *mut $type, nValues: usize) -> Status;
         fn $set = $set_generic(

@@ -25,6 +25,7 @@ mod guard;
 pub mod model_exchange;
 pub mod states;
 pub mod types;
+pub mod values;
 
 use self::types::{CO_SIMULATION, MODEL_EXCHANGE, Type};
 use crate::call::Version;

@@ -55,10 +55,12 @@ impl<M: Model> Instance<M> {
         values: &mut [MaybeUninit<T>],
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
-        for &reference in references {
-            self.find_served(Access::Get, reference, serves)?;
+        self.calculate()?;
+        for (&reference, slot) in references.iter().zip(values) {
+            let id = self.find_served(Access::Get, reference, serves)?;
+            slot.write(self.now.model.integer(id).into());
         }
-        self.get(references, values, |model, id| Ok(model.integer(id).into()))
+        Ok(())
     }
 
     pub(crate) fn get_boolean<T: From<bool>>(
@@ -66,7 +68,11 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &mut [MaybeUninit<T>],
     ) -> Result<(), Failure> {
-        self.get(references, values, |model, id| Ok(model.boolean(id).into()))
+        self.calculate()?;
+        for (&reference, slot) in references.iter().zip(values) {
+            slot.write(self.now.model.boolean(self.find(Access::Get, reference)?).into());
+        }
+        Ok(())
     }
 
     /// The texts, which live until the next call of this.
@@ -78,19 +84,6 @@ impl<M: Model> Instance<M> {
             self.texts.push(c_string(text));
         }
         Ok(self.texts.iter().map(CString::as_c_str))
-    }
-
-    fn get<V: VariableId, T>(
-        &mut self,
-        references: &[u32],
-        values: &mut [MaybeUninit<T>],
-        value: impl Fn(&M, V) -> Result<T, Failure>,
-    ) -> Result<(), Failure> {
-        self.calculate()?;
-        for (&reference, slot) in references.iter().zip(values) {
-            slot.write(value(&self.now.model, self.find(Access::Get, reference)?)?);
-        }
-        Ok(())
     }
 
     pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {

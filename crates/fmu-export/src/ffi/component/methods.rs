@@ -133,7 +133,7 @@ macro_rules! common_methods {
             seed: Vec<f64>,
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetDirectionalDerivative, unknowns.len(), |instance, values| {
-                crate::ffi::fmi3::check_count("nSeed", seed.len(), knowns.len())?;
+                crate::ffi::arguments::check_count("nSeed", seed.len(), knowns.len())?;
                 instance.derivatives_along([&knowns, &unknowns], &seed, values, false)
             })
         }
@@ -145,7 +145,7 @@ macro_rules! common_methods {
             seed: Vec<f64>,
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetAdjointDerivative, knowns.len(), |instance, values| {
-                crate::ffi::fmi3::check_count("nSeed", seed.len(), unknowns.len())?;
+                crate::ffi::arguments::check_count("nSeed", seed.len(), unknowns.len())?;
                 instance.derivatives_along([&unknowns, &knowns], &seed, values, true)
             })
         }

@@ -3,7 +3,7 @@
 use super::bindings::fmi::fmi3::callbacks::log_message;
 use super::bindings::fmi::fmi3::types::Status;
 use crate::call::Call;
-use crate::ffi::fmi3::check_count;
+use crate::ffi::arguments::check_count;
 use crate::instance::{Instance, Purpose};
 use crate::log::{self, Category, Logger};
 use crate::model::{Failure, Model, ModelExchange};

@@ -17,15 +17,11 @@ use crate::model::Model;
 mod instantiation;
 mod steps;
 pub mod types;
-mod values;
 
 pub use instantiation::{
     get_version, instantiate_co_simulation, instantiate_model_exchange, instantiate_scheduled_execution,
 };
 pub use steps::*;
-#[cfg(feature = "component")]
-pub(super) use values::check_count;
-pub use values::*;
 
 /// Refuses a function for what no FMU of this layer has: one that is never allowed, such as `fmi3GetClock`,
 /// whatever its arguments; and a getter or setter of a type that no variable has, unless it is given no

@@ -1,9 +1,8 @@
 //! Initialisation, steps, events and derivatives (FMI 3.0.2, sections 2.2.11, 2.3, 3.2 and 4.2).
 
 use super::types::Boolean;
-use super::values::check_count;
 use crate::call::{Call, Phase};
-use crate::ffi::arguments::{array, array_mut, place, to_get};
+use crate::ffi::arguments::{array, array_mut, check_count, place, to_get};
 use crate::ffi::guard::{self, functions};
 use crate::ffi::types::{Component, OK, Status, ValueReference};
 use crate::instance::Instance;

@@ -1,16 +1,16 @@
-//! Getting and setting values (FMI 3.0.2, section 2.2.6). All variables are scalars.
+//! Getting and setting values (FMI 2.0.5, section 2.1.7; FMI 3.0.2, section 2.2.6). All variables are
+//! scalars: the number of values, which FMI 3.0 states too, is that of references.
 
-use super::types::Boolean;
+use super::arguments::{check_count, text, to_get, to_set};
+use super::fmi3;
+use super::guard::functions;
+use super::types::{Boolean, Component, Integer, Real, Status, Text, ValueReference};
 use crate::call::Call;
-use crate::ffi::arguments::{to_get, to_set};
-use crate::ffi::common::{get_texts, set_texts};
-use crate::ffi::guard::functions;
-use crate::ffi::types::{Component, Status, Text, ValueReference};
 use crate::model::{Failure, Model, ModelExchange};
 use crate::variable::Kind;
 
 functions! {
-    /// `fmi3GetString`
+    /// `fmi2GetString`, `fmi3GetString`
     ///
     /// The texts live until the next call of this for the instance.
     get_string<Model>(
@@ -19,16 +19,27 @@ functions! {
         check_count("nValues", value_count, count)?;
         // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
         // during the call.
-        unsafe { get_texts(instance, references, values, count) }
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
+            slot.write(text.as_ptr());
+        }
+        Ok(())
     };
-    /// `fmi3SetString`
+    /// `fmi2SetString`, `fmi3SetString`
+    ///
+    /// If one value is refused, none is set.
     set_string<Model>(
         references: *const ValueReference, count: usize, values: *const Text, value_count: usize
     ): SetString, |instance| {
         check_count("nValues", value_count, count)?;
         // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are
         // during the call.
-        unsafe { set_texts(instance, references, values, count) }
+        let (references, values) = unsafe { to_set(references, values, count) }?;
+        let texts = values.iter().map(|&value| {
+            // SAFETY: `value` is NULL or a text that ends with a NUL.
+            unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
+        });
+        instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
     };
 }
 
@@ -49,7 +60,7 @@ macro_rules! values {
                 let (references, values) = unsafe { to_get(references, values, count) }?;
                 instance.$get_by(references, values $(, $serves)?)
             };
-            #[doc = concat!("Sets values of type `", stringify!($type), "`.")]
+            #[doc = concat!("Sets values of type `", stringify!($type), "`. If one is refused, none is set.")]
             $set<Model>(
                 references: *const ValueReference, count: usize, values: *const $type, value_count: usize
             ): $set_call, |instance| {
@@ -65,19 +76,19 @@ macro_rules! values {
 }
 
 values! {
+    Real as Real: get_real<Model> GetReal get_real, set_real SetReal set_real;
+    Integer as Integer: get_integer<Model> GetInteger get_integer, set_integer SetInteger set_integer,
+        |_| true;
+    Boolean as Boolean: get_boolean<Model> GetBoolean get_boolean, set_boolean SetBoolean set_boolean;
+}
+
+// FMI 3.0 has other types
+values! {
     f64 as f64: get_float64<ModelExchange> GetReal get_float64, set_float64 SetReal set_real;
     // a byte of C that is neither 0 nor 1 is no `bool` of Rust
-    Boolean as u8: get_boolean<Model> GetBoolean get_boolean, set_boolean SetBoolean set_boolean;
+    fmi3::types::Boolean as u8: get_bool<Model> GetBoolean get_boolean, set_bool SetBoolean set_boolean;
     i32 as i32: get_int32<Model> GetInteger get_integer, set_int32 SetInteger set_integer,
         |kind| matches!(kind, Kind::Integer { .. });
     i64 as i64: get_int64<Model> GetInt64 get_integer, set_int64 SetInt64 set_integer,
         |kind| matches!(kind, Kind::Enumeration { .. });
-}
-
-/// Refuses a number of values that is not that of the scalars they belong to.
-pub(in crate::ffi) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
-    if given == scalars {
-        return Ok(());
-    }
-    Err(Failure(format!("{name} = {given}, but the value references are of {scalars} scalars")))
 }
