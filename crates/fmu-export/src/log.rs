@@ -2,19 +2,19 @@
 
 use std::fmt::Display;
 
-/// The status of a call, and the severity of a message (`fmi2Status`).
+/// The status of a call, and the severity of a message, with the number of `fmi2Status`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Status {
     /// All well.
-    Ok,
+    Ok = 0,
     /// Something is wrong, but the computation can go on.
-    Warning,
+    Warning = 1,
     /// Not available. Only the functions that ask for a status return it.
-    Discard,
+    Discard = 2,
     /// This simulation cannot go on; the instance can be reset.
-    Error,
+    Error = 3,
     /// The instance is lost.
-    Fatal,
+    Fatal = 4,
 }
 
 /// Log categories, by the names that FMI 2.0 proposes. The description must list them under `LogCategories`.
