@@ -3,6 +3,7 @@
 use crate::error::Fault;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
 use quick_xml::{Reader, Writer, XmlVersion};
+use std::fmt::Display;
 
 /// Deeper nesting than any description needs is refused.
 const MAX_DEPTH: usize = 32;
@@ -35,29 +36,24 @@ impl Element {
         loop {
             // A tag's line is the one its `<` is on: text before it is an event of its own.
             let line = lines.line_at(reader.buffer_position());
-            let malformed = |message: String| Fault::new(line, not_well_formed(&message));
             let event = reader.read_event().map_err(|error| {
-                let line = LineCounter { text, offset: 0, line: 1 }.line_at(reader.error_position());
-                Fault::new(line, not_well_formed(&error.to_string()))
+                let mut lines = LineCounter { text, offset: 0, line: 1 };
+                malformed(lines.line_at(reader.error_position()), error)
             })?;
             let closed = match event {
                 Event::Start(tag) => {
                     if open.len() == MAX_DEPTH {
-                        return Err(malformed(format!("more than {MAX_DEPTH} nested elements")));
+                        return Err(malformed(line, format!("more than {MAX_DEPTH} nested elements")));
                     }
-                    open.push(Element::from_tag(&tag, line).map_err(malformed)?);
+                    open.push(Element::from_tag(&tag, line)?);
                     None
                 }
-                Event::Empty(tag) => Some(Element::from_tag(&tag, line).map_err(malformed)?),
+                Event::Empty(tag) => Some(Element::from_tag(&tag, line)?),
                 Event::End(_) => open.pop(),
-                Event::DocType(_) => return Err(malformed("a document type is not allowed".to_owned())),
-                Event::Eof => return Err(malformed("the document ends before its root element".to_owned())),
-                Event::Text(_)
-                | Event::CData(_)
-                | Event::Comment(_)
-                | Event::Decl(_)
-                | Event::PI(_)
-                | Event::GeneralRef(_) => None,
+                Event::DocType(_) => return Err(malformed(line, "a document type is not allowed")),
+                Event::Eof => return Err(malformed(line, "the document ends before its root element")),
+                // texts, comments and declarations
+                _ => None,
             };
             if let Some(element) = closed {
                 match open.last_mut() {
@@ -68,12 +64,12 @@ impl Element {
         }
     }
 
-    fn from_tag(tag: &BytesStart<'_>, line: usize) -> Result<Self, String> {
+    fn from_tag(tag: &BytesStart<'_>, line: usize) -> Result<Self, Fault> {
         let mut attributes = Vec::new();
         for attribute in tag.attributes() {
-            let attribute = attribute.map_err(|error| error.to_string())?;
-            let value =
-                attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| error.to_string())?;
+            let attribute = attribute.map_err(|error| malformed(line, error))?;
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            let value = value.map_err(|error| malformed(line, error))?;
             attributes.push((attribute.key.into_inner().to_owned(), value.into_owned()));
         }
         let name = tag.name().into_inner().to_owned();
@@ -193,8 +189,8 @@ impl Element {
     }
 }
 
-fn not_well_formed(message: &str) -> String {
-    format!("not well-formed XML: {message}")
+fn malformed(line: usize, message: impl Display) -> Fault {
+    Fault::new(line, format!("not well-formed XML: {message}"))
 }
 
 /// Turns growing byte offsets into line numbers, reading the text once.
