@@ -87,17 +87,6 @@ impl Unit {
         self.floor.damping * self.state.velocity
     }
 
-    /// Force of the base on the floor \[N\].
-    fn reaction(&self) -> f64 {
-        -(self.state.spring_force(&self.floor) + self.damping_force())
-    }
-
-    /// Rate of spring and damping force \[N/s\].
-    fn force_rates(&self) -> [f64; 2] {
-        let spring = self.floor.tangent(self.state.branch) * self.state.velocity;
-        [spring, self.floor.damping * self.acceleration()]
-    }
-
     /// One step; on an error `state` is unusable.
     fn advance(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure> {
         let Step { from, duration, .. } = step;
@@ -173,7 +162,7 @@ impl Model for Unit {
             V::AccelerationAbsolute => state.acceleration(&self.floor, self.by_walls().value),
             V::SpringForce => state.spring_force(&self.floor),
             V::DampingForce => self.damping_force(),
-            V::ReactionBottom => self.reaction(),
+            V::ReactionBottom => -(state.spring_force(&self.floor) + self.damping_force()),
             V::ImpulseBottom => base.impulse,
             V::DisplacementPlastic => state.flow(&self.floor).0,
             V::EnergyDamping => state.damping_energy,
@@ -229,7 +218,9 @@ impl Model for Unit {
 
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
         use RealVariable as V;
-        let [spring, damping] = self.force_rates();
+        // rates of spring and damping force [N/s]
+        let spring = self.floor.tangent(self.state.branch) * self.state.velocity;
+        let damping = self.floor.damping * self.acceleration();
         match variable {
             V::Displacement => Some(self.state.velocity),
             V::Velocity => Some(self.acceleration()),

@@ -15,7 +15,7 @@ pub enum DescriptionError {
     Write { path: PathBuf, source: std::io::Error },
     /// The description contradicts itself or FMI 2.0.
     #[error("{}:{}: {}", path.display(), fault.line, fault.problem)]
-    Invalid { path: PathBuf, fault: Box<Fault> },
+    Invalid { path: PathBuf, fault: Fault },
 }
 
 /// What FMI 2.0 forbids in a description and the schema cannot always say.

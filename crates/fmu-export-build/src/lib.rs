@@ -97,7 +97,7 @@ pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let text = std::fs::read_to_string(xml)
         .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;
     let description = Description::parse(&text)
-        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
+        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault })?;
     for (name, code) in
         [("choices.rs", choices::module(&description)), ("variables.rs", code::module(&description))]
     {

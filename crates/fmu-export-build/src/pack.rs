@@ -130,10 +130,7 @@ impl Package {
     /// not there.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = read_text(&self.description)?;
-        let invalid = |path: &Path, fault| DescriptionError::Invalid {
-            path: path.to_path_buf(),
-            fault: Box::new(fault),
-        };
+        let invalid = |path: &Path, fault| DescriptionError::Invalid { path: path.to_path_buf(), fault };
         let description = Description::parse(&text).map_err(|fault| invalid(&self.description, fault))?;
         let mut archive = Archive::default();
         let icon = self.description.with_file_name("model.png");
