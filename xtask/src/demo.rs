@@ -34,11 +34,7 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
 
 /// Shakes the FMU in FMPy with a motion, and the same wall on the command line.
 fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[&str]) -> Result<()> {
-    let file = |suffix: &str| {
-        let mut name = base.as_os_str().to_owned();
-        name.push(suffix);
-        PathBuf::from(name)
-    };
+    let file = |suffix: &str| PathBuf::from(format!("{}{suffix}", base.display()));
     let (input, history, page) = (file("_input.csv"), file(".csv"), file(".html"));
     let command = |first: &str| {
         let mut command = crate::command::program(wall);

@@ -147,9 +147,7 @@ pub(crate) fn reproducible(build: &mut Command, link: &[&str]) {
         format!("--remap-path-prefix={}=/target", target().join("fmu").display()),
         format!("--remap-path-prefix={}=/rocking-wall", root().display()),
     ];
-    if let Some(cargo_home) = cargo_home {
-        flags.push(format!("--remap-path-prefix={}=/cargo", cargo_home.display()));
-    }
+    flags.extend(cargo_home.map(|home| format!("--remap-path-prefix={}=/cargo", home.display())));
     flags.extend(link.iter().map(ToString::to_string));
     build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
 }

@@ -37,8 +37,7 @@ pub(crate) fn run() -> Result<()> {
     // the network and the linker work beside the Rust tests; a part that needs the result prepares it
     // again, and gets the errors
     let mut prepared = Some(std::thread::spawn(prepare));
-    let mut lines = Vec::new();
-    let (mut passed, mut failed) = (0, 0);
+    let (mut lines, mut failed) = (Vec::new(), 0);
     for (name, part) in parts {
         println!("\n== {name}");
         let start = Instant::now();
@@ -48,16 +47,11 @@ pub(crate) fn run() -> Result<()> {
             let _ = prepared.join();
         }
         let seconds = start.elapsed().as_secs();
-        match outcome {
-            Ok(()) => {
-                passed += 1;
-                lines.push(format!("passed  {name} ({seconds} s)"));
-            }
-            Err(message) => {
-                failed += 1;
-                lines.push(format!("FAILED  {name} ({seconds} s): {message}"));
-            }
-        }
+        failed += usize::from(outcome.is_err());
+        lines.push(match outcome {
+            Ok(()) => format!("passed  {name} ({seconds} s)"),
+            Err(message) => format!("FAILED  {name} ({seconds} s): {message}"),
+        });
     }
     println!("\n== summary");
     for line in lines {
@@ -66,8 +60,8 @@ pub(crate) fn run() -> Result<()> {
     for line in not_run() {
         println!("not run {line}");
     }
-    println!("{passed} passed, {failed} failed");
-    if failed == 0 { Ok(()) } else { Err(format!("{failed} of {} parts failed", passed + failed)) }
+    println!("{} passed, {failed} failed", parts.len() - failed);
+    if failed == 0 { Ok(()) } else { Err(format!("{failed} of {} parts failed", parts.len())) }
 }
 
 /// Lists what the tests leave out on this machine, and the remedy.

@@ -2,9 +2,10 @@
 //! matter. It knows no FMI.
 
 use crate::description::Description;
-use crate::names::{HEAD, add, camel, field, markdown, type_name};
+use crate::names::{HEAD, camel, field, markdown, type_name};
 use crate::usage;
 use crate::variable::{Causality, EnumerationType, Item, Kind, Variable};
+use std::fmt::Write as _;
 
 /// The text of `choices.rs`: one enum per enumeration type, and the macros `start_values` and `usages`.
 pub(crate) fn module(description: &Description) -> String {
@@ -75,16 +76,14 @@ pub(crate) use start_values;
 fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     let name = camel(&enumeration.name);
     let documentation = markdown(&enumeration.description);
-    add(
+    let _ = write!(
         code,
-        format_args!(
-            "\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n\
+        "\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n\
          pub enum {name} {{\n"
-        ),
     );
     for item in &enumeration.items {
         let (variant, text) = (camel(&item.name), markdown(&item.description));
-        add(code, format_args!("    /// `{}`: {text}.\n    {variant},\n", item.name));
+        let _ = write!(code, "    /// `{}`: {text}.\n    {variant},\n", item.name);
     }
     code.push_str("}\n");
     let each = |text: &dyn Fn(&Item) -> String| -> String {

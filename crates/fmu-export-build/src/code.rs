@@ -4,9 +4,10 @@
 //! the parameters by variable.
 
 use crate::description::Description;
-use crate::names::{HEAD, add, camel, field, markdown, type_name};
+use crate::names::{HEAD, camel, field, markdown, type_name};
 use crate::usage::described;
 use crate::variable::{BaseType, Causality, Item, Kind, Variable};
+use std::fmt::Write as _;
 
 /// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to
 /// its parameters.
@@ -17,7 +18,7 @@ pub(crate) fn module(description: &Description) -> String {
         ("MODEL_IDENTIFIER", description.model_identifier(), "Name of the library inside the FMU."),
         ("GUID", &description.guid(), "Fingerprint of the model description, in braces."),
     ] {
-        add(&mut code, format_args!("\n/// {what}\npub const {name}: &str = {value:?};\n"));
+        let _ = write!(code, "\n/// {what}\npub const {name}: &str = {value:?};\n");
     }
     let parameters: Vec<_> = description.parameters().collect();
     groups(&mut code, &parameters);
@@ -86,9 +87,9 @@ fn groups(code: &mut String, parameters: &[&Variable]) {
         return;
     }
     code.push_str("\n/// The groups of parameters: name, and names of the parameters in it.\n");
-    add(code, format_args!("pub const GROUPS: [(&str, &[&str]); {}] = [\n", groups.len()));
+    let _ = writeln!(code, "pub const GROUPS: [(&str, &[&str]); {}] = [", groups.len());
     for (name, members) in groups {
-        add(code, format_args!("    ({name:?}, &{members:?}),\n"));
+        let _ = writeln!(code, "    ({name:?}, &{members:?}),");
     }
     code.push_str("];\n");
 }
@@ -106,22 +107,20 @@ fn exchange(code: &mut String, description: &Description) {
     };
     let states = list(&|(_, state)| camel(&state.name));
     let derivatives = list(&|(derivative, _)| camel(&derivative.name));
-    add(
+    let _ = write!(
         code,
-        format_args!(
-            "\n/// The continuous states.\npub const CONTINUOUS_STATES: &[RealVariable] = &[{states}];\n\
+        "\n/// The continuous states.\npub const CONTINUOUS_STATES: &[RealVariable] = &[{states}];\n\
              \n/// Their derivatives, in the same order.\n\
              pub const DERIVATIVES: &[RealVariable] = &[{derivatives}];\n\
              \n/// The number of event indicators of Model Exchange.\n\
              pub const EVENT_INDICATORS: usize = {count};\n"
-        ),
     );
 }
 
 /// The enum of the variables of one base type, its `VariableId` and its table.
 fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], description: &Description) {
     let of = if base == BaseType::Integer { "Integer or Enumeration" } else { &format!("{base:?}") };
-    add(code, format_args!("\n/// Variables of type {of}.\n{DERIVE}pub enum {base:?}Variable {{\n"));
+    let _ = write!(code, "\n/// Variables of type {of}.\n{DERIVE}pub enum {base:?}Variable {{\n");
     for variable in variables {
         let text = markdown(&described(variable, &description.variables));
         // Plain brackets would be a link to rustdoc.
@@ -130,7 +129,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], descrip
             Some(unit) => format!(" \\[{unit}\\]"),
         };
         let (name, variant) = (&variable.name, camel(&variable.name));
-        add(code, format_args!("    /// `{name}`: {text}{unit}.\n    {variant},\n"));
+        let _ = writeln!(code, "    /// `{name}`: {text}{unit}.\n    {variant},");
     }
     code.push_str("}\n");
     let name = format!("{base:?}Variable");
@@ -250,8 +249,8 @@ fn access(code: &mut String, base: BaseType, parameters: &[&Variable]) {
             Kind::String { .. } => (format!("&self.{field}"), format!("self.{field} = value.to_owned()")),
             _ => (format!("self.{field}"), format!("self.{field} = value")),
         };
-        add(&mut get, format_args!("            {base:?}Variable::{variant} => Some({read}),\n"));
-        add(&mut set, format_args!("            {base:?}Variable::{variant} => {write},\n"));
+        let _ = writeln!(get, "            {base:?}Variable::{variant} => Some({read}),");
+        let _ = writeln!(set, "            {base:?}Variable::{variant} => {write},");
     }
     code.push_str(
         &ACCESS

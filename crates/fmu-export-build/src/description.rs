@@ -22,11 +22,7 @@ impl Description {
     /// # Errors
     /// The first problem found, with its line.
     pub fn parse(text: &str) -> Result<Self, Fault> {
-        Self::from_root(Element::parse(text)?, text.to_owned())
-    }
-
-    /// Interprets and checks the element `root`, whose text is `text`.
-    pub(crate) fn from_root(root: Element, text: String) -> Result<Self, Fault> {
+        let root = Element::parse(text)?;
         root.expect("fmiModelDescription")?;
         let version = root.required("fmiVersion")?;
         if version != "2.0" {
@@ -40,7 +36,7 @@ impl Description {
             elements.iter().map(|element| Variable::read(&root, element)).collect::<Result<Vec<_>, _>>()?;
         let enumerations = EnumerationType::read_all(&root)?;
         check::all(&root, &variables, &enumerations)?;
-        Ok(Self { root, text, variables, enumerations })
+        Ok(Self { root, text: text.to_owned(), variables, enumerations })
     }
 
     /// The guid that follows from the text: 32 hexadecimal digits in braces.

@@ -135,10 +135,10 @@ impl Element {
     }
 
     /// Sets the attribute `name` to a value. A new attribute goes to the end.
-    pub(crate) fn set_attribute(&mut self, name: &str, value: String) {
+    pub(crate) fn set_attribute(&mut self, name: &str, value: impl Into<String>) {
         match self.attributes.iter_mut().find(|(key, _)| key == name) {
-            Some((_, old)) => *old = value,
-            None => self.attributes.push((name.to_owned(), value)),
+            Some((_, old)) => *old = value.into(),
+            None => self.attributes.push((name.to_owned(), value.into())),
         }
     }
 

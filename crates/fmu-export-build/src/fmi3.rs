@@ -89,10 +89,10 @@ impl Description {
         let mut root = Element::new("fmiModelDescription", &[]);
         for (name, value) in &self.root.attributes {
             match name.as_str() {
-                "fmiVersion" => root.set_attribute(name, "3.0".to_owned()),
-                "guid" => root.set_attribute("instantiationToken", token.to_owned()),
+                "fmiVersion" => root.set_attribute(name, "3.0"),
+                "guid" => root.set_attribute("instantiationToken", token),
                 "numberOfEventIndicators" => {}
-                _ => root.set_attribute(name, value.clone()),
+                _ => root.set_attribute(name, value.as_str()),
             }
         }
         let taken = self.variable_names().map(str::to_owned).collect();
@@ -194,7 +194,7 @@ impl Description {
         let continuous = variable.attribute("variability").is_none_or(|name| name == "continuous");
         let input = variable.attribute("causality") == Some("input") && typed.name == "Real";
         if input && continuous && self.interpolates() {
-            written.set_attribute("intermediateUpdate", "true".to_owned());
+            written.set_attribute("intermediateUpdate", "true");
         }
         let is_real = typed.name == "Real";
         if let Some(name) = is_real.then(|| types.of_real(typed)).flatten() {
@@ -207,7 +207,7 @@ impl Description {
                 "start" if typed.name == "String" => {
                     written.children.push(Element::new("Start", &[("value", value)]));
                 }
-                _ => written.set_attribute(name, value.clone()),
+                _ => written.set_attribute(name, value.as_str()),
             }
         }
         written
@@ -227,7 +227,7 @@ impl Description {
                     match attribute.as_str() {
                         "index" => new.set_attribute("valueReference", self.references(value)),
                         "dependencies" => new.set_attribute(attribute, self.references(value)),
-                        _ => new.set_attribute(attribute, value.clone()),
+                        _ => new.set_attribute(attribute, value.as_str()),
                     }
                 }
                 written.children.push(new);
@@ -262,7 +262,7 @@ fn interface(old: &Element, additions: &Element) -> Element {
             "canGetAndSetFMUstate" => ("canGetAndSetFMUState", value.as_str()),
             "canSerializeFMUstate" => ("canSerializeFMUState", value.as_str()),
             "providesDirectionalDerivative" => {
-                new.set_attribute("providesDirectionalDerivatives", value.clone());
+                new.set_attribute("providesDirectionalDerivatives", value.as_str());
                 ("providesAdjointDerivatives", value.as_str())
             }
             "completedIntegratorStepNotNeeded" => (
@@ -274,15 +274,15 @@ fn interface(old: &Element, additions: &Element) -> Element {
             "canNotUseMemoryManagementFunctions" | "canRunAsynchronuously" => continue,
             name => (name, value.as_str()),
         };
-        new.set_attribute(name, value.to_owned());
+        new.set_attribute(name, value);
     }
     if old.name == "ModelExchange" && old.attribute("completedIntegratorStepNotNeeded").is_none() {
-        new.set_attribute("needsCompletedIntegratorStep", "true".to_owned());
+        new.set_attribute("needsCompletedIntegratorStep", "true");
     }
     if old.name == "CoSimulation" {
-        new.set_attribute("hasEventMode", "true".to_owned());
+        new.set_attribute("hasEventMode", "true");
         for (name, value) in &additions.attributes {
-            new.set_attribute(name, value.clone());
+            new.set_attribute(name, value.as_str());
         }
     }
     new

@@ -1,7 +1,6 @@
 //! Names and texts of the description as Rust has them.
 
 use crate::variable::Variable;
-use std::fmt::Write as _;
 
 /// First line of a generated module.
 pub(crate) const HEAD: &str = "// Generated from the model description: change that instead.\n";
@@ -56,10 +55,4 @@ pub(crate) fn markdown(text: &str) -> String {
         }
     });
     words.collect::<Vec<_>>().join(" ")
-}
-
-/// Appends to a string, which cannot fail.
-pub(crate) fn add(code: &mut String, text: std::fmt::Arguments<'_>) {
-    let written = code.write_fmt(text);
-    debug_assert!(written.is_ok(), "a string takes everything");
 }

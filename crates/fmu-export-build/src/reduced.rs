@@ -57,24 +57,16 @@ impl Description {
     /// # Errors
     /// A start value for a variable that is not kept, or one its limits or its type refuse.
     pub fn reduced(&self, reduction: &Reduction<'_>) -> Result<Self, ReductionError> {
-        let kept: Vec<bool> =
-            self.variables.iter().map(|variable| (reduction.keep)(&variable.name)).collect();
-        for (name, _) in reduction.starts {
-            let there =
-                self.variables.iter().zip(&kept).any(|(variable, kept)| *kept && variable.name == *name);
-            if !there {
-                return Err(ReductionError::NoSuchVariable { name: name.clone() });
-            }
+        let kept: HashSet<&str> = self.variable_names().filter(|name| (reduction.keep)(name)).collect();
+        let is_kept = |variable: &Variable| kept.contains(variable.name.as_str());
+        if let Some((name, _)) = reduction.starts.iter().find(|(name, _)| !kept.contains(name.as_str())) {
+            return Err(ReductionError::NoSuchVariable { name: name.clone() });
         }
         let mut root = self.root.clone();
-        for (attribute, value) in [
-            ("modelName", reduction.model_name),
-            ("description", reduction.description),
-            ("guid", reduction.guid),
-        ] {
-            root.set_attribute(attribute, value.to_owned());
-        }
-        let old = (1..).zip(&kept).filter(|(_, kept)| **kept).map(|(old, _)| old);
+        root.set_attribute("modelName", reduction.model_name);
+        root.set_attribute("description", reduction.description);
+        root.set_attribute("guid", reduction.guid);
+        let old = (1..).zip(&self.variables).filter(|(_, variable)| is_kept(variable)).map(|(old, _)| old);
         let indices: Indices = old.zip(1..).collect();
         if let Some(variables) = root.child_mut("ModelVariables") {
             retain_variables(variables, &indices, reduction.starts);
@@ -82,20 +74,19 @@ impl Description {
         if let Some(structure) = root.child_mut("ModelStructure") {
             retain_unknowns(structure, &indices, &self.variables);
         }
-        if self
-            .derivatives()
-            .iter()
-            .any(|(derivative, state)| !(reduction.keep)(&derivative.name) || !(reduction.keep)(&state.name))
-        {
+        let pairs = self.derivatives();
+        if !pairs.iter().all(|(derivative, state)| is_kept(derivative) && is_kept(state)) {
             // the library would answer for states that the description no longer has
             root.children.retain(|element| element.name != "ModelExchange");
             root.attributes.retain(|(attribute, _)| attribute != "numberOfEventIndicators");
         }
-        retain_types(&mut root);
-        retain_units(&mut root);
+        let types = values_in(root.child("ModelVariables"), "declaredType");
+        retain_named(&mut root, "TypeDefinitions", &types);
+        let mut units = values_in(root.child("ModelVariables"), "unit");
+        units.extend(values_in(root.child("TypeDefinitions"), "unit"));
+        retain_named(&mut root, "UnitDefinitions", &units);
         set_experiment(&mut root, reduction.experiment);
-        let text = root.to_xml();
-        Ok(Self::parse(&text)?)
+        Ok(Self::parse(&root.to_xml())?)
     }
 }
 
@@ -117,7 +108,7 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
             None => typed.attributes.retain(|(attribute, _)| attribute != "derivative"),
         }
         if let Some((_, start)) = starts.iter().find(|(of, _)| *of == name) {
-            typed.set_attribute("start", start.clone());
+            typed.set_attribute("start", start.as_str());
         }
     }
 }
@@ -173,17 +164,6 @@ fn retain_dependencies(unknown: &mut Element, new_index: impl Fn(usize) -> Optio
     if let Some(kinds) = kinds {
         unknown.set_attribute("dependenciesKind", kinds);
     }
-}
-
-fn retain_types(root: &mut Element) {
-    let used = values_in(root.child("ModelVariables"), "declaredType");
-    retain_named(root, "TypeDefinitions", &used);
-}
-
-fn retain_units(root: &mut Element) {
-    let mut used = values_in(root.child("ModelVariables"), "unit");
-    used.extend(values_in(root.child("TypeDefinitions"), "unit"));
-    retain_named(root, "UnitDefinitions", &used);
 }
 
 /// The values of an attribute in the children of the children.

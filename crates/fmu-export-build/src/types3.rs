@@ -47,9 +47,10 @@ impl Types {
             return None;
         }
         let origin = declared.unwrap_or(UNDECLARED);
-        let mut kind = self.declared(declared).unwrap_or_else(|| float_type(origin));
+        let known = self.declared.iter().find(|kind| Some(name(kind)) == declared).cloned();
+        let mut kind = known.unwrap_or_else(|| float_type(origin));
         for (key, value) in own {
-            kind.set_attribute(key, value.to_owned());
+            kind.set_attribute(key, value);
         }
         Some(self.variant(origin, kind))
     }
@@ -61,17 +62,13 @@ impl Types {
             return TIME.to_owned();
         }
         let mut kind = float_type(TIME);
-        kind.set_attribute("unit", "s".to_owned());
+        kind.set_attribute("unit", "s");
         self.variant(TIME, kind)
     }
 
     /// The types, in the order of the FMI 2.0 description, each with its variants.
     pub(crate) fn into_elements(self) -> Vec<Element> {
         self.written.into_iter().map(|written| written.kind).collect()
-    }
-
-    fn declared(&self, wanted: Option<&str>) -> Option<Element> {
-        self.declared.iter().find(|kind| Some(name(kind)) == wanted).cloned()
     }
 
     /// The name of the type that says the same as `kind`, one of those that follow from `origin`.
@@ -82,13 +79,13 @@ impl Types {
         for written in self.written.iter_mut().filter(of_origin) {
             if !written.is_used || says(&written.kind) == wanted {
                 let name = name(&written.kind).to_owned();
-                kind.set_attribute("name", name.clone());
+                kind.set_attribute("name", name.as_str());
                 *written = Written { kind, origin: origin.to_owned(), is_used: true };
                 return name;
             }
         }
         let name = self.free_name(origin);
-        kind.set_attribute("name", name.clone());
+        kind.set_attribute("name", name.as_str());
         let at = self.written.iter().rposition(|written| written.origin == origin);
         let at = at.map_or(self.written.len(), |last| last + 1);
         self.written.insert(at, Written { kind, origin: origin.to_owned(), is_used: true });

@@ -77,29 +77,24 @@ pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -
 /// Returns why `variable` cannot be set; `now` describes the present phase.
 #[cold]
 pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
-    let name = variable.name;
-    let what = match (variable.causality, variable.variability) {
-        (Causality::Parameter | Causality::Input, Variability::Constant) => "a constant",
+    let never = |what: &str| format!("is {what} and cannot be set: only parameters and inputs can");
+    let why = match (variable.causality, variable.variability) {
+        (Causality::Parameter | Causality::Input, Variability::Constant) => never("a constant"),
         (Causality::Parameter, Variability::Tunable) => {
-            return Failure(format!("{name} is tunable and cannot be set {now}: set it in Event Mode"));
+            format!("is tunable and cannot be set {now}: set it in Event Mode")
         }
-        (Causality::Parameter, _) => {
-            return Failure(format!(
-                "{name} is a fixed parameter and cannot be set {now}: set it before the end of \
-                 Initialization Mode"
-            ));
-        }
+        (Causality::Parameter, _) => format!(
+            "is a fixed parameter and cannot be set {now}: set it before the end of Initialization Mode"
+        ),
         (Causality::Input, _) => {
-            return Failure(format!(
-                "{name} is not continuous and cannot change {now}: set another value in Event Mode"
-            ));
+            format!("is not continuous and cannot change {now}: set another value in Event Mode")
         }
-        (Causality::CalculatedParameter, _) => "a calculated parameter",
-        (Causality::Output, _) => "an output",
-        (Causality::Local, _) => "a local variable",
-        (Causality::Independent, _) => "the independent variable",
+        (Causality::CalculatedParameter, _) => never("a calculated parameter"),
+        (Causality::Output, _) => never("an output"),
+        (Causality::Local, _) => never("a local variable"),
+        (Causality::Independent, _) => never("the independent variable"),
     };
-    Failure(format!("{name} is {what} and cannot be set: only parameters and inputs can"))
+    Failure(format!("{} {why}", variable.name))
 }
 
 /// Checks that `variable` is an input whose derivative can be set.

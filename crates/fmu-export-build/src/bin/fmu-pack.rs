@@ -75,7 +75,7 @@ fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {
     let path = |wanted: &'static str| all(wanted).next().map(PathBuf::from);
     let required =
         |wanted: &'static str| path(wanted).ok_or_else(|| format!("{wanted} is missing; see --help"));
-    let fmi3 = match texts("--fmi").last().as_deref() {
+    let fmi3 = match texts("--fmi").next_back().as_deref() {
         None | Some("2") => false,
         Some("3") => true,
         Some(other) => return Err(format!("--fmi {other}: there are 2 and 3")),

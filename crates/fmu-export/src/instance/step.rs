@@ -73,34 +73,26 @@ impl<M: Model> Instance<M> {
     fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
-        if !(size.is_finite() && size >= 0.0) {
-            return Err(Failure(format!(
-                "communicationStepSize = {size:?} s is not finite and at least 0 (time {time:?} s)"
-            )));
-        }
-        if !point.is_finite() {
-            return Err(Failure(format!(
-                "currentCommunicationPoint = {point:?} s is not finite (time {time:?} s)"
-            )));
-        }
-        if (point - time).abs() > tolerance_at(point) {
-            return Err(Failure(format!(
-                "currentCommunicationPoint = {point:?} s, but the last step ended at {time:?} s"
-            )));
-        }
         let end = point + size;
-        if let Some(stop) = self.now.experiment.stop.filter(|&stop| end > stop + tolerance_at(stop)) {
-            return Err(Failure(format!(
+        let why_not = if !(size.is_finite() && size >= 0.0) {
+            format!("communicationStepSize = {size:?} s is not finite and at least 0 (time {time:?} s)")
+        } else if !point.is_finite() {
+            format!("currentCommunicationPoint = {point:?} s is not finite (time {time:?} s)")
+        } else if (point - time).abs() > tolerance_at(point) {
+            format!("currentCommunicationPoint = {point:?} s, but the last step ended at {time:?} s")
+        } else if let Some(stop) = self.now.experiment.stop.filter(|&stop| end > stop + tolerance_at(stop)) {
+            format!(
                 "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s of the experiment"
-            )));
-        }
-        if !end.is_finite() {
-            return Err(Failure(format!("the step from {point:?} s by {size:?} s has no finite end")));
-        }
-        // The step starts at the instance's own time, so that no time is computed twice or left out.
-        let duration = (point - time) + size;
-        let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
-        Ok((size >= SHORTEST && duration >= SHORTEST).then_some((step, end)))
+            )
+        } else if !end.is_finite() {
+            format!("the step from {point:?} s by {size:?} s has no finite end")
+        } else {
+            // The step starts at the instance's own time, so that no time is computed twice or left out.
+            let duration = (point - time) + size;
+            let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
+            return Ok((size >= SHORTEST && duration >= SHORTEST).then_some((step, end)));
+        };
+        Err(Failure(why_not))
     }
 
     /// Returns the time at which the last successful step ended [s].
