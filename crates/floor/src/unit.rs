@@ -8,8 +8,8 @@ use crate::inputs::{Base, Inputs, Owner};
 use crate::motion::{Load, State, Work};
 use crate::values;
 use crate::variables::{
-    BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
-    integer_parameter, real_calculated, real_input, real_local, real_output, real_parameter,
+    BooleanVariable, CONTINUOUS_STATES, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable,
+    StringVariable, integer_parameter, real_calculated, real_input, real_local, real_output, real_parameter,
 };
 
 /// A floor between the FMI calls.
@@ -243,47 +243,37 @@ impl Model for Unit {
         }
     }
 
-    #[allow(unreachable_patterns, reason = "the states are outputs and local variables, too")]
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
         use RealVariable as V;
-        let Floor { mass, damping, .. } = self.floor;
-        let along = match known {
-            V::Displacement => {
-                Along { displacement: 1.0, spring: self.floor.tangent(self.state.branch), ..Along::default() }
-            }
-            V::Velocity => Along { velocity: 1.0, damping, ..Along::default() },
-            V::BaseDisplacement => Along { base_displacement: 1.0, ..Along::default() },
-            V::BaseVelocity => Along { base_velocity: 1.0, ..Along::default() },
-            V::EnergyDamping => Along { energy: 1.0, ..Along::default() },
-            real_input!() => match Owner::of(known)? {
-                Owner::Base => Along { ground: 1.0, ..Along::default() },
-                Owner::Wall(coupling, _) => {
-                    let walls = self.inputs.weight(coupling, self.parameters.coupling);
-                    Along { walls, ..Along::default() }
-                }
-            },
-            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
+        let owner = Owner::of(known);
+        if owner.is_none() && !CONTINUOUS_STATES.contains(&known) {
+            return None;
+        }
+        let of = |variable: V| if known == variable { 1.0 } else { 0.0 };
+        let spring = self.floor.tangent(self.state.branch) * of(V::Displacement);
+        let damping = self.floor.damping * of(V::Velocity);
+        let walls = match owner {
+            Some(Owner::Wall(coupling, _)) => self.inputs.weight(coupling, self.parameters.coupling),
+            Some(Owner::Base) | None => 0.0,
         };
-        let absolute = -(along.spring + along.damping + along.walls) / mass;
+        let absolute = -(spring + damping + walls) / self.floor.mass;
         let sign = self.state.branch.sign();
-        let flow = along.displacement * sign.abs();
+        let flow = of(V::Displacement) * sign.abs();
         match unknown {
-            V::Displacement => Some(along.displacement),
-            V::Velocity => Some(along.velocity),
-            V::DisplacementAbsolute => Some(along.displacement + along.base_displacement),
-            V::VelocityAbsolute => Some(along.velocity + along.base_velocity),
-            V::BaseDisplacement => Some(along.base_displacement),
-            V::BaseVelocity => Some(along.base_velocity),
-            V::BaseAcceleration => Some(along.ground),
-            V::EnergyDamping => Some(along.energy),
-            V::DampingPower => Some(2.0 * along.damping * self.state.velocity),
+            V::Displacement | V::Velocity | V::BaseDisplacement | V::BaseVelocity | V::EnergyDamping => {
+                Some(of(unknown))
+            }
+            V::DisplacementAbsolute => Some(of(V::Displacement) + of(V::BaseDisplacement)),
+            V::VelocityAbsolute => Some(of(V::Velocity) + of(V::BaseVelocity)),
+            V::BaseAcceleration => Some(of(V::AG)),
+            V::DampingPower => Some(2.0 * damping * self.state.velocity),
             V::DisplacementPlastic => Some(flow),
             V::EnergyHysteretic => Some(flow * sign * self.floor.yielding.map_or(0.0, |own| own.force)),
-            V::Acceleration => Some(absolute - along.ground),
+            V::Acceleration => Some(absolute - of(V::AG)),
             V::AccelerationAbsolute => Some(absolute),
-            V::SpringForce => Some(along.spring),
-            V::DampingForce => Some(along.damping),
-            V::ReactionBottom => Some(-(along.spring + along.damping)),
+            V::SpringForce => Some(spring),
+            V::DampingForce => Some(damping),
+            V::ReactionBottom => Some(-(spring + damping)),
             // this depends on the past, not on the present state and inputs alone
             V::ImpulseBottom => Some(0.0),
             real_input!() | real_parameter!() | real_calculated!() => None,
@@ -352,20 +342,4 @@ impl Model for Unit {
         codec.bool(&mut self.running)?;
         codec.bool(&mut self.ignored_told)
     }
-}
-
-/// Changes along one known.
-#[derive(Clone, Copy, Debug, Default)]
-struct Along {
-    displacement: f64,
-    velocity: f64,
-    base_displacement: f64,
-    base_velocity: f64,
-    /// Energy lost by damping.
-    energy: f64,
-    spring: f64,
-    damping: f64,
-    /// Force of the floor on the walls.
-    walls: f64,
-    ground: f64,
 }

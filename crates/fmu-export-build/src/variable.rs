@@ -202,14 +202,8 @@ fn type_of<'a>(
     typed: &Element,
 ) -> Result<&'a Element, Fault> {
     simple_type(root, declared_type, &typed.name).ok_or_else(|| {
-        let kind = match typed.name.as_str() {
-            "Real" => "a Real",
-            "Integer" => "an Integer",
-            "Enumeration" => "an Enumeration",
-            "Boolean" => "a Boolean",
-            _ => "a String",
-        };
-        let expected = format!("is not declared in TypeDefinitions as {kind}");
+        let article = if typed.name.starts_with(['E', 'I']) { "an" } else { "a" };
+        let expected = format!("is not declared in TypeDefinitions as {article} {}", typed.name);
         typed.fault(format!("the type `{declared_type}` of `{name}` {expected}"))
     })
 }
