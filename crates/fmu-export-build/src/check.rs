@@ -9,7 +9,6 @@ use crate::variable::{
     BaseType, Causality, EnumerationType, Initial, Item, Kind, Variability, Variable, simple_type,
 };
 use std::collections::HashMap;
-use std::fmt::Display;
 
 /// Makes every check and reports the first problem in this order.
 pub(crate) fn all(
@@ -212,30 +211,22 @@ fn unit_is_declared(
 }
 
 fn limits(variable: &Variable) -> Result<(), Fault> {
-    fn within<T: Copy + PartialOrd + Display>(
-        variable: &Variable,
-        start: Option<T>,
-        min: Option<T>,
-        max: Option<T>,
-    ) -> Result<(), Fault> {
-        let text = |limit: Option<T>| limit.map_or("none".to_owned(), |limit| limit.to_string());
-        let (name, least, most) = (&variable.name, text(min), text(max));
-        if min.is_some() && max.is_some() && min > max {
-            let crossed = format!("the limits of `{name}` are crossed: min {least} exceeds max {most}");
-            return Err(variable.fault(crossed));
-        }
-        let Some(start) = start else { return Ok(()) };
-        if min.is_some_and(|min| start < min) || max.is_some_and(|max| start > max) {
-            return Err(variable.fault(format!(
-                "the start value {start} of `{name}` is outside its limits {least} to {most}"
-            )));
-        }
-        Ok(())
+    let (start, min, max) = match variable.kind {
+        Kind::Real { start, min, max } => (start, min, max),
+        // each is a double too, and written alike
+        Kind::Integer { start, min, max } => (start.map(f64::from), min.map(f64::from), max.map(f64::from)),
+        _ => return Ok(()),
+    };
+    let text = |limit: Option<f64>| limit.map_or("none".to_owned(), |limit| limit.to_string());
+    let (name, least, most) = (&variable.name, text(min), text(max));
+    if min.is_some() && max.is_some() && min > max {
+        let crossed = format!("the limits of `{name}` are crossed: min {least} exceeds max {most}");
+        return Err(variable.fault(crossed));
     }
-    match variable.kind {
-        Kind::Real { start, min, max } => within(variable, start, min, max),
-        Kind::Integer { start, min, max } => within(variable, start, min, max),
-        _ => Ok(()),
+    match start.filter(|start| min.is_some_and(|min| *start < min) || max.is_some_and(|max| *start > max)) {
+        Some(start) => Err(variable
+            .fault(format!("the start value {start} of `{name}` is outside its limits {least} to {most}"))),
+        None => Ok(()),
     }
 }
 

@@ -165,7 +165,7 @@ macro_rules! calls {
                 &[$($([concat!("fmi2", stringify!($call)), concat!("fmi3", stringify!($call))]),+),*];
 
             /// The rules in FMI 2.0 and in FMI 3.0.
-            const RULES: &[[Rule; 2]] = &[$($({ let _ = Self::$call; [$fmi2, $fmi3] }),+),*];
+            const TABLE: &[[Rule; 2]] = &[$($({ let _ = Self::$call; [$fmi2, $fmi3] }),+),*];
         }
     };
 }
@@ -214,7 +214,7 @@ calls! {
 
 impl Call {
     pub(crate) const fn rule(self, version: Version) -> &'static Rule {
-        &Self::RULES[self as usize][version as usize]
+        &Self::TABLE[self as usize][version as usize]
     }
 
     /// The call of the function of FMI 3.0 with this name.
