@@ -92,19 +92,17 @@ impl Serialize for Yielding {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct Named {
-            tie_elongation: f64,
-            tie_elongation_negative: f64,
-            tie_break_time: Option<f64>,
-            tie_break_time_negative: Option<f64>,
+            #[serde(rename = "tie_elongation")]
+            positive: f64,
+            #[serde(rename = "tie_elongation_negative")]
+            negative: f64,
+            #[serde(rename = "tie_break_time")]
+            broke: Option<f64>,
+            #[serde(rename = "tie_break_time_negative")]
+            broke_negative: Option<f64>,
         }
-        let Self { elongation, breaks: [tie_break_time, tie_break_time_negative] } = *self;
-        Named {
-            tie_elongation: elongation.positive,
-            tie_elongation_negative: elongation.negative,
-            tie_break_time,
-            tie_break_time_negative,
-        }
-        .serialize(serializer)
+        let Self { elongation: Sides { positive, negative }, breaks: [broke, broke_negative] } = *self;
+        Named { positive, negative, broke, broke_negative }.serialize(serializer)
     }
 }
 
@@ -140,8 +138,8 @@ pub struct Demands {
 }
 
 impl Demands {
-    /// Returns the demands of u, u̇ and ü, of the reactions and of the tie's force at one instant. `fractions`
-    /// of `u_ins` are the limit states whose first crossings are wanted.
+    /// Returns the demands of u, u̇ and ü, of the reactions and of the tie's force at one instant.
+    /// `fractions` of `u_ins` are the limit states whose first crossings are wanted.
     pub(crate) fn new(
         wall: &Wall,
         time: f64,

@@ -69,8 +69,8 @@ impl Motion {
     }
 
     /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising`
-    /// says whether |u| is beyond its largest so far and grows. Ends early where the tie changes: what follows
-    /// is then for the motion with its new memory.
+    /// says whether |u| is beyond its largest so far and grows. Ends early where a tie changes: the rest is
+    /// for the motion with the new memory.
     pub fn event(&self, state: &mut State, rising: &mut bool, forcing: f64) -> Event {
         let mut event = Event::default();
         self.break_overstretched(state, &mut event);

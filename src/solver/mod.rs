@@ -1,9 +1,11 @@
 //! Solvers: from a state and a segment of support motion to the state at its end.
 //!
 //! One loop serves all of them (`run`). It asks the method for the next piece of motion and follows it to its
-//! end or to the first corner (`event`). The transition there is applied by `transition`.
+//! end or to the first corner (`event`). The transition there is applied by `transition`. Where a tie yields,
+//! unloads or breaks, the run goes on with the motion of the wall with its ties as they are then (`advance`).
 
 mod adaptive;
+mod advance;
 mod demand;
 mod event;
 mod exact;

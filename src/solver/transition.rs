@@ -18,6 +18,7 @@ use super::state::{Peaks, Phase, State, Work};
 
 /// What transitions did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "independent things that happened")]
 pub struct Event {
     /// The wall overturned.
     pub overturned: bool,

@@ -4,8 +4,8 @@
 //! A = π φ²/4    K = n E A/L    N_y = n min(A f_y, N_anchor)    p_u = ε_u L − N_y/K
 //! ```
 //!
-//! n bars hold the wall: its width over their spacing, or one. A bar stretches by p_u under `N_y` before it
-//! tears. An anchor that is weaker than its bar breaks at once: p_u = 0.
+//! n bars hold the wall: its width over their spacing, or one. A bar stretches by `p_u` under `N_y` before
+//! it tears. An anchor that is weaker than its bar breaks at once: `p_u` = 0.
 
 use std::f64::consts::PI;
 
@@ -50,7 +50,7 @@ pub struct Bar {
     pub young_modulus: f64,
     /// Yield stress `f_y` \[Pa\].
     pub yield_stress: f64,
-    /// Strain ε_u at which the bar tears \[-\]; `None` where nothing is said of it: the tie stays elastic.
+    /// Strain `ε_u` at which the bar tears \[-\]; `None` where nothing is said of it: the tie stays elastic.
     pub ultimate_strain: Option<f64>,
     /// The force at which an anchor fails \[N\]; `None` for one that is stronger than the bar.
     pub anchor_capacity: Option<f64>,
@@ -80,7 +80,7 @@ pub struct BarTie {
     pub stiffness: f64,
     /// `tie_strength`, `N_y` \[N\].
     pub strength: f64,
-    /// `tie_ultimate`, p_u \[m\]; −1 for a tie that stays elastic.
+    /// `tie_ultimate`, `p_u` \[m\]; −1 for a tie that stays elastic.
     pub ultimate: f64,
     /// The part that gives way first.
     pub weaker: TiePart,

@@ -32,8 +32,8 @@ pub struct CapacityPoint {
 }
 
 impl Wall {
-    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. The tie has
-    /// the force of a displacement that is reached for the first time.
+    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. The tie
+    /// has the force of a displacement that is reached for the first time.
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
         let u = fraction * self.body().instability.of(sign);
         let point = self.capacity_point(sign, u, self.first_tie_force(sign, u));

@@ -92,7 +92,7 @@ impl Wall {
         let tie = tie.as_ref().map(|tie| (tie, &memory));
         let corners = layout::corners(body, force, damping, tie, *impact, fully, free_side);
         let branches = layout::branches(&corners, body, force, damping, tie);
-        Self { corners, branches, ..self }
+        Self { branches, corners, ..self }
     }
 
     /// Masses, geometry and the rigid force.

@@ -133,11 +133,13 @@ impl ParameterError {
             Self::Points { .. } => vec!["points"],
             Self::Restitution { .. } => vec!["restitution_source", "restitution"],
             Self::NoElasticBranch { .. } => vec!["damping_model", "force_law"],
-            Self::Computed { name, .. } | Self::NotGiven { name, .. } => vec![name],
+            Self::Computed { name, .. }
+            | Self::NotGiven { name, .. }
+            | Self::BarNeeds { name }
+            | Self::Bar { name, .. } => vec![name],
             Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
             Self::TieUltimate { .. } => vec!["tie_ultimate"],
-            Self::BarNeeds { name } | Self::Bar { name, .. } => vec![name],
             Self::OneSided { conflicts, .. } => {
                 std::iter::once("rocking").chain(conflicts.iter().map(|conflict| conflict.name)).collect()
             }

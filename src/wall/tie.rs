@@ -7,8 +7,8 @@
 //! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ (2y/h) N
 //! ```
 //!
-//! Its plastic elongation p grows with e while N = `N_y`, and never falls. The tie breaks where p reaches p_u,
-//! for good. Without p_u it stays elastic, and `N_y` is only a limit state.
+//! Its plastic elongation p grows with e while N = `N_y`, and never falls. The tie breaks for good where p
+//! reaches `p_u`. Without `p_u` it stays elastic, and `N_y` is only a limit state.
 //!
 //! Yielding needs e = g₀ + p + `N_y`/K, so all that a tie remembers is the largest |u| at which it has
 //! yielded ([`TieMemory`]): p and the fracture follow from it. As the tie is now, F has a corner more where
@@ -31,7 +31,7 @@ pub struct Tie {
     pub slack: f64,
     /// The force it resists, `N_y` \[N\]; `None` where none is given.
     pub strength: Option<f64>,
-    /// The plastic elongation at which it breaks, p_u \[m\]; `None` for a tie that stays elastic.
+    /// The plastic elongation at which it breaks, `p_u` \[m\]; `None` for a tie that stays elastic.
     pub ultimate: Option<f64>,
     /// The side it holds.
     pub side: TieSide,

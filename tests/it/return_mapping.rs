@@ -6,7 +6,6 @@
 //! first power of its step.
 
 use proptest::prelude::*;
-use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support, Wall};

@@ -164,8 +164,8 @@ impl<O: Observer> Lanes<'_, O> {
         false
     }
 
-    /// Returns how the run of a lane takes steps. Once a tie has changed, the steps that are prepared are those
-    /// of another wall.
+    /// Returns how the run of a lane takes steps. Once a tie has changed, the prepared steps are those of
+    /// another wall.
     #[inline(always)]
     fn stepping(&self, lane: usize) -> Stepping {
         let run = &self.runs[lane];
