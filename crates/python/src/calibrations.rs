@@ -12,7 +12,7 @@ use crate::arrays::samples;
 use crate::errors::{failed, refused};
 use crate::tables;
 use crate::walls::Wall;
-use crate::watch::{self, Threads};
+use crate::watch::threads_of;
 
 /// Calibrates damping models of a wall; returns the tables of fits, coefficients and laws, and the charts.
 #[pyfunction]
@@ -24,7 +24,7 @@ pub(crate) fn calibrate_wall<'py>(
     a1: Option<Bound<'py, PyAny>>,
     start: &Bound<'py, PyAny>,
     step: f64,
-    threads: Option<Threads>,
+    threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<String>)> {
     let mut grid = Grid { start: samples(start)?, step, ..Grid::default() };
     if let Some(restitution) = &restitution {
@@ -38,7 +38,7 @@ pub(crate) fn calibrate_wall<'py>(
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
         None => calibrated_models(parameters),
     };
-    let threads = watch::count(threads);
+    let threads = threads_of(threads)?;
     let mut found = Vec::with_capacity(models.len());
     for model in models {
         grid.check(model).map_err(of_calibration)?;

@@ -60,14 +60,13 @@ mod _native {
     #[pymodule_export]
     use crate::responses::picture_of_response;
     #[pymodule_export]
-    use crate::spectra::{picture_of_spectrum, spectrum_over_pulses, spectrum_over_walls};
+    use crate::spectra::{spectrum_over_pulses, spectrum_over_walls};
     #[pymodule_export]
     use crate::studies::Study;
     #[pymodule_export]
     use crate::ties::tie_of_wall;
     #[pymodule_export]
     use crate::variables::{calculated, variables};
-    #[pymodule_export]
     #[pymodule_export]
     use crate::walls::Wall;
     #[pymodule_export]

@@ -8,11 +8,13 @@ use ground_motion::{
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use run::record_facts::figure::{self, Drawn};
 
 use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
 use crate::errors::{of_motion, refused};
+
+/// A channel of a record file: its motion, its name, and warnings.
+type Channel<'py> = ((f64, Numbers<'py>), Option<String>, Vec<String>);
 
 /// Reads the channels of a record file.
 #[pyfunction]
@@ -24,7 +26,7 @@ pub(crate) fn read_channels<'py>(
     column: Option<String>,
     channel: Option<String>,
     format: Option<&str>,
-) -> PyResult<Vec<Bound<'py, PyDict>>> {
+) -> PyResult<Vec<Channel<'py>>> {
     let options = RecordOptions {
         unit: unit.map(str::parse).transpose().map_err(of_motion)?,
         step: dt,
@@ -33,25 +35,17 @@ pub(crate) fn read_channels<'py>(
         format: format.map(str::parse).transpose().map_err(of_motion)?,
     };
     let records = py.detach(|| ground_motion::read_channels(path, &options)).map_err(of_motion)?;
-    records.iter().map(|record| channel_of(py, record)).collect()
+    let channel = |record: Record| {
+        let warnings = record.check().warnings.iter().map(ToString::to_string).collect();
+        (of_motion_values(py, &record.motion), record.channel, warnings)
+    };
+    Ok(records.into_iter().map(channel).collect())
 }
 
 /// Warns of a channel, such as that of a trace, whose code is vertical.
 #[pyfunction]
 pub(crate) fn warnings_of_channel(code: &str) -> Vec<String> {
     ground_motion::is_vertical_channel(code).then(|| Warning::Vertical.to_string()).into_iter().collect()
-}
-
-fn channel_of<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyDict>> {
-    let warnings: Vec<_> = record.check().warnings.iter().map(ToString::to_string).collect();
-    let values = PyDict::new(py);
-    values.set_item("motion", of_motion_values(py, &record.motion))?;
-    values.set_item("channel", &record.channel)?;
-    values.set_item("format", record.format.name())?;
-    values.set_item("unit", record.unit.name())?;
-    values.set_item("header", &record.header)?;
-    values.set_item("warnings", warnings)?;
-    Ok(values)
 }
 
 /// Samples a motion given by a formula.

@@ -8,18 +8,18 @@ use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::simulation::Excitation;
 use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
-    MOST_POINTS, Point, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError,
-    common_motion, over_pulses, over_walls,
+    MOST_POINTS, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
+    over_pulses, over_walls,
 };
 
 use crate::arrays::{MotionValues, Numbers, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
 use crate::walls::Wall;
-use crate::watch::{self, Threads};
+use crate::watch::threads_of;
 
-/// Columns, rows, and the table of `wall study spectrum --csv`.
-type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>);
+/// Columns, rows, the table of `wall study spectrum --csv`, and the picture.
+type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>, String);
 
 /// Computes the spectrum of a record, or of the motion of the wall's scene, over walls.
 #[pyfunction]
@@ -29,7 +29,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     record: Option<MotionValues<'py>>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
-    threads: Option<Threads>,
+    threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values<'py>> {
     let mut scene = wall.scene.clone();
     if let Some(record) = &record {
@@ -40,7 +40,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
     check_count(columns.len(), rows.len())?;
-    let threads = watch::count(threads).get();
+    let threads = threads_of(threads)?.get();
     let quantities = [size.quantity(), slenderness.quantity()];
     let mut points = Vec::with_capacity(rows.len());
     // between two rows this thread looks at Ctrl-C
@@ -64,13 +64,13 @@ pub(crate) fn spectrum_over_pulses<'py>(
     form: &str,
     columns: &Bound<'py, PyAny>,
     rows: &Bound<'py, PyAny>,
-    threads: Option<Threads>,
+    threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values<'py>> {
     let form = PulseForm::from_name(form)
         .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
-    let (parameters, threads) = (&wall.scene.parameters, watch::count(threads).get());
+    let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());
     let quantities = [QUANTITIES[4], QUANTITIES[5]];
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
@@ -80,29 +80,6 @@ pub(crate) fn spectrum_over_pulses<'py>(
         py.check_signals()?;
     }
     values(py, RockingSpectrum { quantities, columns, rows, points })
-}
-
-/// Draws a spectrum, as SVG, from the names and values of its axes, and its values row by row.
-#[pyfunction]
-pub(crate) fn picture_of_spectrum(
-    names: [String; 2],
-    columns: Vec<f64>,
-    rows: Vec<f64>,
-    points: Vec<(f64, bool, f64)>,
-    title: String,
-) -> PyResult<String> {
-    let quantity = |name: &String| QUANTITIES.iter().find(|quantity| quantity.name == name).copied();
-    let [Some(column), Some(row)] = names.each_ref().map(quantity) else {
-        return Err(refused(format!("{} and {} are not axes of a spectrum", names[0], names[1])));
-    };
-    let point = |&(ratio, rocked, time): &(f64, bool, f64)| Point {
-        ratio,
-        rocked,
-        overturning: (!time.is_nan()).then_some(time),
-    };
-    let points = points.chunks(columns.len().max(1)).map(|row| row.iter().map(point).collect()).collect();
-    let spectrum = RockingSpectrum { quantities: [column, row], columns, rows, points };
-    Ok(svg(&Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None }))
 }
 
 fn check_count(columns: usize, rows: usize) -> PyResult<()> {
@@ -121,6 +98,9 @@ fn of_spectrum(error: SpectrumError) -> PyErr {
 }
 
 fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
-    let table = tables::table(py, spectrum.table())?;
-    Ok((PyArray1::from_vec(py, spectrum.columns), PyArray1::from_vec(py, spectrum.rows), table))
+    let (title, table) = ("Rocking spectrum".to_owned(), tables::table(py, spectrum.table())?);
+    let shown = Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None };
+    let [columns, rows] =
+        [&shown.spectrum.columns, &shown.spectrum.rows].map(|v| PyArray1::from_slice(py, v));
+    Ok((columns, rows, table, svg(&shown)))
 }

@@ -9,6 +9,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use report::table::Table;
 use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::records::NamedRecord;
@@ -21,9 +22,8 @@ use study::tables::{KINDS, Kind, Names};
 use crate::arrays::{MotionValues, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::Columns;
-use crate::watch::watched;
-use crate::watch::{self, Threads};
+use crate::tables::table;
+use crate::watch::{threads_of, watched};
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -149,11 +149,11 @@ impl Study {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        threads: Option<Threads>,
+        threads: Option<&Bound<'py, PyAny>>,
         progress: &Bound<'py, PyAny>,
     ) -> PyResult<[Bound<'py, PyDict>; 3]> {
         let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = watch::count(threads).get();
+        let threads = threads_of(threads)?.get();
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
@@ -172,11 +172,13 @@ impl Study {
             fractions: &report.fractions,
         };
         let of = |(_, of_wall): Kind| {
-            let mut columns = Columns::default();
+            let mut all = Table::default();
             for (wall, results) in results.iter().enumerate() {
-                columns.add(of_wall(&names, wall, results));
+                let Table { columns, rows } = of_wall(&names, wall, results);
+                all.columns = columns;
+                all.rows.extend(rows);
             }
-            columns.dict(py)
+            table(py, all)
         };
         let [levels, collapses, fragilities] = KINDS.map(of);
         Ok([levels?, collapses?, fragilities?])

@@ -12,7 +12,7 @@ use crate::arrays::{MotionValues, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
 use crate::walls::Wall;
-use crate::watch::{self, Threads};
+use crate::watch::threads_of;
 
 /// Runs for each thread between two looks at Ctrl-C.
 const RUNS_AT_ONCE: usize = 4;
@@ -26,13 +26,13 @@ pub(crate) fn tie_of_wall<'py>(
     records: Vec<MotionValues<'py>>,
     stiffness: Option<Bound<'py, PyAny>>,
     both_polarities: bool,
-    threads: Option<Threads>,
+    threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
     let records = records.iter().map(motion).collect::<PyResult<_>>()?;
     let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
     let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
     let stiffnesses = study.stiffnesses(&given).map_err(refused)?;
-    let threads = watch::count(threads).get();
+    let threads = threads_of(threads)?.get();
     let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
     let mut rows = Vec::with_capacity(stiffnesses.len());
     for stiffnesses in stiffnesses.chunks(at_once) {

@@ -134,25 +134,12 @@ impl Wall {
         &self.scene.title
     }
 
-    #[getter]
-    fn has_storeys(&self) -> bool {
-        self.scene.floors.is_some()
-    }
-
     /// Returns what is unusual about the wall.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let warnings = self.equation.warnings().iter();
         let of_floors = self.scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         warnings.map(ToString::to_string).chain(of_floors).collect()
-    }
-
-    /// Returns a number that follows from the parameters, by its name in the model description.
-    fn calculated(&self, name: &str) -> PyResult<f64> {
-        let found = self.equation.facts().into_iter().find(|fact| fact.name == name);
-        found
-            .map(|fact| fact.value)
-            .ok_or_else(|| PyAttributeError::new_err(format!("{name:?} does not follow from the parameters")))
     }
 
     /// Returns the parameters as texts of a scene file.
@@ -162,9 +149,13 @@ impl Wall {
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
     }
 
-    /// Returns a parameter by its name: a number, the name of a choice, or the points of a law.
-    fn parameter<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    /// Returns a parameter, or a number that follows from the parameters, by its name in the model
+    /// description: a number, the name of a choice, or the points of a law.
+    fn value<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let parameters = &self.scene.parameters;
+        if let Some(fact) = self.equation.facts().into_iter().find(|fact| fact.name == name) {
+            return fact.value.into_bound_py_any(py);
+        }
         let points = parameters.multilinear.as_deref().map(<[_]>::to_vec);
         let text = match name {
             POINTS => return points.into_bound_py_any(py),

@@ -7,11 +7,14 @@ from typing import Generic, TypeVar, overload
 from . import _native
 
 
-Value = TypeVar("Value", float, str)
+Value = TypeVar("Value")
 
 
 class Parameter(Generic[Value]):
-    """A parameter of a wall: a number, or the name of a choice."""
+    """A parameter of a wall, or what follows from the parameters: a number, or the name of a choice."""
+
+    def __init__(self, doc: str | None = None) -> None:
+        self.__doc__ = doc or self.__doc__
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -23,12 +26,15 @@ class Parameter(Generic[Value]):
     def __get__(self, wall: Given | None, owner: type) -> Parameter[Value] | Value:
         if wall is None:
             return self
-        value: Value = wall._native.parameter(self.name)
+        value: Value = wall._native.value(self.name)
         return value
 
 
 class Given:
-    """The parameters of a wall by their names, in SI units; a parameter to be computed is -1."""
+    """The parameters of a wall and what follows from them by their names, in SI units.
+
+    A parameter to be computed is -1.
+    """
 
     _native: _native.Wall
 
@@ -65,9 +71,32 @@ class Given:
     tie_strength = Parameter[float]()
     tie_side = Parameter[str]()
     kinematics = Parameter[str]()
-
-    @property
-    def points(self) -> list[list[float]] | None:
-        """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law."""
-        points: list[list[float]] | None = self._native.parameter("points")
-        return points
+    mass = Parameter[float]("Mass of the wall, overburden not included [kg].")
+    effective_mass = Parameter[float]("Effective mass of the equation of motion [kg].")
+    participation = Parameter[float]("Participation factor of the support acceleration.")
+    F0 = Parameter[float]("Rigid restoring force at zero displacement, side u > 0 [N].")
+    F0_negative = Parameter[float](
+        "Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]; where "
+        "overburden_eccentricity is not 0 and overburden is not 0."
+    )
+    u_ins = Parameter[float]("Static instability displacement, side u > 0 [m].")
+    u_ins_negative = Parameter[float](
+        "Static instability displacement, side u < 0, as an absolute value [m]; where "
+        "overburden_eccentricity is not 0 and overburden is not 0."
+    )
+    omega1 = Parameter[float](
+        "Angular frequency of the elastic branch; zero for rigid_linear [rad/s]; where force_law = bilinear"
+        " or trilinear."
+    )
+    xi_used = Parameter[float](
+        "Damping ratio in use on the elastic branch: given, computed or from c_bar; 0 without one; where "
+        "damping_model is not none."
+    )
+    restitution_used = Parameter[float](
+        "Coefficient of restitution in use, for impacts and for computed damping; where impact = "
+        "restitution, or xi = -1 and damping_model = constant_coefficient, constant_ratio or "
+        "stiffness_proportional, or c_bar = -1 and damping_model = free_standing_block."
+    )
+    points = Parameter[list[list[float]] | None](
+        'Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law.'
+    )

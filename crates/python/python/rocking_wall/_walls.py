@@ -18,7 +18,7 @@ from . import _native
 from ._calibration import Calibration
 from ._checks import Verdict
 from ._given import Given
-from ._parameters import Calculated, Parameters
+from ._parameters import Parameters
 from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
 from ._spectra import RockingSpectrum
@@ -67,7 +67,7 @@ class Storey:
     """Damping ratio [-]; by default 0.05."""
 
 
-class Wall(Given, Calculated):
+class Wall(Given):
     def __init__(
         self,
         height: float | None = None,
@@ -300,14 +300,14 @@ class Wall(Given, Calculated):
             raise ValueError("give either ratios or angles")
         sizes = radii if radii is not None else HEIGHTS if heights is None else heights
         slendernesses = angles if angles is not None else RATIOS if ratios is None else ratios
-        values = _native.spectrum_over_walls(
+        columns, rows, table, picture = _native.spectrum_over_walls(
             self._native,
             None if record is None else motion_of(record),
             (radii is not None, sizes),
             (angles is not None, slendernesses),
             threads,
         )
-        return RockingSpectrum(values[0], values[1], Table(values[2]))
+        return RockingSpectrum(columns, rows, Table(table), picture)
 
     def pulse_spectrum(
         self,
@@ -330,8 +330,8 @@ class Wall(Given, Calculated):
         """
         columns = PULSES if frequency_ratios is None else frequency_ratios
         rows = PULSES if amplitude_ratios is None else amplitude_ratios
-        values = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
-        return RockingSpectrum(values[0], values[1], Table(values[2]))
+        across, up, table, picture = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
+        return RockingSpectrum(across, up, Table(table), picture)
 
     def tie(
         self,
