@@ -151,17 +151,17 @@ fn interval(value: &Interval, unit: f64) -> String {
 pub const MEDIANS: &str = "Medians: Median collapse AvgSA of CR, and that of each damping model over it";
 
 fn table(walls: &[Vec<Summary>]) -> Table {
-    let text = |heading: &'static str| Column::text("", heading);
-    let mut table = Table::new([
-        text("wall"),
-        text("type"),
-        text("CR: median (g)"),
-        text("CDC / CR"),
-        text("CDR / CR"),
-        text("SDR / CR"),
-        text("CDR with Eq. (14) / CR"),
-        text("runs that stood at 150 m/s²"),
-    ]);
+    let headings = [
+        "wall",
+        "type",
+        "CR: median (g)",
+        "CDC / CR",
+        "CDR / CR",
+        "SDR / CR",
+        "CDR with Eq. (14) / CR",
+        "runs that stood at 150 m/s²",
+    ];
+    let mut table = Table::new(headings.map(|heading| Column::text("", heading)));
     for (row, summaries) in TABLE_5.iter().zip(walls) {
         let ratios = summaries[1..].iter().map(|summary| interval(&summary.median_ratio, 1.0));
         let median = interval(&summaries[0].median, STANDARD_GRAVITY);
