@@ -2,7 +2,6 @@
 
 use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::charts::{Charts, Frames};
@@ -20,12 +19,6 @@ pub struct Session {
     upload: Upload,
     last: Option<(Prepared, Response)>,
     fragility: Option<Fragility>,
-}
-
-/// An answer in the form that the page reads.
-#[derive(Serialize)]
-struct Reply<T> {
-    answer: T,
 }
 
 impl Session {
@@ -59,7 +52,7 @@ impl Session {
     /// The frames of the last run; apart from its other numbers, which keep all their digits.
     fn frames(&self) -> String {
         let frames = self.last.as_ref().map(|(_, response)| Frames::of(response));
-        serde_json::to_string(&Reply { answer: frames }).unwrap_or_default()
+        format!("{{\"answer\":{}}}", serde_json::to_string(&frames).unwrap_or_default())
     }
 
     fn last(&self) -> Result<&(Prepared, Response), Faults> {
@@ -84,7 +77,6 @@ impl Session {
             "facts": facts(scene, wall, &response),
             "warnings": warnings,
             "computed": parameters::computed(wall),
-            "notes": scene.motion_notes,
             "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
             "charts": Charts::new(wall, &response, inputs.width).inline(),
             "wall": {
@@ -96,7 +88,6 @@ impl Session {
             },
             "summary": {
                 "u_max": summary.u_max,
-                "u_ratio_max": summary.u_ratio_max,
                 "falls": summary.fate.falling(),
                 "peak_time": peak.time,
             },
