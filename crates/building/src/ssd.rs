@@ -99,9 +99,11 @@ fn connection(system: &System, Connection { from, output, to, input }: &Connecti
     let name = |index: usize| &system.components[index].name;
     let start = from.map_or_else(String::new, |from| format!(" startElement=\"{}\"", name(from)));
     format!(
-        "      <ssd:Connection{start} startConnector=\"{output}\" endElement=\"{}\" \
-         endConnector=\"{input}\"/>\n",
-        name(*to)
+        "      <ssd:Connection{start} startConnector=\"{}\" endElement=\"{}\" \
+         endConnector=\"{}\"/>\n",
+        output.name,
+        name(*to),
+        input.name
     )
 }
 
