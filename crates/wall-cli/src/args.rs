@@ -80,21 +80,16 @@ fn format_help() -> String {
 impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self, console: &Console<'_>) -> Result<Scene> {
-        let scene = self.load_unshaken()?;
-        self.scene.iter().for_each(|path| warn_of_motion(console, path, &scene));
-        Ok(scene)
-    }
-
-    /// The scene of a command that does not use its motion.
-    pub(crate) fn load_unshaken(&self) -> Result<Scene> {
         let Some(path) = &self.scene else { return Ok(Scene::default()) };
-        Scene::read(path).map_err(|error| {
+        let scene = Scene::read(path).map_err(|error| {
             if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
                 anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
             } else {
                 error.into()
             }
-        })
+        })?;
+        warn_of_motion(console, path, &scene);
+        Ok(scene)
     }
 
     /// Returns the files that the scene was read from.

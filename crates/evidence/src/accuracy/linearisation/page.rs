@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use report::palette::{BLUE, GREY, RED};
 use report::plot::Plot;
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Table};
 use run::figure::{both_rotations, period_ratios};
 use run::rotations::SLENDERNESS;
 
@@ -34,18 +34,19 @@ pub fn table(both: &[BothRotations]) -> Table {
 
 /// Returns the ratios of periods by slenderness and start, and Figure 2 in numbers.
 pub fn text(both: &[BothRotations]) -> String {
-    let starts = both.iter().flat_map(|measured| STARTS.map(|start| format!("{} {start}", measured.name)));
-    let ratio = |heading: String| Column::number("", heading, Digits::Decimals(5));
-    let alpha = Column::number("", "alpha", Digits::Decimals(2));
-    let columns = [alpha, ratio("Eq. (5)".to_owned())].into_iter().chain(starts.map(ratio));
-    let mut table = Table::new(columns);
-    for (index, alpha) in SLENDERNESS.into_iter().enumerate() {
-        let ratios = both.iter().flat_map(|measured| &measured.periods).map(|row| row[index].ratio().into());
-        table.row([alpha.into(), both[0].periods[0][index].over_housner().into()].into_iter().chain(ratios));
+    let ratio = Digits::Decimals(5);
+    let mut table = Table::over(SLENDERNESS.into_iter().enumerate())
+        .number("", "alpha", Digits::Decimals(2), |(_, alpha)| *alpha)
+        .number("", "Eq. (5)", ratio, |(index, _)| both[0].periods[0][*index].over_housner());
+    for measured in both {
+        for (start, periods) in STARTS.iter().zip(&measured.periods) {
+            let heading = format!("{} {start}", measured.name);
+            table = table.number("", heading, ratio, |(index, _)| periods[*index].ratio());
+        }
     }
     let mut text =
         String::from("small rotations: their period over that of full rotations, by start over u_ins\n");
-    text += &table.text();
+    text += &table.done().text();
     let first = |times: &[f64]| times.first().copied().unwrap_or(f64::NAN);
     for BothRotations { name, duration, restitution, history, .. } in both {
         let (linear, full) = (first(&history.linear.impacts), first(&history.trigonometric.impacts));
