@@ -36,7 +36,7 @@ TAIL = '''
 '''
 
 GIVEN_TAIL = '''\
-    points = Parameter[list[list[float]] | None](
+    points = Attribute[list[list[float]] | None](
         'Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law.'
     )
 '''
@@ -70,13 +70,13 @@ def given() -> str:
     """Returns the text of the file of the attributes."""
     head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
     names = [(each["name"], "str" if each["choices"] else "float") for each in _native.variables()]
-    lines = [f"    {name} = Parameter[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
+    lines = [f"    {name} = Attribute[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
     for name, description, unit in _native.calculated():
         told = json.dumps(f"{limited(description, unit)}.", ensure_ascii=False)
-        line = f"    {name} = Parameter[float]({told})\n"
+        line = f"    {name} = Attribute[float]({told})\n"
         if len(line) > 111:
             parts = textwrap.wrap(told[1:-1], 98, drop_whitespace=False)
-            line = f"    {name} = Parameter[float](\n" + "".join(f'        "{part}"\n' for part in parts) + "    )\n"
+            line = f"    {name} = Attribute[float](\n" + "".join(f'        "{part}"\n' for part in parts) + "    )\n"
         lines.append(line)
     return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
 

@@ -11,7 +11,7 @@ use report::palette::{DARK_GREY, SERIES};
 use report::plot::Picture;
 use run::figure::{cut, histories};
 
-use crate::arrays::{MotionValues, motion};
+use crate::arrays::Motion;
 use crate::errors::{failed, of_file, refused};
 use crate::watch::watched;
 
@@ -59,15 +59,14 @@ impl Building {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        ground: MotionValues<'py>,
+        ground: Motion,
         tail: f64,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let ground = motion(&ground)?;
-        let settings = Settings::new(&ground, tail, tolerance).map_err(refused)?;
+        let settings = Settings::new(&ground.0, tail, tolerance).map_err(refused)?;
         let Self { building, parts } = self;
         let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            Coupled::run_while(building, parts, &ground, settings, is_wanted)
+            Coupled::run_while(building, parts, &ground.0, settings, is_wanted)
         };
         let run = watched(py, work, || Ok(()))?.map_err(failed)?;
         self.values(py, &run)

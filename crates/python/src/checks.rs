@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 use report::table::Column;
 use run::records::NamedRecord;
 
-use crate::arrays::{MotionValues, motion};
+use crate::arrays::Motion;
 use crate::errors::{failed, of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
@@ -19,11 +19,10 @@ pub(crate) fn check_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
     text: String,
-    records: Vec<(String, MotionValues<'_>)>,
+    records: Vec<(String, Motion)>,
 ) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
-    let record =
-        |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
-    let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
+    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+    let records = records.into_iter().map(record).collect();
     let subject = Subject::from(&wall.scene);
     let checked = py.detach(|| {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;

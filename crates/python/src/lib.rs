@@ -45,30 +45,22 @@ mod watch;
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::buildings::{Building, picture_of_building};
-    #[pymodule_export]
-    use crate::calibrations::calibrate_wall;
-    #[pymodule_export]
-    use crate::checks::{check_wall, verify_formulas};
-    #[pymodule_export]
-    use crate::folders::Folder;
-    #[pymodule_export]
-    use crate::motions::{
-        average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
-        warnings_of_channel,
+    use crate::{
+        buildings::{Building, picture_of_building},
+        calibrations::calibrate_wall,
+        checks::{check_wall, verify_formulas},
+        folders::Folder,
+        motions::{
+            average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic,
+            trimmed, warnings_of_channel,
+        },
+        responses::picture_of_response,
+        spectra::{spectrum_over_pulses, spectrum_over_walls},
+        studies::Study,
+        ties::tie_of_wall,
+        variables::{calculated, variables},
+        walls::Wall,
     };
-    #[pymodule_export]
-    use crate::responses::picture_of_response;
-    #[pymodule_export]
-    use crate::spectra::{spectrum_over_pulses, spectrum_over_walls};
-    #[pymodule_export]
-    use crate::studies::Study;
-    #[pymodule_export]
-    use crate::ties::tie_of_wall;
-    #[pymodule_export]
-    use crate::variables::{calculated, variables};
-    #[pymodule_export]
-    use crate::walls::Wall;
     #[pymodule_export]
     const VERSION: &str = env!("PACKAGE_VERSION");
 }

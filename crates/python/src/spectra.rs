@@ -12,7 +12,7 @@ use study::spectrum::{
     over_pulses, over_walls,
 };
 
-use crate::arrays::{MotionValues, Numbers, motion, samples};
+use crate::arrays::{Motion, Numbers, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
 use crate::walls::Wall;
@@ -26,14 +26,14 @@ type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>, String);
 pub(crate) fn spectrum_over_walls<'py>(
     py: Python<'py>,
     wall: &Wall,
-    record: Option<MotionValues<'py>>,
+    record: Option<Motion>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
     threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values<'py>> {
     let mut scene = wall.scene.clone();
-    if let Some(record) = &record {
-        scene.shake(Excitation::new(motion(record)?, None), DEFAULT_TAIL, Vec::new());
+    if let Some(Motion(record)) = record {
+        scene.shake(Excitation::new(record, None), DEFAULT_TAIL, Vec::new());
     }
     let motion = common_motion(&scene).map_err(of_scene)?;
     let size = if sizes.0 { Size::SemiDiagonal } else { Size::Height };

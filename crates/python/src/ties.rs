@@ -8,7 +8,7 @@ use run::polarity::Polarities;
 use study::tie::figure::picture;
 use study::tie::{Outcome, Row, TieError, TieStudy, table};
 
-use crate::arrays::{MotionValues, grid, motion, samples};
+use crate::arrays::{Motion, grid, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables;
 use crate::walls::Wall;
@@ -23,12 +23,12 @@ const RUNS_AT_ONCE: usize = 4;
 pub(crate) fn tie_of_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
-    records: Vec<MotionValues<'py>>,
+    records: Vec<Motion>,
     stiffness: Option<Bound<'py, PyAny>>,
     both_polarities: bool,
     threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
-    let records = records.iter().map(motion).collect::<PyResult<_>>()?;
+    let records = records.into_iter().map(|Motion(record)| record).collect();
     let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
     let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
     let stiffnesses = study.stiffnesses(&given).map_err(refused)?;

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._given import Attribute
 from ._records import Record, motion_of, scaled
 from ._responses import Instant
 from ._tables import Table
@@ -123,6 +124,10 @@ class Building:
     The file is that of `wall building`; scenes of its walls are looked up beside it.
     """
 
+    title = Attribute[str]("Title.")
+    floors = Attribute[list[str]]("Names of the floors.")
+    walls = Attribute[list[str]]("Names of the walls.")
+
     def __init__(self, path: str | PathLike[str]) -> None:
         self._native = _native.Building(fspath(path))
         for warning in self._native.warnings:
@@ -135,21 +140,6 @@ class Building:
 
     def __repr__(self) -> str:
         return f"Building({self.title!r}, {len(self.floors)} floors, {len(self.walls)} walls)"
-
-    @property
-    def title(self) -> str:
-        """Title."""
-        return self._native.title
-
-    @property
-    def floors(self) -> list[str]:
-        """Names of the floors."""
-        return self._native.floors
-
-    @property
-    def walls(self) -> list[str]:
-        """Names of the walls."""
-        return self._native.walls
 
     def simulate(
         self, record: Record, *, scale: float = 1.0, tail: float = 10.0, tolerance: float = 0.01

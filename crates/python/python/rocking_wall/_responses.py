@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._tables import Table
+from ._tables import Table, Tabular
 
 if TYPE_CHECKING:
     import pandas
@@ -147,7 +147,7 @@ class Response:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Peaks:
+class Peaks(Tabular):
     """Peaks of a wall under a record multiplied by factors, one for each."""
 
     factor: Array
@@ -175,10 +175,6 @@ class Peaks:
         """All of it as a table."""
         columns = ("factor", "u_max", "u_ratio_max", "overturned", "overturn_time")
         return Table({name: getattr(self, name) for name in columns})
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """Returns the table as a DataFrame of pandas, which has to be installed."""
-        return self.table.to_pandas()
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()

@@ -13,8 +13,9 @@ from warnings import warn
 import numpy as np
 
 from . import _native
+from ._given import Attribute
 from ._records import Record, motion_of, read_record
-from ._tables import Table, toml
+from ._tables import Table, Tabular, toml
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -27,8 +28,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StudyResults:
+class StudyResults(Tabular):
     """Results of a study, as the tables that `wall study ida` writes."""
+
+    _main = "fragilities"
 
     levels: Table
     """Every run; `overturn_time_s` is NaN for a wall that stood."""
@@ -41,10 +44,6 @@ class StudyResults:
     def __repr__(self) -> str:
         runs, curves = len(self.levels["wall"]), len(self.collapses["wall"])
         return f"StudyResults({runs} runs, {curves} curves)"
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """Returns the fragilities as a DataFrame of pandas, which has to be installed."""
-        return self.fragilities.to_pandas()
 
     def _repr_html_(self) -> str:
         return self.fragilities._repr_html_()
@@ -66,6 +65,12 @@ class Study:
     >>> study
     Study('Incremental dynamic analysis', 2 walls, 3 records, 2 damping models)
     """
+
+    title = Attribute[str]("Title.")
+    walls = Attribute[list[str]]("Names of the walls.")
+    records = Attribute[list[str]]("Names of the records.")
+    models = Attribute[list[str]]("Names of the damping models.")
+    measure = Attribute[str]("Name of the intensity measure.")
 
     def __init__(
         self,
@@ -140,31 +145,6 @@ class Study:
 
     def __len__(self) -> int:
         return len(self._native)
-
-    @property
-    def title(self) -> str:
-        """Title."""
-        return self._native.title
-
-    @property
-    def walls(self) -> list[str]:
-        """Names of the walls."""
-        return self._native.walls
-
-    @property
-    def records(self) -> list[str]:
-        """Names of the records."""
-        return self._native.records
-
-    @property
-    def models(self) -> list[str]:
-        """Names of the damping models."""
-        return self._native.models
-
-    @property
-    def measure(self) -> str:
-        """Name of the intensity measure."""
-        return self._native.measure
 
     def run(self, *, threads: int | None = None, progress: bool = True) -> StudyResults:
         """Runs the study on all cores, or on some threads, and fits the fragilities.

@@ -15,15 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._calibration import Calibration
-from ._checks import Verdict
 from ._given import Given
 from ._parameters import Parameters
 from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
-from ._spectra import RockingSpectrum
+from ._results import Calibration, RockingSpectrum, TieStudy, Verdict
 from ._tables import Table, shown, toml
-from ._ties import TieStudy
 
 
 class Description(dict[str, Any]):
