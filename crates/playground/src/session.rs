@@ -4,7 +4,7 @@ use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
 use serde_json::{Value, json};
 
-use crate::charts::{Charts, Frames};
+use crate::charts::{Frames, charts, file, inline};
 use crate::check;
 use crate::fragility::Fragility;
 use crate::parameters;
@@ -38,7 +38,7 @@ impl Session {
             Ok(Request::NextMotion) => self.next_motion(),
             Ok(Request::Csv) => self.last().map(|(_, response)| response.csv().into()),
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
-                Charts::new(&prepared.wall, response, run::figure::WIDTH).file().into()
+                file(charts(&prepared.wall, response, run::figure::WIDTH)).into()
             }),
             // the page writes its requests itself
             Err(_) => Err(fault_of("request", "the page asks for what it cannot compute; load it again")),
@@ -78,7 +78,7 @@ impl Session {
             "warnings": warnings,
             "computed": parameters::computed(wall),
             "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
-            "charts": Charts::new(wall, &response, inputs.width).inline(),
+            "charts": inline(charts(wall, &response, inputs.width)),
             "wall": {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,

@@ -14,8 +14,7 @@
 //! | `variables` | the parameters of the model description |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
-//! | `checks`, `spectra` | checks by codes, rocking spectra |
-//! | `calibrations`, `ties` | damping that matches restitution, ties of any stiffness |
+//! | `jobs` | checks by codes, rocking spectra, ties of any stiffness, damping that matches restitution |
 //! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
@@ -26,17 +25,14 @@
 
 mod arrays;
 mod buildings;
-mod calibrations;
-mod checks;
 mod errors;
 mod folders;
+mod jobs;
 mod motions;
 mod responses;
-mod spectra;
 mod studies;
 mod study_walls;
 mod tables;
-mod ties;
 mod variables;
 mod walls;
 mod watch;
@@ -46,18 +42,18 @@ mod watch;
 mod _native {
     #[pymodule_export]
     use crate::{
-        buildings::{Building, picture_of_building},
-        calibrations::calibrate_wall,
-        checks::{check_wall, verify_formulas},
+        buildings::Building,
         folders::Folder,
+        jobs::{
+            calibrate_wall, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
+            verify_formulas,
+        },
         motions::{
             average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic,
             trimmed, warnings_of_channel,
         },
         responses::picture_of_response,
-        spectra::{spectrum_over_pulses, spectrum_over_walls},
         studies::Study,
-        ties::tie_of_wall,
         variables::{calculated, variables},
         walls::Wall,
     };

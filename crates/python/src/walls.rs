@@ -41,6 +41,9 @@ pub(crate) struct Wall {
 /// with what is known of them.
 type Values = (String, Vec<(String, String)>, Option<f64>, Option<(Motion, Option<Motion>)>, Vec<String>);
 
+/// The solver in words, u and F at the corners of the restoring force, warnings, and the capacity curve.
+type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
+
 #[pymethods]
 impl Wall {
     #[new]
@@ -130,14 +133,6 @@ impl Wall {
         &self.scene.title
     }
 
-    /// Returns what is unusual about the wall.
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        let warnings = self.equation.warnings().iter();
-        let of_floors = self.scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
-        warnings.map(ToString::to_string).chain(of_floors).collect()
-    }
-
     /// Returns the parameters as texts of a scene file.
     #[getter]
     fn parameters(&self) -> Vec<(&'static str, String)> {
@@ -174,24 +169,17 @@ impl Wall {
         facts.map(|fact| (fact.name, fact.symbol, fact.value, fact.unit)).collect()
     }
 
-    /// Returns the solver in words.
-    fn method(&self) -> PyResult<String> {
-        let parameters = &self.scene.parameters;
-        let method = Method::new(parameters, &self.equation, parameters.tolerance).map_err(refused)?;
-        Ok(method.to_string())
-    }
-
-    /// Returns u and F at the corners of the restoring force.
-    fn backbone<'py>(&self, py: Python<'py>) -> [Numbers<'py>; 2] {
-        let (u, force): (Vec<_>, Vec<_>) = self.equation.backbone().into_iter().unzip();
-        [u, force].map(|values| PyArray1::from_vec(py, values))
-    }
-
-    /// Draws the capacity curve of u > 0, as SVG.
-    fn picture(&self) -> String {
-        let corners = self.equation.capacity_corners(1.0);
+    /// Returns the solver in words, u and F at the corners of the restoring force, what is unusual about the
+    /// wall, and the capacity curve of u > 0 as SVG.
+    fn description(&self) -> PyResult<Description> {
+        let Self { scene, equation, .. } = self;
+        let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
+        let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(equation));
+        let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
+        let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg()
+        let picture = plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg();
+        Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
 
     /// Runs the wall under a motion, under that of its scene, or in free vibration.

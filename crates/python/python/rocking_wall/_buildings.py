@@ -84,6 +84,7 @@ class BuildingResponse:
     """Communication step [s], short enough for the tolerance."""
     change: float
     """Largest change of a peak by the last halving of the step, over the peak [-]."""
+    _picture: str
 
     def __repr__(self) -> str:
         fallen = [name for name, wall in self.walls.items() if wall.falls]
@@ -109,13 +110,7 @@ class BuildingResponse:
         )
 
     def _repr_html_(self) -> str:
-        picture = _native.picture_of_building(
-            self.time.tolist(),
-            self.ground.tolist(),
-            [floor.acceleration.tolist() for floor in self.floors.values()],
-            [wall.u_ratio.tolist() for wall in self.walls.values()],
-        )
-        return self.peaks._repr_html_() + picture
+        return self.peaks._repr_html_() + self._picture
 
 
 class Building:

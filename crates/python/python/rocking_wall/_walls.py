@@ -29,11 +29,8 @@ class Description(dict[str, Any]):
     def __init__(self, wall: _native.Wall) -> None:
         self._facts = wall.facts()
         super().__init__((name, value) for name, _, value, _ in self._facts)
-        u, force = wall.backbone()
-        self["solver"] = wall.method()
-        self["backbone"] = np.column_stack([u, force])
-        self["warnings"] = wall.warnings
-        self._picture = wall.picture()
+        self["solver"], backbone, self["warnings"], self._picture = wall.description()
+        self["backbone"] = np.array(backbone)
 
     def __repr__(self) -> str:
         lines = [f"{name:<22}{symbol:<8}{shown(value)} {unit}" for name, symbol, value, unit in self._facts]
