@@ -70,6 +70,7 @@ class Given:
     tie_slack = Attribute[float]()
     tie_strength = Attribute[float]()
     tie_side = Attribute[str]()
+    tie_ultimate = Attribute[float]()
     kinematics = Attribute[str]()
     mass = Attribute[float]("Mass of the wall, overburden not included [kg].")
     effective_mass = Attribute[float]("Effective mass of the equation of motion [kg].")

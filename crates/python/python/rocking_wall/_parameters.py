@@ -125,11 +125,15 @@ class Parameters(TypedDict, total=False):
     is not 0; default 0.0."""
 
     tie_strength: float
-    """Force that the tie resists, a limit state of its demand; 0 where none is given [N], at least 0, at most
-    1e+12; where tie_stiffness is not 0; default 0.0."""
+    """Force at which the tie yields, or a limit state of an elastic one; 0 where none is given [N], at least
+    0, at most 1e+12; where tie_stiffness is not 0; default 0.0."""
 
     tie_side: Literal["positive", "negative", "both"]
     """Side on which the tie holds the wall; where tie_stiffness is not 0; default positive."""
+
+    tie_ultimate: float
+    """Plastic elongation at which the tie breaks, yielding at tie_strength; -1: it stays elastic [m], at
+    least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0."""
 
     kinematics: Literal["linear", "trigonometric"]
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
