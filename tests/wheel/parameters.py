@@ -76,7 +76,8 @@ def given() -> str:
         line = f"    {name} = Attribute[float]({told})\n"
         if len(line) > 111:
             parts = textwrap.wrap(told[1:-1], 98, drop_whitespace=False)
-            line = f"    {name} = Attribute[float](\n" + "".join(f'        "{part}"\n' for part in parts) + "    )\n"
+            wrapped = "".join(f'        "{part}"\n' for part in parts)
+            line = f"    {name} = Attribute[float](\n{wrapped}    )\n"
         lines.append(line)
     return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
 

@@ -1,5 +1,5 @@
-//! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness, damping
-//! that matches restitution; and of formulas beside references.
+//! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
+//! damping that matches restitution; and of formulas beside references.
 
 use check::{CheckError, CheckFile, Subject, read};
 use evidence::verification::{page, verify};

@@ -41,8 +41,8 @@ fn identity(path: &Path) -> Option<Identity> {
 pub(super) const STDOUT: &str = "-";
 
 impl Console<'_> {
-    /// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF. If
-    /// one of them is `-`, all messages from here on go to stderr.
+    /// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF.
+    /// If one of them is `-`, all messages from here on go to stderr.
     pub(crate) fn check_distinct<'a>(
         &self,
         inputs: impl IntoIterator<Item = &'a PathBuf>,
@@ -58,8 +58,8 @@ impl Console<'_> {
         for path in outputs {
             if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
                 bail!(
-                    "{}: no output is a PDF; give a page that ends in .html and print it from a browser, or a \
-                     picture that ends in .svg",
+                    "{}: no output is a PDF; give a page that ends in .html and print it from a browser, or \
+                     a picture that ends in .svg",
                     path.display()
                 );
             }
