@@ -1,8 +1,9 @@
-"""Writes `_parameters.py`, the parameters of a wall and what follows from them, from the model description.
+"""Writes the parameters of a wall, and what follows from them, from the model description.
 
 `cargo xtask generate python` runs it; with --check it says what is stale.
 """
 
+import json
 import sys
 import textwrap
 from pathlib import Path
@@ -15,15 +16,13 @@ GIVEN = FOLDER / "_given.py"
 GIVEN_HEAD = "    _native: _native.Wall\n"
 """After this line the file of the attributes is written."""
 
-HEAD = '''"""The parameters of a wall, and what follows from them.
+HEAD = '''"""The parameters of a wall.
 
 Written by `cargo xtask generate python` from the model description.
 """
 
 from collections.abc import Sequence
 from typing import Literal, TypedDict
-
-from . import _native
 
 
 class Parameters(TypedDict, total=False):
@@ -36,20 +35,10 @@ TAIL = '''
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
 '''
 
-GIVEN_TAIL = '''
-    @property
-    def points(self) -> list[list[float]] | None:
-        """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law."""
-        points: list[list[float]] | None = self._native.parameter("points")
-        return points
-'''
-
-CALCULATED = '''
-
-class Calculated:
-    """What follows from the parameters of a wall; in SI units."""
-
-    _native: _native.Wall
+GIVEN_TAIL = '''\
+    points = Attribute[list[list[float]] | None](
+        'Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law.'
+    )
 '''
 
 
@@ -74,14 +63,22 @@ def text() -> str:
             lines += textwrap.wrap(choices, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
             lines.append("    ]")
         lines += textwrap.wrap(f'"""{told}"""', 110, initial_indent=" " * 4, subsequent_indent=" " * 4)
-    return HEAD + "\n".join(lines) + "\n" + TAIL + CALCULATED + calculated()
+    return HEAD + "\n".join(lines) + "\n" + TAIL
 
 
 def given() -> str:
     """Returns the text of the file of the attributes."""
     head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
     names = [(each["name"], "str" if each["choices"] else "float") for each in _native.variables()]
-    lines = [f"    {name} = Parameter[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
+    lines = [f"    {name} = Attribute[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
+    for name, description, unit in _native.calculated():
+        told = json.dumps(f"{limited(description, unit)}.", ensure_ascii=False)
+        line = f"    {name} = Attribute[float]({told})\n"
+        if len(line) > 111:
+            parts = textwrap.wrap(told[1:-1], 98, drop_whitespace=False)
+            wrapped = "".join(f'        "{part}"\n' for part in parts)
+            line = f"    {name} = Attribute[float](\n{wrapped}    )\n"
+        lines.append(line)
     return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
 
 
@@ -89,17 +86,6 @@ def limited(description: str, unit: str, limits: str = "") -> str:
     """Returns a description with unit and limits, before the condition where it has one."""
     description, where, condition = description.partition("; where ")
     return f"{description}{f' [{unit}]' if unit else ''}{limits}{where}{condition}"
-
-
-def calculated() -> str:
-    """Returns the properties of what follows from the parameters."""
-    lines = []
-    for name, description, unit in _native.calculated():
-        told = f'"""{limited(description, unit)}."""'
-        lines += ["", "    @property", f"    def {name}(self) -> float:"]
-        lines += textwrap.wrap(told, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
-        lines += [f'        return self._native.calculated("{name}")']
-    return "\n".join(lines) + "\n"
 
 
 def stale() -> list[Path]:

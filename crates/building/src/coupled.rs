@@ -7,15 +7,17 @@
 use fmu_export::Step;
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
+use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::response::Fate;
 use rocking_wall::scene::{SceneError, check_tail};
 use rocking_wall::solver::reported_peak;
+use rocking_wall::variables::RealVariable as WallVariable;
 use rocking_wall::wall::Wall;
 
 use crate::document::Building;
 use crate::error::BuildingError;
 use crate::parts::Parts;
-use crate::units::{Plan, Unit, reference};
+use crate::units::{Plan, Unit, at};
 
 /// Longest communication step \[s\].
 const LONGEST_STEP: f64 = 2e-3;
@@ -171,7 +173,7 @@ impl Coupled {
         settings: Settings,
         is_wanted: &dyn Fn() -> bool,
     ) -> Result<Self, BuildingError> {
-        let (plan, references) = (&parts.plan, References::new(building)?);
+        let (plan, references) = (&parts.plan, References::new(building));
         let mut parts = (ground.step() / LONGEST_STEP).ceil().max(1.0);
         let mut before: Option<Self> = None;
         loop {
@@ -225,20 +227,14 @@ struct References {
 }
 
 impl References {
-    fn new(building: &Building) -> Result<Self, BuildingError> {
-        let count = building.floors.len();
-        let floor = |unit| {
-            Ok([reference(count, unit, "acceleration_absolute")?, reference(count, unit, "displacement")?])
-        };
-        let wall = |unit| {
-            let of = |name| reference(count, unit, name);
-            let [u, ratio, bottom] = [of("u")?, of("u_ratio")?, of("reaction_bottom")?];
-            Ok([u, ratio, bottom, of("reaction_top")?, of("u_max")?, of("overturn_time")?])
-        };
-        Ok(Self {
-            floors: (0..count).map(floor).collect::<Result<_, BuildingError>>()?,
-            walls: (count..count + building.walls.len()).map(wall).collect::<Result<_, BuildingError>>()?,
-        })
+    fn new(building: &Building) -> Self {
+        use WallVariable::{OverturnTime, ReactionBottom, ReactionTop, U, UMax, URatio};
+        let floor =
+            |unit| [FloorVariable::AccelerationAbsolute, FloorVariable::Displacement].map(|id| at(unit, id));
+        let wall = |unit| [U, URatio, ReactionBottom, ReactionTop, UMax, OverturnTime].map(|id| at(unit, id));
+        let floors = building.floors.len();
+        let units = floors + building.walls.len();
+        Self { floors: (0..floors).map(floor).collect(), walls: (floors..units).map(wall).collect() }
     }
 }
 

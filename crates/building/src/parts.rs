@@ -52,7 +52,7 @@ impl Parts {
         let system = system(building, &scenes)?;
         let payloads = building.floors.iter().map(payload);
         let payloads = payloads.chain(scenes.iter().map(|scene| to_toml(scene, ""))).collect();
-        let plan = Plan::new(building, &system, payloads)?;
+        let plan = Plan::new(building, &system, payloads);
         Ok(Self { scenes, walls, system, plan, warnings })
     }
 

@@ -1,21 +1,11 @@
 //! The system's description as XML: SSP 1.0, with types and units inside.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
 
-use crate::wiring::{Component, System};
-
-const NAMESPACES: [(&str, &str); 4] = [
-    ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
-    ("ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription"),
-    // the step for libcosim
-    ("osp", "http://opensimulationplatform.com/SSP/OSPAnnotations"),
-    // the step for OMSimulator
-    ("oms", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"),
-];
+use crate::wiring::{Component, Connection, System};
 
 /// The name of description and system. Some importers want identifiers, so the title is the description.
 const NAME: &str = "building";
@@ -33,90 +23,99 @@ const UNITS: [(&str, &str); 9] = [
     ("N.s/m", r#" kg="1" s="-1""#),
 ];
 
-/// The text of `SystemStructure.ssd`, with the communication step `step` \[s\].
+/// The text of `SystemStructure.ssd`, with the communication step `step` \[s\]: that of `oms` is for
+/// `OMSimulator`, that of `osp` for libcosim.
 pub(crate) fn text(system: &System, step: f64) -> String {
-    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    // writing to a String cannot fail
-    let _ = write(&mut xml, system, step);
-    xml
-}
-
-fn write(xml: &mut String, system: &System, step: f64) -> std::fmt::Result {
-    let title = escaped(&system.title);
-    write!(xml, "<ssd:SystemStructureDescription version=\"1.0\" name=\"{NAME}\"")?;
-    writeln!(xml, " generationTool=\"rocking-wall {}\"", env!("CARGO_PKG_VERSION"))?;
-    let namespaces: Vec<_> =
-        NAMESPACES.iter().map(|(prefix, uri)| format!("  xmlns:{prefix}=\"{uri}\"")).collect();
-    writeln!(xml, "{}>", namespaces.join("\n"))?;
-    writeln!(xml, "  <ssd:System name=\"{NAME}\" description=\"{title}\">")?;
-    if system.expose_ground {
-        writeln!(xml, "    <ssd:Connectors>")?;
-        write_connector(xml, "      ", FloorVariable::AG.variable())?;
-        writeln!(xml, "    </ssd:Connectors>")?;
-    }
-    writeln!(xml, "    <ssd:Elements>")?;
-    for component in &system.components {
-        write_component(xml, component)?;
-    }
-    writeln!(xml, "    </ssd:Elements>\n    <ssd:Connections>")?;
-    for connection in &system.connections {
-        write!(xml, "      <ssd:Connection")?;
-        if let Some(from) = connection.from {
-            write!(xml, " startElement=\"{}\"", system.components[from].name)?;
-        }
-        let to = &system.components[connection.to].name;
-        let (output, input) = (connection.output, connection.input);
-        writeln!(xml, " startConnector=\"{output}\" endElement=\"{to}\" endConnector=\"{input}\"/>")?;
-    }
-    writeln!(xml, "    </ssd:Connections>\n    <ssd:Annotations>")?;
-    writeln!(xml, "      <ssc:Annotation type=\"org.openmodelica\">\n        <oms:Annotations>")?;
-    writeln!(xml, "          <oms:SimulationInformation>")?;
-    write!(xml, "            <oms:FixedStepMaster description=\"oms-ma\"")?;
-    writeln!(xml, " stepSize=\"{step:?}\" relativeTolerance=\"1e-08\"/>")?;
-    writeln!(xml, "          </oms:SimulationInformation>\n        </oms:Annotations>")?;
-    writeln!(xml, "      </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:System>")?;
-    write_units(xml, system)?;
-    writeln!(xml, "  <ssd:DefaultExperiment startTime=\"0\" stopTime=\"{:?}\">", system.stop_time)?;
-    writeln!(xml, "    <ssd:Annotations>\n      <ssc:Annotation type=\"com.opensimulationplatform\">")?;
-    writeln!(xml, "        <osp:Algorithm>")?;
-    writeln!(xml, "          <osp:FixedStepAlgorithm baseStepSize=\"{step:?}\"/>")?;
-    writeln!(xml, "        </osp:Algorithm>\n      </ssc:Annotation>\n    </ssd:Annotations>")?;
-    writeln!(xml, "  </ssd:DefaultExperiment>\n</ssd:SystemStructureDescription>")
-}
-
-fn write_component(xml: &mut String, component: &Component) -> std::fmt::Result {
-    let Component { name, source, connectors } = component;
-    write!(xml, "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\"")?;
-    writeln!(xml, " source=\"{source}\" implementation=\"CoSimulation\">\n        <ssd:Connectors>")?;
-    for connector in connectors {
-        write_connector(xml, "          ", connector)?;
-    }
-    writeln!(xml, "        </ssd:Connectors>")?;
-    writeln!(xml, "      </ssd:Component>")
-}
-
-fn write_connector(xml: &mut String, indent: &str, variable: &Variable) -> std::fmt::Result {
-    let Variable { name, causality, kind, unit, .. } = variable;
-    let direction = if *causality == Causality::Input { "input" } else { "output" };
-    let kind = match (kind, unit) {
-        (Kind::Boolean { .. }, _) => "<ssc:Boolean/>".to_owned(),
-        (_, Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
-        (_, None) => "<ssc:Real/>".to_owned(),
+    let (version, title) = (env!("CARGO_PKG_VERSION"), escaped(&system.title));
+    let ground = if system.expose_ground {
+        connectors("    ", &[FloorVariable::AG.variable()])
+    } else {
+        String::new()
     };
-    writeln!(xml, "{indent}<ssd:Connector name=\"{name}\" kind=\"{direction}\">{kind}</ssd:Connector>")
+    let elements: String = system.components.iter().map(component).collect();
+    let connections: String = system.connections.iter().map(|each| connection(system, each)).collect();
+    let (units, stop_time) = (units(system), system.stop_time);
+    format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<ssd:SystemStructureDescription version="1.0" name="{NAME}" generationTool="rocking-wall {version}"
+  xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
+  xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+  xmlns:osp="http://opensimulationplatform.com/SSP/OSPAnnotations"
+  xmlns:oms="https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd">
+  <ssd:System name="{NAME}" description="{title}">
+{ground}    <ssd:Elements>
+{elements}    </ssd:Elements>
+    <ssd:Connections>
+{connections}    </ssd:Connections>
+    <ssd:Annotations>
+      <ssc:Annotation type="org.openmodelica">
+        <oms:Annotations>
+          <oms:SimulationInformation>
+            <oms:FixedStepMaster description="oms-ma" stepSize="{step:?}" relativeTolerance="1e-08"/>
+          </oms:SimulationInformation>
+        </oms:Annotations>
+      </ssc:Annotation>
+    </ssd:Annotations>
+  </ssd:System>
+  <ssd:Units>
+{units}  </ssd:Units>
+  <ssd:DefaultExperiment startTime="0" stopTime="{stop_time:?}">
+    <ssd:Annotations>
+      <ssc:Annotation type="com.opensimulationplatform">
+        <osp:Algorithm>
+          <osp:FixedStepAlgorithm baseStepSize="{step:?}"/>
+        </osp:Algorithm>
+      </ssc:Annotation>
+    </ssd:Annotations>
+  </ssd:DefaultExperiment>
+</ssd:SystemStructureDescription>
+"#
+    )
+}
+
+fn component(Component { name, source, connectors: own }: &Component) -> String {
+    format!(
+        "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\" source=\"{source}\" \
+         implementation=\"CoSimulation\">\n{}      </ssd:Component>\n",
+        connectors("        ", own)
+    )
+}
+
+fn connectors(indent: &str, variables: &[&Variable]) -> String {
+    let connector = |Variable { name, causality, kind, unit, .. }: &&Variable| {
+        let direction = if *causality == Causality::Input { "input" } else { "output" };
+        let kind = match (kind, unit) {
+            (Kind::Boolean { .. }, _) => "<ssc:Boolean/>".to_owned(),
+            (_, Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
+            (_, None) => "<ssc:Real/>".to_owned(),
+        };
+        format!("{indent}  <ssd:Connector name=\"{name}\" kind=\"{direction}\">{kind}</ssd:Connector>\n")
+    };
+    let connectors: String = variables.iter().map(connector).collect();
+    format!("{indent}<ssd:Connectors>\n{connectors}{indent}</ssd:Connectors>\n")
+}
+
+fn connection(system: &System, Connection { from, output, to, input }: &Connection) -> String {
+    let name = |index: usize| &system.components[index].name;
+    let start = from.map_or_else(String::new, |from| format!(" startElement=\"{}\"", name(from)));
+    format!(
+        "      <ssd:Connection{start} startConnector=\"{}\" endElement=\"{}\" \
+         endConnector=\"{}\"/>\n",
+        output.name,
+        name(*to),
+        input.name
+    )
 }
 
 /// The units that connectors name.
-fn write_units(xml: &mut String, system: &System) -> std::fmt::Result {
+fn units(system: &System) -> String {
     let connectors = system.components.iter().flat_map(|component| &component.connectors);
-    let mut used: BTreeSet<&str> = connectors.filter_map(|connector| connector.unit).collect();
-    used.insert("m/s2");
-    writeln!(xml, "  <ssd:Units>")?;
-    for unit in used {
+    let used: BTreeSet<&str> = connectors.filter_map(|connector| connector.unit).chain(["m/s2"]).collect();
+    let unit = |unit: &str| {
         let base = UNITS.iter().find(|(name, _)| *name == unit).map_or("", |(_, base)| base);
-        writeln!(xml, "    <ssc:Unit name=\"{unit}\"><ssc:BaseUnit{base}/></ssc:Unit>")?;
-    }
-    writeln!(xml, "  </ssd:Units>")
+        format!("    <ssc:Unit name=\"{unit}\"><ssc:BaseUnit{base}/></ssc:Unit>\n")
+    };
+    used.into_iter().map(unit).collect()
 }
 
 /// Text inside an attribute.

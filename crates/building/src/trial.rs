@@ -4,11 +4,12 @@
 //! do: inputs are held over the step, or linear by the derivatives of the outputs.
 
 use fmu_export::Step;
+use rocking_floor::variables::RealVariable as FloorVariable;
+use rocking_wall::variables::RealVariable as WallVariable;
 
 use crate::document::Building;
-use crate::error::BuildingError;
 use crate::parts::Parts;
-use crate::units::{Plan, reference};
+use crate::units::{Plan, at};
 
 /// Steps that are tried \[s\], each a part of [`GRID`].
 const STEPS: [f64; 10] = [0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5];
@@ -59,11 +60,8 @@ struct Trials<'a> {
 }
 
 /// Finds the steps that a building needs.
-///
-/// # Errors
-/// If a unit cannot start.
-pub fn trial(building: &Building, parts: &Parts) -> Result<Trial, BuildingError> {
-    let plan = Trials::new(building, &parts.plan)?;
+pub fn trial(building: &Building, parts: &Parts) -> Trial {
+    let plan = Trials::new(building, &parts.plan);
     let Trials { duration, is_shaken, .. } = plan;
     let steps: Vec<f64> = STEPS.into_iter().filter(|step| plan.count(*step) <= MOST_STEPS).collect();
     let mut linear: Vec<(f64, Option<History>)> = Vec::new();
@@ -82,14 +80,14 @@ pub fn trial(building: &Building, parts: &Parts) -> Result<Trial, BuildingError>
     }
     let least = steps.last().copied().unwrap_or(GRID);
     let Some(reference) = reference else {
-        return Ok(Trial { held: None, linear: None, least, duration, is_shaken });
+        return Trial { held: None, linear: None, least, duration, is_shaken };
     };
     let suits = |history: &Option<History>| history.as_ref().is_some_and(|h| error(h, &reference) <= ERROR);
     // the largest step such that it and every smaller one suffice
     let good = linear.iter().rev().take_while(|(_, history)| suits(history)).last();
     let good = good.map(|(step, _)| *step);
     let held = steps.iter().copied().find(|&step| suits(&plan.run(step, false).ok()));
-    Ok(Trial { held, linear: good, least, duration, is_shaken })
+    Trial { held, linear: good, least, duration, is_shaken }
 }
 
 /// The watched outputs at multiples of [`GRID`].
@@ -118,21 +116,17 @@ fn pulse(time: f64) -> f64 {
 }
 
 impl<'a> Trials<'a> {
-    fn new(building: &Building, plan: &'a Plan) -> Result<Self, BuildingError> {
+    fn new(building: &Building, plan: &'a Plan) -> Self {
         let floors = building.floors.len();
-        let mut watched = Vec::new();
-        for index in 0..floors + building.walls.len() {
-            let names: &[&str] =
-                if index < floors { &["displacement", "acceleration_absolute"] } else { &["u"] };
-            for name in names {
-                watched.push(reference(floors, index, name)?);
-            }
-        }
+        let of_floor =
+            |unit| [FloorVariable::Displacement, FloorVariable::AccelerationAbsolute].map(|id| at(unit, id));
+        let of_walls = (floors..floors + building.walls.len()).map(|unit| at(unit, WallVariable::U));
+        let watched = (0..floors).flat_map(of_floor).chain(of_walls).collect();
         let duration = (building.stop_time.min(LONGEST) / GRID).round().max(1.0) * GRID;
         let mut trials = Self { plan, watched, duration, is_shaken: false };
         let first = trials.run(GRID, false).unwrap_or_default();
         trials.is_shaken = first.iter().flatten().all(|value| *value == 0.0);
-        Ok(trials)
+        trials
     }
 
     /// Counts the steps of all units in a run.

@@ -2,11 +2,12 @@
 
 use fmu_export::{Environment, Experiment, Interface, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit as FloorUnit;
+use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::unit::Unit as WallUnit;
+use rocking_wall::variables::RealVariable as WallVariable;
 
 use crate::document::{Building, Support};
-use crate::error::BuildingError;
-use crate::wiring::{System, variable};
+use crate::wiring::System;
 
 /// The result of a unit: its message, if it fails.
 type Result<T, E = String> = std::result::Result<T, E>;
@@ -80,31 +81,23 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Makes the plan of a building from its system and the contents of its units.
-    ///
-    /// # Errors
-    /// If a connection names a variable that does not exist.
-    pub(crate) fn new(
-        building: &Building,
-        system: &System,
-        payloads: Vec<String>,
-    ) -> Result<Self, BuildingError> {
-        let floors = building.floors.len();
-        let mut connections = Vec::new();
-        for connection in &system.connections {
-            if let Some(from) = connection.from {
-                let output = reference(floors, from, connection.output)?;
-                connections.push([output, reference(floors, connection.to, connection.input)?]);
-            }
-        }
-        let bases = building.floors.iter().map(|floor| [(Some(floor.base), "a_g"), (None, "")]);
-        let ends = building.walls.iter().map(|wall| [(Some(wall.bottom), "a_bottom"), (wall.top, "a_top")]);
+    pub(crate) fn new(building: &Building, system: &System, payloads: Vec<String>) -> Self {
+        let connected = system.connections.iter().filter_map(|connection| {
+            let output = (connection.from?, connection.output.reference);
+            Some([output, (connection.to, connection.input.reference)])
+        });
+        let bases =
+            building.floors.iter().map(|floor| vec![(Some(floor.base), FloorVariable::AG.variable())]);
+        let ends = building.walls.iter().map(|wall| {
+            let (bottom, top) = (WallVariable::ABottom.variable(), WallVariable::ATop.variable());
+            vec![(Some(wall.bottom), bottom), (wall.top, top)]
+        });
         let mut ground = Vec::new();
         for (index, supports) in bases.chain(ends).enumerate() {
-            for (_, input) in supports.iter().filter(|(support, _)| *support == Some(Support::Ground)) {
-                ground.push(reference(floors, index, input)?);
-            }
+            let moved = supports.iter().filter(|(support, _)| *support == Some(Support::Ground));
+            ground.extend(moved.map(|(_, input)| (index, input.reference)));
         }
-        Ok(Self { payloads, floors, connections, ground })
+        Self { payloads, floors: building.floors.len(), connections: connected.collect(), ground }
     }
 
     /// Makes the units and ends their initialisation.
@@ -121,8 +114,6 @@ impl Plan {
 }
 
 /// Returns a unit and the reference of its variable.
-pub(crate) fn reference(floors: usize, unit: usize, name: &str) -> Result<(usize, u32), BuildingError> {
-    let reason =
-        || BuildingError::General { file: "the unit".into(), reason: format!("no variable {name:?}") };
-    variable(unit < floors, name).map(|variable| (unit, variable.reference)).ok_or_else(reason)
+pub(crate) fn at(unit: usize, variable: impl VariableId) -> (usize, u32) {
+    (unit, variable.variable().reference)
 }

@@ -12,12 +12,12 @@ type Result<T> = std::result::Result<T, BuildingError>;
 
 /// Inputs of a floor for what stands on it.
 const MOST_LOADS: usize = 8;
-/// Name of the system's own input, the ground's acceleration.
-const GROUND_MOTION: &str = "a_g";
 
 /// Outputs of each member that are listed even if nothing is connected to them.
-const SHOWN_OF_A_FLOOR: [&str; 3] = ["displacement", "velocity", "acceleration_absolute"];
-const SHOWN_OF_A_WALL: [&str; 4] = ["u", "u_dot", "u_ratio", "overturn_time"];
+const SHOWN_OF_A_FLOOR: [FloorVariable; 3] =
+    [FloorVariable::Displacement, FloorVariable::Velocity, FloorVariable::AccelerationAbsolute];
+const SHOWN_OF_A_WALL: [WallVariable; 4] =
+    [WallVariable::U, WallVariable::UDot, WallVariable::URatio, WallVariable::OverturnTime];
 
 /// A system of FMUs.
 #[derive(Clone, Debug)]
@@ -44,9 +44,9 @@ pub(crate) struct Component {
 pub(crate) struct Connection {
     /// `None` for the system's own input.
     pub(crate) from: Option<usize>,
-    pub(crate) output: &'static str,
+    pub(crate) output: &'static Variable,
     pub(crate) to: usize,
-    pub(crate) input: &'static str,
+    pub(crate) input: &'static Variable,
 }
 
 /// Components, storeys first, and their connections.
@@ -64,9 +64,9 @@ pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     };
     let mut loads = Loads { taken: vec![0; building.floors.len()], floors: &building.floors };
     for (index, floor) in building.floors.iter().enumerate() {
-        system.move_by(floor.base, index, "a_g");
+        system.move_by(floor.base, index, FloorVariable::AG.variable());
         if let Some((below, input)) = loads.next(floor.base)? {
-            system.connect(Some(index), "reaction_bottom", below, input);
+            system.connect(Some(index), FloorVariable::ReactionBottom.variable(), below, input);
         }
     }
     for (index, wall) in building.walls.iter().enumerate() {
@@ -83,7 +83,7 @@ struct Loads<'a> {
 }
 
 impl Loads<'_> {
-    fn next(&mut self, support: Support) -> Result<Option<(usize, &'static str)>> {
+    fn next(&mut self, support: Support) -> Result<Option<(usize, &'static Variable)>> {
         let Support::Floor(index) = support else { return Ok(None) };
         self.taken[index] += 1;
         let name = format!("reaction_{}", self.taken[index]);
@@ -93,37 +93,48 @@ impl Loads<'_> {
                 format!("more than {MOST_LOADS} storeys and walls stand on it or lean on it; divide it");
             return Err(BuildingError::Floor { floor, reason });
         };
-        Ok(Some((index, variable.variable().name)))
+        Ok(Some((index, variable.variable())))
     }
 }
 
 impl System {
-    fn connect(&mut self, from: Option<usize>, output: &'static str, to: usize, input: &'static str) {
+    fn connect(
+        &mut self,
+        from: Option<usize>,
+        output: &'static Variable,
+        to: usize,
+        input: &'static Variable,
+    ) {
         self.connections.push(Connection { from, output, to, input });
     }
 
     /// Connects a support's acceleration to an input.
-    fn move_by(&mut self, support: Support, to: usize, input: &'static str) {
+    fn move_by(&mut self, support: Support, to: usize, input: &'static Variable) {
         match support {
-            Support::Ground if self.expose_ground => self.connect(None, GROUND_MOTION, to, input),
+            Support::Ground if self.expose_ground => {
+                self.connect(None, FloorVariable::AG.variable(), to, input);
+            }
             // FMPy cannot read an input connector without a connection
             Support::Ground => {}
-            Support::Floor(index) => self.connect(Some(index), "acceleration_absolute", to, input),
+            Support::Floor(index) => {
+                self.connect(Some(index), FloorVariable::AccelerationAbsolute.variable(), to, input);
+            }
         }
     }
 
     /// Connects a wall with its supports.
     fn place(&mut self, index: usize, wall: &Member, loads: &mut Loads<'_>) -> Result<()> {
-        let ends = [(Some(wall.bottom), "a_bottom", "reaction_bottom"), (wall.top, "a_top", "reaction_top")];
+        use WallVariable::{ABottom, ATop, Drift, ReactionBottom, ReactionTop};
+        let ends = [(Some(wall.bottom), ABottom, ReactionBottom), (wall.top, ATop, ReactionTop)];
         for (support, input, reaction) in ends {
             let Some(support) = support else { continue };
-            self.move_by(support, index, input);
+            self.move_by(support, index, input.variable());
             if let Some((floor, load)) = loads.next(support)? {
-                self.connect(Some(index), reaction, floor, load);
+                self.connect(Some(index), reaction.variable(), floor, load);
             }
         }
         if let Some(floor) = wall.drift {
-            self.connect(Some(floor), "displacement", index, "drift");
+            self.connect(Some(floor), FloorVariable::Displacement.variable(), index, Drift.variable());
         }
         Ok(())
     }
@@ -137,23 +148,16 @@ impl System {
             let outputs = self.connections.iter().filter(|connection| connection.from == Some(index));
             let connected = inputs.map(|connection| connection.input);
             let connected = connected.chain(outputs.map(|connection| connection.output));
-            let shown: &[&str] = if is_floor { &SHOWN_OF_A_FLOOR } else { &SHOWN_OF_A_WALL };
-            for name in connected.chain(shown.iter().copied()) {
-                let connectors = &mut component.connectors;
-                connectors.extend(variable(is_floor, name).filter(|new| !connectors.contains(new)));
+            let of_floor = SHOWN_OF_A_FLOOR.iter().filter(|_| is_floor).map(|id| id.variable());
+            let of_wall = SHOWN_OF_A_WALL.iter().filter(|_| !is_floor).map(|id| id.variable());
+            for variable in connected.chain(of_floor).chain(of_wall) {
+                if !component.connectors.contains(&variable) {
+                    component.connectors.push(variable);
+                }
             }
             if !is_floor && scenes[index - floors].uses("overturned") {
                 component.connectors.push(BooleanVariable::Overturned.variable());
             }
         }
-    }
-}
-
-/// Returns the real variable of a name of a floor or a wall.
-pub(crate) fn variable(is_floor: bool, name: &str) -> Option<&'static Variable> {
-    if is_floor {
-        FloorVariable::from_name(name).map(VariableId::variable)
-    } else {
-        WallVariable::from_name(name).map(VariableId::variable)
     }
 }

@@ -9,7 +9,7 @@
 //! assert!(printed.passes() && !Comparison::printed("P7-(C)", "ξ", [0.0298, 0.029], 3).passes());
 //! ```
 
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Cell, Digits, Table};
 
 /// A computed number beside a given one: a reference, a printed number, or the limit of a value.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,36 +92,22 @@ pub(crate) fn table<'a>(
     [case, quantity, unit, given, computed, error, allowed, result]: Headings,
     digits: Digits,
 ) -> Table {
-    let mut table = Table::new([
-        Column::text("case", case),
-        Column::text("quantity", quantity),
-        Column::text("unit", unit),
-        Column::number("reference", given, digits),
-        Column::number("computed", computed, digits),
-        Column::number("scale", "", digits),
-        Column::number("error", error, Digits::Exponent(0)),
-        Column::number("bound", allowed, Digits::Exponent(0)),
-        Column::text("result", result),
-    ]);
-    for row in rows {
-        // one decimal more than print shows what was rounded
-        let shown = |value, more| match row.decimals {
-            Some(decimals) => Cell::Rounded(value, decimals + more),
-            None => Cell::Number(value),
-        };
-        table.row([
-            row.case.clone().into(),
-            row.quantity.clone().into(),
-            row.unit.into(),
-            shown(row.given, 0),
-            shown(row.computed, 1),
-            row.scale.into(),
-            shown(row.error(), 1),
-            row.allowed.into(),
-            row.word().into(),
-        ]);
-    }
-    table
+    // one decimal more than print shows what was rounded
+    let shown = |row: &Comparison, value, more| match row.decimals {
+        Some(decimals) => Cell::Rounded(value, decimals + more),
+        None => Cell::Number(value),
+    };
+    Table::over(rows)
+        .text("case", case, |row| row.case.clone())
+        .text("quantity", quantity, |row| row.quantity.clone())
+        .text("unit", unit, |row| row.unit)
+        .number("reference", given, digits, |row| shown(row, row.given, 0))
+        .number("computed", computed, digits, |row| shown(row, row.computed, 1))
+        .number("scale", "", digits, |row| row.scale)
+        .number("error", error, Digits::Exponent(0), |row| shown(row, row.error(), 1))
+        .number("bound", allowed, Digits::Exponent(0), |row| row.allowed)
+        .text("result", result, |row| row.word())
+        .done()
 }
 
 /// Returns a table of comparisons as markup; rows that fail are shaded.

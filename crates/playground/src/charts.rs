@@ -12,46 +12,36 @@ const AFTER_FALL: f64 = 0.15;
 /// Limits of the width of a chart \[px\].
 const WIDTHS: [f64; 2] = [280.0, 1200.0];
 
-/// The history, the motion and the restoring force of a run.
-pub(crate) struct Charts {
-    history: Plot,
-    motion: Plot,
-    force: Plot,
+/// The history, the motion and the restoring force of a run, by the names of their places on the page.
+pub(crate) type Charts = [(&'static str, Plot); 3];
+
+/// Draws a run at a width \[px\].
+pub(crate) fn charts(wall: &Wall, response: &Response, width: f64) -> Charts {
+    let width = width.clamp(WIDTHS[0], WIDTHS[1]);
+    let end = shown_end(response);
+    let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
+    let ratios = plots::cut(shown.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
+    let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
+    let u_ins = wall.body().instability;
+    let backbone = wall.backbone();
+    let backbone: Vec<_> = backbone.iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
+    let sized = |height: f64, plot: Plot| Plot { size: [width, height], ..plot };
+    [
+        ("history", sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end))),
+        ("motion", sized(150.0, plots::motion(&ground, None, end))),
+        ("force", sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, &ratios))),
+    ]
 }
 
-impl Charts {
-    /// Draws a run at a width \[px\].
-    pub(crate) fn new(wall: &Wall, response: &Response, width: f64) -> Self {
-        let width = width.clamp(WIDTHS[0], WIDTHS[1]);
-        let end = shown_end(response);
-        let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
-        let ratios = plots::cut(shown.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
-        let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
-        let u_ins = wall.body().instability;
-        let backbone = wall.backbone();
-        let backbone: Vec<_> = backbone.iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
-        let sized = |height: f64, plot: Plot| Plot { size: [width, height], ..plot };
-        Self {
-            history: sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end)),
-            motion: sized(150.0, plots::motion(&ground, None, end)),
-            force: sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, &ratios)),
-        }
-    }
+/// Returns charts as inline SVG, with what a cursor needs.
+pub(crate) fn inline(charts: Charts) -> Value {
+    let chart = |plot: Plot| json!({ "svg": plot.svg(), "area": plot.area(), "ranges": plot.ranges() });
+    charts.into_iter().map(|(name, plot)| (name.to_owned(), chart(plot))).collect()
+}
 
-    /// Returns the charts as inline SVG, with what a cursor needs.
-    pub(crate) fn inline(&self) -> Value {
-        let chart = |plot: &Plot| json!({ "svg": plot.svg(), "area": plot.area(), "ranges": plot.ranges() });
-        json!({
-            "history": chart(&self.history),
-            "motion": chart(&self.motion),
-            "force": chart(&self.force),
-        })
-    }
-
-    /// Returns the charts as one SVG file.
-    pub(crate) fn file(self) -> String {
-        Picture::stacked(&[self.history, self.motion, self.force]).svg()
-    }
+/// Returns charts as one SVG file.
+pub(crate) fn file(charts: Charts) -> String {
+    Picture::stacked(&charts.map(|(_, plot)| plot)).svg()
 }
 
 /// The end of the time axes \[s\]: soon after a fall.

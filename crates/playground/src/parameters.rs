@@ -9,10 +9,9 @@ use serde_json::{Value, json};
 
 use crate::request::Fields;
 
-/// Describes every parameter: name, table, meaning, unit, default and the names of its choices.
+/// Describes every parameter: name, meaning, unit, default and the names of its choices.
 pub(crate) fn described() -> Value {
-    let names = GROUPS.iter().flat_map(|(group, names)| names.iter().map(move |name| (group, name)));
-    names.map(|(group, name)| described_one(group, name)).collect()
+    GROUPS.iter().flat_map(|(_, names)| names.iter()).map(|name| described_one(name)).collect()
 }
 
 /// Lists the parameters that do not matter beside the others. Texts that are not values stand for defaults.
@@ -33,7 +32,7 @@ pub(crate) fn computed(wall: &Wall) -> Value {
     json!({ "xi": xi, "c_bar": c_bar, "restitution": e })
 }
 
-fn described_one(group: &str, name: &str) -> Value {
+fn described_one(name: &str) -> Value {
     let real = RealVariable::from_name(name).map(VariableId::variable);
     let variable = real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable));
     let Some(variable) = variable else { return Value::Null };
@@ -47,7 +46,6 @@ fn described_one(group: &str, name: &str) -> Value {
     };
     json!({
         "name": name,
-        "group": group,
         "meaning": variable.description,
         "unit": variable.unit.filter(|unit| *unit != "1"),
         // a whole number without `.0`, a name without quotes; nothing where a number is computed

@@ -2,10 +2,9 @@
 
 use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
-use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::charts::{Charts, Frames};
+use crate::charts::{Frames, charts, file, inline};
 use crate::check;
 use crate::fragility::Fragility;
 use crate::parameters;
@@ -20,12 +19,6 @@ pub struct Session {
     upload: Upload,
     last: Option<(Prepared, Response)>,
     fragility: Option<Fragility>,
-}
-
-/// An answer in the form that the page reads.
-#[derive(Serialize)]
-struct Reply<T> {
-    answer: T,
 }
 
 impl Session {
@@ -45,7 +38,7 @@ impl Session {
             Ok(Request::NextMotion) => self.next_motion(),
             Ok(Request::Csv) => self.last().map(|(_, response)| response.csv().into()),
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
-                Charts::new(&prepared.wall, response, run::figure::WIDTH).file().into()
+                file(charts(&prepared.wall, response, run::figure::WIDTH)).into()
             }),
             // the page writes its requests itself
             Err(_) => Err(fault_of("request", "the page asks for what it cannot compute; load it again")),
@@ -59,7 +52,7 @@ impl Session {
     /// The frames of the last run; apart from its other numbers, which keep all their digits.
     fn frames(&self) -> String {
         let frames = self.last.as_ref().map(|(_, response)| Frames::of(response));
-        serde_json::to_string(&Reply { answer: frames }).unwrap_or_default()
+        format!("{{\"answer\":{}}}", serde_json::to_string(&frames).unwrap_or_default())
     }
 
     fn last(&self) -> Result<&(Prepared, Response), Faults> {
@@ -84,9 +77,8 @@ impl Session {
             "facts": facts(scene, wall, &response),
             "warnings": warnings,
             "computed": parameters::computed(wall),
-            "notes": scene.motion_notes,
             "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
-            "charts": Charts::new(wall, &response, inputs.width).inline(),
+            "charts": inline(charts(wall, &response, inputs.width)),
             "wall": {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,
@@ -96,7 +88,6 @@ impl Session {
             },
             "summary": {
                 "u_max": summary.u_max,
-                "u_ratio_max": summary.u_ratio_max,
                 "falls": summary.fate.falling(),
                 "peak_time": peak.time,
             },

@@ -3,12 +3,35 @@
 use ground_motion::GroundMotion;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::errors::of_motion;
 
-/// A motion as Python has it: the time between samples \[s\] and the samples \[m/s²\].
-pub(crate) type MotionValues<'py> = (f64, Bound<'py, PyAny>);
+/// A motion, which Python has as the time between samples \[s\] and the samples \[m/s²\].
+pub(crate) struct Motion(pub(crate) GroundMotion);
+
+impl<'py> FromPyObject<'_, 'py> for Motion {
+    type Error = PyErr;
+    const INPUT_TYPE: PyStaticExpr = <(f64, Bound<'py, PyAny>)>::INPUT_TYPE;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let (step, given): (f64, Bound<'py, PyAny>) = given.extract()?;
+        GroundMotion::new(step, samples(&given)?).map(Self).map_err(of_motion)
+    }
+}
+
+impl<'py> IntoPyObject<'py> for Motion {
+    type Target = PyTuple;
+    type Output = Bound<'py, PyTuple>;
+    type Error = PyErr;
+    const OUTPUT_TYPE: PyStaticExpr = <(f64, Numbers<'py>)>::OUTPUT_TYPE;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        (self.0.step(), PyArray1::from_slice(py, self.0.samples())).into_pyobject(py)
+    }
+}
 
 /// An array of numbers for Python.
 pub(crate) type Numbers<'py> = Bound<'py, PyArray1<f64>>;
@@ -46,14 +69,4 @@ pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         )));
     };
     Ok(array.readonly().as_slice()?.to_vec())
-}
-
-/// Makes a motion from its values.
-pub(crate) fn motion((step, given): &MotionValues<'_>) -> PyResult<GroundMotion> {
-    GroundMotion::new(*step, samples(given)?).map_err(of_motion)
-}
-
-/// Returns a motion as Python has it.
-pub(crate) fn of_motion_values<'py>(py: Python<'py>, motion: &GroundMotion) -> (f64, Numbers<'py>) {
-    (motion.step(), PyArray1::from_slice(py, motion.samples()))
 }

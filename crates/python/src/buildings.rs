@@ -11,7 +11,7 @@ use report::palette::{DARK_GREY, SERIES};
 use report::plot::Picture;
 use run::figure::{cut, histories};
 
-use crate::arrays::{MotionValues, motion};
+use crate::arrays::Motion;
 use crate::errors::{failed, of_file, refused};
 use crate::watch::watched;
 
@@ -59,15 +59,14 @@ impl Building {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        ground: MotionValues<'py>,
+        ground: Motion,
         tail: f64,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let ground = motion(&ground)?;
-        let settings = Settings::new(&ground, tail, tolerance).map_err(refused)?;
+        let settings = Settings::new(&ground.0, tail, tolerance).map_err(refused)?;
         let Self { building, parts } = self;
         let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            Coupled::run_while(building, parts, &ground, settings, is_wanted)
+            Coupled::run_while(building, parts, &ground.0, settings, is_wanted)
         };
         let run = watched(py, work, || Ok(()))?.map_err(failed)?;
         self.values(py, &run)
@@ -110,6 +109,7 @@ impl Building {
         values.set_item("walls", walls)?;
         values.set_item("step", run.step)?;
         values.set_item("change", run.change)?;
+        values.set_item("_picture", picture(run))?;
         Ok(values)
     }
 }
@@ -125,21 +125,16 @@ fn peak(py: Python<'_>, Peak { value, time }: Peak) -> PyResult<Bound<'_, PyDict
 }
 
 /// Draws the accelerations of ground and floors above u/`u_ins` of the walls, as SVG.
-#[pyfunction]
-pub(crate) fn picture_of_building(
-    time: Vec<f64>,
-    ground: Vec<f64>,
-    accelerations: Vec<Vec<f64>>,
-    u_ratios: Vec<Vec<f64>>,
-) -> String {
-    let over_time = |values: Vec<f64>| time.iter().copied().zip(values).collect::<Vec<_>>();
-    let end = time.last().copied().unwrap_or_default();
+fn picture(run: &Coupled) -> String {
+    let over_time =
+        |history: &History| run.times.iter().copied().zip(history.values.iter().copied()).collect::<Vec<_>>();
     let color = |index: usize| SERIES[index % SERIES.len()].0;
-    let mut floors = vec![(over_time(ground), DARK_GREY)];
-    let own = accelerations.into_iter().enumerate();
-    floors.extend(own.map(|(index, values)| (over_time(values), color(index))));
-    let walls = u_ratios.into_iter().enumerate();
-    let walls: Vec<_> = walls.map(|(index, values)| (cut(over_time(values)), color(index))).collect();
+    let mut floors = vec![(over_time(&run.ground), DARK_GREY)];
+    let own = run.floors.iter().enumerate();
+    floors.extend(own.map(|(index, floor)| (over_time(&floor.acceleration), color(index))));
+    let walls = run.walls.iter().enumerate();
+    let walls: Vec<_> = walls.map(|(index, wall)| (cut(over_time(&wall.ratio)), color(index))).collect();
+    let end = run.times.last().copied().unwrap_or_default();
     let drawn = |lines: &[(Vec<(f64, f64)>, &'static str)], label: &str, shown: &[f64]| {
         let lines: Vec<_> = lines.iter().map(|(points, color)| (&points[..], *color)).collect();
         histories(&lines, [0.0, end], label, shown)

@@ -8,7 +8,7 @@ use study::folder::FolderError;
 
 use crate::errors::{failed, refused};
 use crate::studies::Study;
-use crate::watch::{self, Threads};
+use crate::watch::threads_of;
 
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -40,8 +40,12 @@ impl Folder {
     }
 
     /// Writes the results of a complete folder; returns the summary and what the fits warn of.
-    fn finish(&self, py: Python<'_>, threads: Option<Threads>) -> PyResult<(String, Option<String>)> {
-        let threads = watch::count(threads).get();
+    fn finish(
+        &self,
+        py: Python<'_>,
+        threads: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Option<String>)> {
+        let threads = threads_of(threads)?.get();
         let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
         Ok((report.summary, report.warning))
     }

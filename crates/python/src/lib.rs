@@ -14,8 +14,7 @@
 //! | `variables` | the parameters of the model description |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
-//! | `checks`, `spectra` | checks by codes, rocking spectra |
-//! | `calibrations`, `ties` | damping that matches restitution, ties of any stiffness |
+//! | `jobs` | checks by codes, rocking spectra, ties of any stiffness, damping that matches restitution |
 //! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
@@ -26,17 +25,14 @@
 
 mod arrays;
 mod buildings;
-mod calibrations;
-mod checks;
 mod errors;
 mod folders;
+mod jobs;
 mod motions;
 mod responses;
-mod spectra;
 mod studies;
 mod study_walls;
 mod tables;
-mod ties;
 mod variables;
 mod walls;
 mod watch;
@@ -45,31 +41,22 @@ mod watch;
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::buildings::{Building, picture_of_building};
-    #[pymodule_export]
-    use crate::calibrations::calibrate_wall;
-    #[pymodule_export]
-    use crate::checks::{check_wall, verify_formulas};
-    #[pymodule_export]
-    use crate::folders::Folder;
-    #[pymodule_export]
-    use crate::motions::{
-        average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
-        warnings_of_channel,
+    use crate::{
+        buildings::Building,
+        folders::Folder,
+        jobs::{
+            calibrate_wall, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
+            verify_formulas,
+        },
+        motions::{
+            average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic,
+            trimmed, warnings_of_channel,
+        },
+        responses::picture_of_response,
+        studies::Study,
+        variables::{calculated, variables},
+        walls::Wall,
     };
-    #[pymodule_export]
-    use crate::responses::picture_of_response;
-    #[pymodule_export]
-    use crate::spectra::{picture_of_spectrum, spectrum_over_pulses, spectrum_over_walls};
-    #[pymodule_export]
-    use crate::studies::Study;
-    #[pymodule_export]
-    use crate::ties::tie_of_wall;
-    #[pymodule_export]
-    use crate::variables::{calculated, variables};
-    #[pymodule_export]
-    #[pymodule_export]
-    use crate::walls::Wall;
     #[pymodule_export]
     const VERSION: &str = env!("PACKAGE_VERSION");
 }

@@ -9,6 +9,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use report::table::Table;
 use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::records::NamedRecord;
@@ -18,12 +19,11 @@ use study::loaded::{LoadedStudy, Sent};
 use study::results::Fitting;
 use study::tables::{KINDS, Kind, Names};
 
-use crate::arrays::{MotionValues, motion};
+use crate::arrays::Motion;
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::Columns;
-use crate::watch::watched;
-use crate::watch::{self, Threads};
+use crate::tables::table;
+use crate::watch::{threads_of, watched};
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -35,12 +35,6 @@ pub(crate) struct Study {
 
 /// A study as values that pickle can send: its text, its walls, and its records with steps and samples.
 type Values<Samples> = (String, Vec<(String, String)>, Vec<(String, f64, Samples)>);
-
-/// Why the curves of a study are not complete.
-enum Stop {
-    Asked,
-    Failed(IdaError),
-}
 
 #[pymethods]
 impl Study {
@@ -57,13 +51,12 @@ impl Study {
         py: Python<'_>,
         text: String,
         walls: Vec<(String, Bound<'_, PyAny>)>,
-        records: Vec<(String, MotionValues<'_>)>,
+        records: Vec<(String, Motion)>,
     ) -> PyResult<Self> {
         let mut warnings = Vec::new();
         let walls = named_walls(&walls, &mut warnings)?;
-        let record =
-            |(name, given): (String, MotionValues<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
-        let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
+        let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+        let records = records.into_iter().map(record).collect();
         let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
             SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),
@@ -149,11 +142,11 @@ impl Study {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        threads: Option<Threads>,
+        threads: Option<&Bound<'py, PyAny>>,
         progress: &Bound<'py, PyAny>,
     ) -> PyResult<[Bound<'py, PyDict>; 3]> {
         let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = watch::count(threads).get();
+        let threads = threads_of(threads)?.get();
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
@@ -172,11 +165,13 @@ impl Study {
             fractions: &report.fractions,
         };
         let of = |(_, of_wall): Kind| {
-            let mut columns = Columns::default();
+            let mut all = Table::default();
             for (wall, results) in results.iter().enumerate() {
-                columns.add(of_wall(&names, wall, results));
+                let Table { columns, rows } = of_wall(&names, wall, results);
+                all.columns = columns;
+                all.rows.extend(rows);
             }
-            columns.dict(py)
+            table(py, all)
         };
         let [levels, collapses, fragilities] = KINDS.map(of);
         Ok([levels?, collapses?, fragilities?])
@@ -199,19 +194,17 @@ impl Study {
         let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
             parallel::map(study.count(), threads, |index| {
                 if !is_wanted() {
-                    return Err(Stop::Asked);
+                    return Err(None);
                 }
-                let curve = study.curve(study.case(index)).map_err(Stop::Failed)?;
+                let curve = study.curve(study.case(index)).map_err(Some)?;
                 done.fetch_add(1, Ordering::Relaxed);
                 Ok(curve)
             })
         };
-        watched(py, work, || progress.call1((done.load(Ordering::Relaxed),)).map(drop))?.map_err(|stop| {
-            match stop {
-                Stop::Failed(error) => failed(error),
-                Stop::Asked => PyKeyboardInterrupt::new_err(()),
-            }
-        })
+        let report = || progress.call1((done.load(Ordering::Relaxed),)).map(drop);
+        // without an error the work was asked to stop
+        watched(py, work, report)?
+            .map_err(|error: Option<IdaError>| error.map_or_else(|| PyKeyboardInterrupt::new_err(()), failed))
     }
 }
 

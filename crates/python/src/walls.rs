@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use ground_motion::GroundMotion;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
@@ -15,14 +14,14 @@ use rocking_wall::scene::{
     parameter_text, to_toml,
 };
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::{Method, Motion};
+use rocking_wall::solver::{Method, Motion as Solved};
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::{Curve, plot};
 use run::shaking::Shaking;
 use scene_fmu::General;
 
-use crate::arrays::{MotionValues, Numbers, motion, of_motion_values, samples};
-use crate::errors::{failed, of_file, of_motion, of_scene, refused};
+use crate::arrays::{Motion, Numbers, samples};
+use crate::errors::{failed, of_file, of_scene, refused};
 use crate::responses;
 
 /// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
@@ -38,10 +37,12 @@ pub(crate) struct Wall {
 }
 
 /// A wall as values that pickle can send: its scene file without the motion, all of its parameters as texts,
-/// its start where it was given, and the motions of its supports with what is known of them.
-type Values<Samples> = (String, Vec<(String, String)>, Option<f64>, Option<Motions<Samples>>, Vec<String>);
-/// Steps and samples of the bottom support and, where it has its own, the top one.
-type Motions<Samples> = ((f64, Samples), Option<(f64, Samples)>);
+/// its start where it was given, the motions of the bottom support and, where it has its own, of the top one,
+/// with what is known of them.
+type Values = (String, Vec<(String, String)>, Option<f64>, Option<(Motion, Option<Motion>)>, Vec<String>);
+
+/// The solver in words, u and F at the corners of the restoring force, warnings, and the capacity curve.
+type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
 
 #[pymethods]
 impl Wall {
@@ -88,18 +89,17 @@ impl Wall {
     }
 
     /// Returns the values of the wall, to send them.
-    fn sent<'py>(&self, py: Python<'py>) -> Values<Numbers<'py>> {
-        let motion = self.scene.excitation.as_ref().map(|motion| {
-            let top = motion.top().map(|top| of_motion_values(py, top));
-            (of_motion_values(py, motion.bottom()), top)
-        });
+    fn sent(&self) -> Values {
+        let motion = self.scene.excitation.as_ref();
+        let motion =
+            motion.map(|motion| (Motion(motion.bottom().clone()), motion.top().cloned().map(Motion)));
         let parameters = self.parameters().into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
         (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone())
     }
 
     /// Makes a wall from its values.
     #[staticmethod]
-    fn received(values: Values<Vec<f64>>) -> PyResult<Self> {
+    fn received(values: Values) -> PyResult<Self> {
         let (text, parameters, start, motion, motion_notes) = values;
         let mut scene = Scene::parse("a wall that was sent", &text, Path::new(".")).map_err(of_scene)?;
         for (name, text) in &parameters {
@@ -109,8 +109,7 @@ impl Wall {
             }
         }
         if let Some((bottom, top)) = motion {
-            let made = |(step, samples)| GroundMotion::new(step, samples).map_err(of_motion);
-            scene.excitation = Some(Excitation::new(made(bottom)?, top.map(made).transpose()?));
+            scene.excitation = Some(Excitation::new(bottom.0, top.map(|Motion(top)| top)));
         }
         scene.motion_notes = motion_notes;
         let equation = Equation::new(&scene.parameters).map_err(refused)?;
@@ -134,27 +133,6 @@ impl Wall {
         &self.scene.title
     }
 
-    #[getter]
-    fn has_storeys(&self) -> bool {
-        self.scene.floors.is_some()
-    }
-
-    /// Returns what is unusual about the wall.
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        let warnings = self.equation.warnings().iter();
-        let of_floors = self.scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
-        warnings.map(ToString::to_string).chain(of_floors).collect()
-    }
-
-    /// Returns a number that follows from the parameters, by its name in the model description.
-    fn calculated(&self, name: &str) -> PyResult<f64> {
-        let found = self.equation.facts().into_iter().find(|fact| fact.name == name);
-        found
-            .map(|fact| fact.value)
-            .ok_or_else(|| PyAttributeError::new_err(format!("{name:?} does not follow from the parameters")))
-    }
-
     /// Returns the parameters as texts of a scene file.
     #[getter]
     fn parameters(&self) -> Vec<(&'static str, String)> {
@@ -162,9 +140,13 @@ impl Wall {
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
     }
 
-    /// Returns a parameter by its name: a number, the name of a choice, or the points of a law.
-    fn parameter<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    /// Returns a parameter, or a number that follows from the parameters, by its name in the model
+    /// description: a number, the name of a choice, or the points of a law.
+    fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let parameters = &self.scene.parameters;
+        if let Some(fact) = self.equation.facts().into_iter().find(|fact| fact.name == name) {
+            return fact.value.into_bound_py_any(py);
+        }
         let points = parameters.multilinear.as_deref().map(<[_]>::to_vec);
         let text = match name {
             POINTS => return points.into_bound_py_any(py),
@@ -187,24 +169,17 @@ impl Wall {
         facts.map(|fact| (fact.name, fact.symbol, fact.value, fact.unit)).collect()
     }
 
-    /// Returns the solver in words.
-    fn method(&self) -> PyResult<String> {
-        let parameters = &self.scene.parameters;
-        let method = Method::new(parameters, &self.equation, parameters.tolerance).map_err(refused)?;
-        Ok(method.to_string())
-    }
-
-    /// Returns u and F at the corners of the restoring force.
-    fn backbone<'py>(&self, py: Python<'py>) -> [Numbers<'py>; 2] {
-        let (u, force): (Vec<_>, Vec<_>) = self.equation.backbone().into_iter().unzip();
-        [u, force].map(|values| PyArray1::from_vec(py, values))
-    }
-
-    /// Draws the capacity curve of u > 0, as SVG.
-    fn picture(&self) -> String {
-        let corners = self.equation.capacity_corners(1.0);
+    /// Returns the solver in words, u and F at the corners of the restoring force, what is unusual about the
+    /// wall, and the capacity curve of u > 0 as SVG.
+    fn description(&self) -> PyResult<Description> {
+        let Self { scene, equation, .. } = self;
+        let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
+        let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(equation));
+        let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
+        let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg()
+        let picture = plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg();
+        Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
 
     /// Runs the wall under a motion, under that of its scene, or in free vibration.
@@ -212,8 +187,8 @@ impl Wall {
     fn simulate<'py>(
         &self,
         py: Python<'py>,
-        record: Option<MotionValues<'py>>,
-        top: Option<MotionValues<'py>>,
+        record: Option<Motion>,
+        top: Option<Motion>,
         tail: f64,
         stop_time: Option<f64>,
         output_step: Option<f64>,
@@ -221,10 +196,9 @@ impl Wall {
         hold: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut scene = self.scene.clone();
-        if let Some(record) = &record {
-            let top = top.as_ref().map(motion).transpose()?;
+        if let Some(Motion(record)) = record {
             check_tail(tail).map_err(of_scene)?;
-            scene.shake(Excitation::new(motion(record)?, top), tail, Vec::new());
+            scene.shake(Excitation::new(record, top.map(|Motion(top)| top)), tail, Vec::new());
             scene.parameters.u_start = self.start.unwrap_or(0.0);
         } else if top.is_some() {
             return Err(refused("top needs a record for the bottom support beside it"));
@@ -249,11 +223,11 @@ impl Wall {
     fn peaks<'py>(
         &self,
         py: Python<'py>,
-        record: MotionValues<'py>,
+        record: Motion,
         factors: &Bound<'py, PyAny>,
         tail: f64,
     ) -> PyResult<[Numbers<'py>; 3]> {
-        let (record, factors) = (motion(&record)?, samples(factors)?);
+        let (Motion(record), factors) = (record, samples(factors)?);
         check_tail(tail).map_err(of_scene)?;
         let pga = record.peak();
         if let Some(factor) = factors.iter().find(|factor| !(*factor * pga).is_finite()) {
@@ -263,7 +237,7 @@ impl Wall {
         }
         let mut parameters = self.scene.parameters.clone();
         parameters.u_start = self.start.unwrap_or(0.0);
-        let motion = Motion::of(&parameters, parameters.tolerance).map_err(refused)?;
+        let motion = Solved::of(&parameters, parameters.tolerance).map_err(refused)?;
         motion.wall().check_start(parameters.u_start).map_err(refused)?;
         // a wall on storeys feels the floors until the tail ends
         let record = match &self.scene.floors {

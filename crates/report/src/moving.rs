@@ -45,7 +45,7 @@ pub fn page(moving: &Moving<'_>) -> String {
         ("figures", moving.figures),
         // a closing tag inside the data would end the script
         ("data", &moving.data.to_string().replace("</", "<\\/")),
-        ("script", &[include_str!("moving.js"), moving.script].concat()),
+        ("script", &[include_str!("moving.js"), include_str!("player.js"), moving.script].concat()),
     ];
     template::page(include_str!("moving.html"), &parts)
 }

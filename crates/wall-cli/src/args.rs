@@ -37,25 +37,9 @@ pub(crate) struct RecordArguments {
     pub(crate) motion: MotionArguments,
 }
 
-/// How to read records, and what replaces or scales them.
+/// How to read records, which needs an argument of the group `recorded`, and what replaces or scales them.
 #[derive(Debug, Args)]
 pub(crate) struct MotionArguments {
-    #[command(flatten)]
-    options: RecordOptionsArguments,
-    /// Use the project's synthetic motion
-    #[arg(long, conflicts_with = "recorded")]
-    pub(crate) synthetic: bool,
-    /// Factor on the motion given here
-    #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
-    pub(crate) scale: Option<f64>,
-    /// Peak acceleration to scale the motion given here to, in m/s2 or with its unit, such as 0.3g
-    #[arg(long, value_name = "M_PER_S2")]
-    pub(crate) pga: Option<Acceleration>,
-}
-
-/// How to read a record; each of these needs an argument of the group `recorded`.
-#[derive(Debug, Args)]
-struct RecordOptionsArguments {
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g; needed where the file does not state its own
     #[arg(long, requires = "recorded")]
     unit: Option<String>,
@@ -70,6 +54,15 @@ struct RecordOptionsArguments {
     channel: Option<String>,
     #[arg(long, requires = "recorded", help = format_help())]
     format: Option<String>,
+    /// Use the project's synthetic motion
+    #[arg(long, conflicts_with = "recorded")]
+    pub(crate) synthetic: bool,
+    /// Factor on the motion given here
+    #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
+    pub(crate) scale: Option<f64>,
+    /// Peak acceleration to scale the motion given here to, in m/s2 or with its unit, such as 0.3g
+    #[arg(long, value_name = "M_PER_S2")]
+    pub(crate) pga: Option<Acceleration>,
 }
 
 fn format_help() -> String {
@@ -80,21 +73,16 @@ fn format_help() -> String {
 impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self, console: &Console<'_>) -> Result<Scene> {
-        let scene = self.load_unshaken()?;
-        self.scene.iter().for_each(|path| warn_of_motion(console, path, &scene));
-        Ok(scene)
-    }
-
-    /// The scene of a command that does not use its motion.
-    pub(crate) fn load_unshaken(&self) -> Result<Scene> {
         let Some(path) = &self.scene else { return Ok(Scene::default()) };
-        Scene::read(path).map_err(|error| {
+        let scene = Scene::read(path).map_err(|error| {
             if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
                 anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
             } else {
                 error.into()
             }
-        })
+        })?;
+        warn_of_motion(console, path, &scene);
+        Ok(scene)
     }
 
     /// Returns the files that the scene was read from.
@@ -237,13 +225,12 @@ impl RecordArguments {
 impl MotionArguments {
     /// How records are read.
     fn options(&self) -> Result<RecordOptions> {
-        let RecordOptionsArguments { unit, record_step, column, channel, format } = &self.options;
         Ok(RecordOptions {
-            unit: unit.as_deref().map(str::parse).transpose()?,
-            step: *record_step,
-            column: column.clone(),
-            channel: channel.clone(),
-            format: format.as_deref().map(str::parse).transpose()?,
+            unit: self.unit.as_deref().map(str::parse).transpose()?,
+            step: self.record_step,
+            column: self.column.clone(),
+            channel: self.channel.clone(),
+            format: self.format.as_deref().map(str::parse).transpose()?,
         })
     }
 

@@ -2,43 +2,29 @@
 
 use report::table::{Cell, Column, Digits, Table};
 
-use super::{Measurement, WorkPrecision};
+use super::WorkPrecision;
 
 /// Returns the measurements, one a row. An error without a unit is relative to `u_ins`, except that of the
 /// peak, which is relative to the peak.
 pub fn table(studies: &[WorkPrecision]) -> Table {
-    let error = |name, heading| Column::number(name, heading, Digits::Exponent(1));
-    let mut table = Table::new([
-        Column::text("scene", ""),
-        Column::text("solver", "solver"),
-        Column::text("setting", "setting"),
-        Column::number("run_time_s", "", Digits::AtMost(6)),
-        error("error_max", "max error"),
-        error("error_rms", "rms error"),
-        error("error_peak", "peak"),
-        error("error_overturn_time_s", "t overt. s"),
-        Column::number("", "time ms", Digits::Decimals(3)).shown(1e3),
-        Column::count("pieces", "pieces"),
-        Column::count("corners", "corners"),
-        Column::count("impacts", "impacts"),
-        error("amplification", ""),
-    ]);
-    let count = |count: u64| Cell::Count(usize::try_from(count).unwrap_or(usize::MAX));
-    for study in studies {
-        for Measurement { setting, seconds, error_max, error_rms, error_peak, error_overturning, work } in
-            &study.measurements
-        {
-            let names = [study.name.as_str(), setting.solver(), &setting.describe(study.step)]
-                .map(|name| Cell::from(name.to_owned()));
-            let errors =
-                [Some(*error_max), Some(*error_rms), *error_peak, *error_overturning].map(Cell::from);
-            let work = [work.pieces, work.corners, work.impacts].map(count);
-            let seconds = || [Cell::from(*seconds)];
-            let row = names.into_iter().chain(seconds()).chain(errors).chain(seconds()).chain(work);
-            table.row(row.chain([study.amplification.into()]));
-        }
-    }
-    table
+    let (error, count) =
+        (Digits::Exponent(1), |count| Cell::Count(usize::try_from(count).unwrap_or(usize::MAX)));
+    let rows = studies.iter().flat_map(|study| study.measurements.iter().map(move |row| (study, row)));
+    Table::over(rows)
+        .text("scene", "", |(study, _)| study.name.clone())
+        .text("solver", "solver", |(_, row)| row.setting.solver())
+        .text("setting", "setting", |(study, row)| row.setting.describe(study.step))
+        .value("run_time_s", |(_, row)| row.seconds)
+        .number("error_max", "max error", error, |(_, row)| row.error_max)
+        .number("error_rms", "rms error", error, |(_, row)| row.error_rms)
+        .number("error_peak", "peak", error, |(_, row)| row.error_peak)
+        .number("error_overturn_time_s", "t overt. s", error, |(_, row)| row.error_overturning)
+        .column(Column::number("", "time ms", Digits::Decimals(3)).shown(1e3), |(_, row)| row.seconds)
+        .column(Column::count("pieces", "pieces"), |(_, row)| count(row.work.pieces))
+        .column(Column::count("corners", "corners"), |(_, row)| count(row.work.corners))
+        .column(Column::count("impacts", "impacts"), |(_, row)| count(row.work.impacts))
+        .value("amplification", |(study, _)| study.amplification)
+        .done()
 }
 
 /// Returns a problem and its measurements for a terminal.

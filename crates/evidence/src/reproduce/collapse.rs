@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::plot::{Plot, Series};
-use report::table::{Column, Table};
+use report::table::Table;
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
@@ -151,24 +151,19 @@ fn interval(value: &Interval, unit: f64) -> String {
 pub const MEDIANS: &str = "Medians: Median collapse AvgSA of CR, and that of each damping model over it";
 
 fn table(walls: &[Vec<Summary>]) -> Table {
-    let text = |heading: &'static str| Column::text("", heading);
-    let mut table = Table::new([
-        text("wall"),
-        text("type"),
-        text("CR: median (g)"),
-        text("CDC / CR"),
-        text("CDR / CR"),
-        text("SDR / CR"),
-        text("CDR with Eq. (14) / CR"),
-        text("runs that stood at 150 m/s²"),
-    ]);
-    for (row, summaries) in TABLE_5.iter().zip(walls) {
-        let ratios = summaries[1..].iter().map(|summary| interval(&summary.median_ratio, 1.0));
-        let median = interval(&summaries[0].median, STANDARD_GRAVITY);
-        let mut cells = vec![usize::from(row.number).into(), mechanism(row).into(), median.into()];
-        cells.extend(ratios.map(Into::into));
-        cells.push(summaries.iter().map(|summary| summary.censored).sum::<usize>().into());
-        table.row(cells);
-    }
-    table
+    let ratio = |model: usize| {
+        move |(_, models): &(&Table5, &Vec<Summary>)| interval(&models[model].median_ratio, 1.0)
+    };
+    Table::over(TABLE_5.iter().zip(walls))
+        .text("", "wall", |(row, _)| usize::from(row.number))
+        .text("", "type", |(row, _)| mechanism(row))
+        .text("", "CR: median (g)", |(_, models)| interval(&models[0].median, STANDARD_GRAVITY))
+        .text("", "CDC / CR", ratio(1))
+        .text("", "CDR / CR", ratio(2))
+        .text("", "SDR / CR", ratio(3))
+        .text("", "CDR with Eq. (14) / CR", ratio(EQUATION_14))
+        .text("", "runs that stood at 150 m/s²", |(_, models)| {
+            models.iter().map(|summary| summary.censored).sum::<usize>()
+        })
+        .done()
 }

@@ -3,6 +3,7 @@
 use crate::{Comparison, EvidenceError};
 
 use super::released::Released;
+use crate::accuracy::linearisation::largest_difference;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
@@ -100,10 +101,6 @@ fn released(parameters: &Parameters, fraction: f64) -> Result<Released, Evidence
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |largest, value| largest.max(value.abs()))
-}
-
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    largest(a.iter().zip(b).map(|(a, b)| a - b))
 }
 
 fn separatrix() -> Value {

@@ -3,9 +3,9 @@
 use report::heat_map::{self, HeatMap, scale};
 use report::page::Page;
 use report::palette::mixed;
-use report::table::{Column, Digits, Table};
+use report::table::{Digits, Table};
 
-use super::{Map, MapCell, RowQuantity};
+use super::{Map, RowQuantity};
 use crate::Comparison;
 use crate::comparison::{STYLE, html, table};
 
@@ -36,22 +36,22 @@ pub fn summary(map: &Map) -> String {
 
 /// Returns the table of the cells. The error is over `u_ins`, the growth over the energy at the start.
 pub fn of_cells(maps: &[Map]) -> Table {
-    let number = |name| Column::number(name, name, Digits::AtMost(3));
-    let columns = ["a1", "value", "stable", "error", "growth"].map(number);
-    let texts = ["solver", "damping_model", "axis"].map(|name| Column::text(name, name));
-    let mut table = Table::new(texts.into_iter().chain(columns));
+    let mut rows = Vec::new();
     for map in maps {
-        let [axis, ..] = map.quantity.names();
         for (value, cells) in map.rows.iter().zip(&map.cells) {
-            for (a1, MapCell { stable, error, growth }) in map.columns.iter().zip(cells) {
-                let names = [map.solver.name().into(), map.damping.name().into(), axis.into()];
-                let numbers =
-                    [(*a1).into(), (*value).into(), (*stable).into(), (*error).into(), (*growth).into()];
-                table.row(names.into_iter().chain(numbers));
-            }
+            rows.extend(map.columns.iter().zip(cells).map(|(a1, cell)| (map, *a1, *value, cell)));
         }
     }
-    table
+    Table::over(rows)
+        .value("solver", |(map, ..)| map.solver.name())
+        .value("damping_model", |(map, ..)| map.damping.name())
+        .value("axis", |(map, ..)| map.quantity.names()[0])
+        .value("a1", |(_, a1, ..)| *a1)
+        .value("value", |(.., value, _)| *value)
+        .value("stable", |(.., cell)| cell.stable)
+        .value("error", |(.., cell)| cell.error)
+        .value("growth", |(.., cell)| cell.growth)
+        .done()
 }
 
 /// Style of heat maps.

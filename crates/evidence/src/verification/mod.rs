@@ -56,17 +56,12 @@ pub struct Formula {
     study: Option<studies::Study>,
 }
 
-#[derive(Deserialize)]
-struct Document {
-    formula: Vec<Formula>,
-}
-
 /// Computes every formula.
 ///
 /// # Errors
 /// [`EvidenceError`] where one cannot be computed.
 pub fn verify() -> Result<Vec<Formula>, EvidenceError> {
-    let mut formulas = document().formula;
+    let mut formulas: Vec<_> = document().into_values().flatten().collect();
     for formula in &mut formulas {
         for text in [&mut formula.statement, &mut formula.reference, &mut formula.why] {
             *text = text.trim().replace('\n', " ");
@@ -79,6 +74,6 @@ pub fn verify() -> Result<Vec<Formula>, EvidenceError> {
     Ok(formulas)
 }
 
-fn document() -> Document {
+fn document() -> BTreeMap<String, Vec<Formula>> {
     toml::from_str(include_str!("formulas.toml")).expect("formulas.toml is part of the program")
 }

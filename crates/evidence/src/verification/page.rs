@@ -27,10 +27,9 @@ pub fn all(formulas: &[Formula]) -> Table {
 
 /// Counts the numbers that pass and those that fail.
 pub fn counts(formulas: &[Formula]) -> [usize; 2] {
-    let passes: Vec<_> =
-        formulas.iter().flat_map(|formula| &formula.comparisons).map(Comparison::passes).collect();
-    let passed = passes.iter().filter(|passes| **passes).count();
-    [passed, passes.len() - passed]
+    let all = || formulas.iter().flat_map(|formula| &formula.comparisons);
+    let passed = all().filter(|comparison| comparison.passes()).count();
+    [passed, all().count() - passed]
 }
 
 fn counted(formulas: &[Formula]) -> String {

@@ -210,11 +210,13 @@ function show(answer) {
   at("warnings").replaceChildren(...answer.warnings.map(textContent => make("li", { textContent })));
   at("facts").replaceChildren(...answer.facts.map(pair =>
     make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
-  for (const [id, chart] of Object.entries(answer.charts)) {
-    at(id).innerHTML = chart.svg + `<div class="${id === "force" ? "dot" : "cursor"}"></div>`;
-    const svg = at(id).querySelector("svg");
-    svg.setAttribute("role", "img");
-    svg.setAttribute("aria-label", at(id).closest("figure").querySelector("figcaption").textContent);
+  for (const [id, { svg, area, ranges }] of Object.entries(answer.charts)) {
+    const height = `top: ${100 * area[2]}%; height: ${100 * (area[3] - area[2])}%`;
+    at(id).innerHTML = svg + (id === "force" ? `<div class="dot"></div>`
+      : `<div class="cursor" style="${height}"></div>`);
+    Object.assign(at(id).dataset, { area: JSON.stringify(area), ranges: JSON.stringify(ranges) });
+    const caption = at(id).closest("figure").querySelector("figcaption").textContent;
+    at(id).querySelector("svg").setAttribute("aria-label", caption);
   }
   showCheck(answer.check);
   at("scene").textContent = answer.toml;
@@ -276,9 +278,8 @@ function fragility() {
     end({});
     const cell = textContent => make("td", { textContent });
     at("states").replaceChildren(...answer.result.states.map(state => {
-      const name = cell("");
-      const mark = make("i");
-      mark.style.background = state.name === "collapse" ? "var(--blue)" : "var(--amber)";
+      const name = cell(""), mark = make("i", { className: "chip" });
+      mark.style.background = state.color;
       name.append(mark, state.name);
       const interval = state.interval.join(" to ");
       return make("tr", {}, name, cell(state.median), cell(interval), cell(state.dispersion));

@@ -34,9 +34,9 @@ function draw(wall, asked) {
 }
 // Turns the bodies: the point of a body at the height `arm` is displaced by u.
 function pose(frame) {
-  const { wall, frames, summary, charts } = shown, degrees = 180 / Math.PI;
+  const { wall, frames, summary } = shown;
   const u = frames.u[frame], t = frames.t[frame];
-  const angle = arm => Math.asin(Math.max(-1, Math.min(1, factor * u / arm)));
+  const angle = arm => within(factor * u / arm);
   const b = wall.thickness, toe = (u < 0 ? -1 : 1) * b / 2;
   if (wall.hinge === null) {
     const turn = angle(wall.height / 2);
@@ -45,13 +45,7 @@ function pose(frame) {
       tie.setAttribute("x2", toe - toe * Math.cos(turn) + Math.sin(turn) * tie.dataset.height);
     }
   } else {
-    const h1 = wall.hinge, turn = angle(h1), back = angle(wall.height - h1);
-    at("lower").setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
-    // the hinge opens on the other face: the corner (-toe, h1) of the lower body carries the upper one
-    const x = toe - 2 * toe * Math.cos(turn) + h1 * Math.sin(turn);
-    const y = 2 * toe * Math.sin(turn) + h1 * Math.cos(turn);
-    at("upper").setAttribute("transform",
-      `translate(${x + toe} ${y - h1}) rotate(${back * degrees} ${-toe} ${h1})`);
+    openHinge(at("lower"), at("upper"), angle(wall.hinge), angle(wall.height - wall.hinge), toe, wall.hinge);
   }
   const ratio = u / wall.u_ins[u < 0 ? 1 : 0];
   at("time").value = frame;
@@ -59,20 +53,7 @@ function pose(frame) {
   const fallen = summary.falls !== null && t >= summary.falls;
   at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
     : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
-  for (const [id, chart] of Object.entries(charts)) {
-    const [left, right, top, bottom] = chart.area, [x0, x1, y0, y1] = chart.ranges;
-    const mark = at(id).querySelector(".cursor, .dot");
-    const x = ((id === "force" ? ratio : t) - x0) / (x1 - x0);
-    mark.style.left = `${100 * (left + (right - left) * x)}%`;
-    if (id === "force") {
-      const y = (y1 - frames.f[frame]) / (y1 - y0);
-      mark.hidden = x < 0 || x > 1 || y < 0 || y > 1;
-      mark.style.top = `${100 * (top + (bottom - top) * y)}%`;
-    } else {
-      mark.style.top = `${100 * top}%`;
-      mark.style.height = `${100 * (bottom - top)}%`;
-    }
-  }
+  moveCursors(t, [ratio, frames.f[frame]]);
 }
 let playing = null;
 function stop() {
@@ -97,9 +78,7 @@ function play() {
 }
 function scrub(event) {
   if (shown === null || (event.type === "pointermove" && event.buttons === 0)) { return; }
-  const plot = event.currentTarget, chart = shown.charts[plot.id], box = plot.getBoundingClientRect();
-  const part = ((event.clientX - box.left) / box.width - chart.area[0]) / (chart.area[1] - chart.area[0]);
-  const time = chart.ranges[0] + part * (chart.ranges[1] - chart.ranges[0]);
+  const time = timeUnder(event, event.currentTarget);
   stop();
   pose(Math.max(0, shown.frames.t.findLastIndex(one => one <= time)));
 }

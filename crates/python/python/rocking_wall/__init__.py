@@ -13,8 +13,6 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 
 from . import dask
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
-from ._calibration import Calibration
-from ._checks import Verdict
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -28,11 +26,9 @@ from ._records import (
     synthetic_record,
 )
 from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
-from ._spectra import RockingSpectrum
+from ._results import Calibration, RockingSpectrum, TieStudy, Verdict, verify
 from ._studies import Study, StudyResults
 from ._tables import Table
-from ._ties import TieStudy
-from ._verification import verify
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._given import Attribute
 from ._records import Record, motion_of, scaled
 from ._responses import Instant
 from ._tables import Table
@@ -83,6 +84,7 @@ class BuildingResponse:
     """Communication step [s], short enough for the tolerance."""
     change: float
     """Largest change of a peak by the last halving of the step, over the peak [-]."""
+    _picture: str
 
     def __repr__(self) -> str:
         fallen = [name for name, wall in self.walls.items() if wall.falls]
@@ -108,13 +110,7 @@ class BuildingResponse:
         )
 
     def _repr_html_(self) -> str:
-        picture = _native.picture_of_building(
-            self.time.tolist(),
-            self.ground.tolist(),
-            [floor.acceleration.tolist() for floor in self.floors.values()],
-            [wall.u_ratio.tolist() for wall in self.walls.values()],
-        )
-        return self.peaks._repr_html_() + picture
+        return self.peaks._repr_html_() + self._picture
 
 
 class Building:
@@ -122,6 +118,10 @@ class Building:
 
     The file is that of `wall building`; scenes of its walls are looked up beside it.
     """
+
+    title = Attribute[str]("Title.")
+    floors = Attribute[list[str]]("Names of the floors.")
+    walls = Attribute[list[str]]("Names of the walls.")
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self._native = _native.Building(fspath(path))
@@ -135,21 +135,6 @@ class Building:
 
     def __repr__(self) -> str:
         return f"Building({self.title!r}, {len(self.floors)} floors, {len(self.walls)} walls)"
-
-    @property
-    def title(self) -> str:
-        """Title."""
-        return self._native.title
-
-    @property
-    def floors(self) -> list[str]:
-        """Names of the floors."""
-        return self._native.floors
-
-    @property
-    def walls(self) -> list[str]:
-        """Names of the walls."""
-        return self._native.walls
 
     def simulate(
         self, record: Record, *, scale: float = 1.0, tail: float = 10.0, tolerance: float = 0.01

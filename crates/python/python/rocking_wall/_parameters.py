@@ -1,12 +1,10 @@
-"""The parameters of a wall, and what follows from them.
+"""The parameters of a wall.
 
 Written by `cargo xtask generate python` from the model description.
 """
 
 from collections.abc import Sequence
 from typing import Literal, TypedDict
-
-from . import _native
 
 
 class Parameters(TypedDict, total=False):
@@ -127,75 +125,17 @@ class Parameters(TypedDict, total=False):
     is not 0; default 0.0."""
 
     tie_strength: float
-    """Force that the tie resists, a limit state of its demand; 0 where none is given [N], at least 0, at most
-    1e+12; where tie_stiffness is not 0; default 0.0."""
+    """Force at which the tie yields, or a limit state of an elastic one; 0 where none is given [N], at least
+    0, at most 1e+12; where tie_stiffness is not 0; default 0.0."""
 
     tie_side: Literal["positive", "negative", "both"]
     """Side on which the tie holds the wall; where tie_stiffness is not 0; default positive."""
+
+    tie_ultimate: float
+    """Plastic elongation at which the tie breaks, yielding at tie_strength; -1: it stays elastic [m], at
+    least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0."""
 
     kinematics: Literal["linear", "trigonometric"]
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
     points: Sequence[Sequence[float]]
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
-
-
-class Calculated:
-    """What follows from the parameters of a wall; in SI units."""
-
-    _native: _native.Wall
-
-    @property
-    def mass(self) -> float:
-        """Mass of the wall, overburden not included [kg]."""
-        return self._native.calculated("mass")
-
-    @property
-    def effective_mass(self) -> float:
-        """Effective mass of the equation of motion [kg]."""
-        return self._native.calculated("effective_mass")
-
-    @property
-    def participation(self) -> float:
-        """Participation factor of the support acceleration."""
-        return self._native.calculated("participation")
-
-    @property
-    def F0(self) -> float:
-        """Rigid restoring force at zero displacement, side u > 0 [N]."""
-        return self._native.calculated("F0")
-
-    @property
-    def F0_negative(self) -> float:
-        """Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]; where
-        overburden_eccentricity is not 0 and overburden is not 0."""
-        return self._native.calculated("F0_negative")
-
-    @property
-    def u_ins(self) -> float:
-        """Static instability displacement, side u > 0 [m]."""
-        return self._native.calculated("u_ins")
-
-    @property
-    def u_ins_negative(self) -> float:
-        """Static instability displacement, side u < 0, as an absolute value [m]; where
-        overburden_eccentricity is not 0 and overburden is not 0."""
-        return self._native.calculated("u_ins_negative")
-
-    @property
-    def omega1(self) -> float:
-        """Angular frequency of the elastic branch; zero for rigid_linear [rad/s]; where force_law = bilinear
-        or trilinear."""
-        return self._native.calculated("omega1")
-
-    @property
-    def xi_used(self) -> float:
-        """Damping ratio in use on the elastic branch: given, computed or from c_bar; 0 without one; where
-        damping_model is not none."""
-        return self._native.calculated("xi_used")
-
-    @property
-    def restitution_used(self) -> float:
-        """Coefficient of restitution in use, for impacts and for computed damping; where impact =
-        restitution, or xi = -1 and damping_model = constant_coefficient, constant_ratio or
-        stiffness_proportional, or c_bar = -1 and damping_model = free_standing_block."""
-        return self._native.calculated("restitution_used")

@@ -274,9 +274,9 @@ def read_channels(
 ) -> list[Record]:
     """Reads every channel of a record file, or the one that is asked for; see `read_record`."""
     records = []
-    for found in _native.read_channels(fspath(path), unit, dt, column, channel, format):
-        name = Path(path).name + (f" [{found['channel']}]" if found["channel"] else "")
-        records.append(Record(*found["motion"], name=name, warnings=tuple(found["warnings"])))
+    for motion, found, warnings in _native.read_channels(fspath(path), unit, dt, column, channel, format):
+        name = Path(path).name + (f" [{found}]" if found else "")
+        records.append(Record(*motion, name=name, warnings=tuple(warnings)))
     return records
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, NotRequired, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._tables import Table
+from ._tables import Table, Tabular
 
 if TYPE_CHECKING:
     import pandas
@@ -123,8 +123,8 @@ class Response:
     @property
     def history(self) -> Table:
         """The history as a table; `wall simulate --csv` writes its columns with units in their names."""
-        names = COLUMNS if self.tie_force is None else (*COLUMNS, "tie_force")
-        return Table({name: getattr(self, name) for name in names})
+        columns = {field.name: getattr(self, field.name) for field in fields(self)}
+        return Table({name: column for name, column in columns.items() if isinstance(column, np.ndarray)})
 
     def to_pandas(self) -> pandas.DataFrame:
         """Returns the history as a DataFrame of pandas, which has to be installed, over the time."""
@@ -146,23 +146,8 @@ class Response:
         return _native.picture_of_response(self.time, self.a_bottom, self.u_ratio)
 
 
-COLUMNS = (
-    "time",
-    "u",
-    "u_dot",
-    "u_ddot",
-    "u_ratio",
-    "restoring_force",
-    "damping_force",
-    "reaction_bottom",
-    "reaction_top",
-    "a_bottom",
-    "a_top",
-)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class Peaks:
+class Peaks(Tabular):
     """Peaks of a wall under a record multiplied by factors, one for each."""
 
     factor: Array
@@ -190,10 +175,6 @@ class Peaks:
         """All of it as a table."""
         columns = ("factor", "u_max", "u_ratio_max", "overturned", "overturn_time")
         return Table({name: getattr(self, name) for name in columns})
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """Returns the table as a DataFrame of pandas, which has to be installed."""
-        return self.table.to_pandas()
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()

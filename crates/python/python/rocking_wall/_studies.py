@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -13,8 +13,9 @@ from warnings import warn
 import numpy as np
 
 from . import _native
+from ._given import Attribute
 from ._records import Record, motion_of, read_record
-from ._tables import Table, toml
+from ._tables import Table, Tabular, toml
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -27,8 +28,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StudyResults:
+class StudyResults(Tabular):
     """Results of a study, as the tables that `wall study ida` writes."""
+
+    _main = "fragilities"
 
     levels: Table
     """Every run; `overturn_time_s` is NaN for a wall that stood."""
@@ -41,10 +44,6 @@ class StudyResults:
     def __repr__(self) -> str:
         runs, curves = len(self.levels["wall"]), len(self.collapses["wall"])
         return f"StudyResults({runs} runs, {curves} curves)"
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """Returns the fragilities as a DataFrame of pandas, which has to be installed."""
-        return self.fragilities.to_pandas()
 
     def _repr_html_(self) -> str:
         return self.fragilities._repr_html_()
@@ -66,6 +65,12 @@ class Study:
     >>> study
     Study('Incremental dynamic analysis', 2 walls, 3 records, 2 damping models)
     """
+
+    title = Attribute[str]("Title.")
+    walls = Attribute[list[str]]("Names of the walls.")
+    records = Attribute[list[str]]("Names of the records.")
+    models = Attribute[list[str]]("Names of the damping models.")
+    measure = Attribute[str]("Name of the intensity measure.")
 
     def __init__(
         self,
@@ -141,31 +146,6 @@ class Study:
     def __len__(self) -> int:
         return len(self._native)
 
-    @property
-    def title(self) -> str:
-        """Title."""
-        return self._native.title
-
-    @property
-    def walls(self) -> list[str]:
-        """Names of the walls."""
-        return self._native.walls
-
-    @property
-    def records(self) -> list[str]:
-        """Names of the records."""
-        return self._native.records
-
-    @property
-    def models(self) -> list[str]:
-        """Names of the damping models."""
-        return self._native.models
-
-    @property
-    def measure(self) -> str:
-        """Name of the intensity measure."""
-        return self._native.measure
-
     def run(self, *, threads: int | None = None, progress: bool = True) -> StudyResults:
         """Runs the study on all cores, or on some threads, and fits the fragilities.
 
@@ -182,11 +162,7 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
     """Returns names, and walls or dictionaries of their parameters."""
     if isinstance(walls, Wall):
         walls = [walls]
-    elif hasattr(walls, "to_pylist"):
-        # a table of pyarrow
-        check_names(getattr(walls, "column_names", []))
-        walls = with_content(walls.to_pylist())
-    elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
+    elif hasattr(walls, "columns"):
         walls = rows_of(walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
@@ -197,33 +173,29 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
 
 
 def rows_of(frame: Any) -> list[dict[str, Any]]:
-    """Returns the rows of a DataFrame that have content; names may be an index called `name`."""
+    """Returns the rows of a table that have content; names may be an index called `name`."""
     if "name" in getattr(getattr(frame, "index", None), "names", ()) and "name" not in frame.columns:
         frame = frame.reset_index()
-    check_names([str(name) for name in frame.columns])
-    return rows_of_columns({str(name): frame[name] for name in frame.columns})
-
-
-def check_names(names: Sequence[str]) -> None:
-    """Refuses two columns of one name."""
+    # a table of pyarrow has names beside its columns
+    columns = list(getattr(frame, "column_names", frame.columns))
+    names = [str(name) for name in columns]
     twins = sorted({name for name in names if names.count(name) > 1})
     if twins:
         raise ValueError(f"the table of walls has two columns {twins[0]!r}; give each column its own name")
+    return rows_of_columns({name: frame[column] for name, column in zip(names, columns)})
 
 
 def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Returns the rows of columns by their names that have content; each cell keeps its type."""
+    """Returns the rows of columns by their names that have content; each cell keeps its type.
+
+    A row without a name is refused.
+    """
     cells = [each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values()]
     if len({len(column) for column in cells}) > 1:
         found = ", ".join(f"{name!r} has {len(column)}" for name, column in zip(columns, cells))
         raise ValueError(f"the columns of a table of walls need one length: {found}; complete the short ones")
-    return with_content(dict(zip(columns, row)) for row in zip(*cells))
-
-
-def with_content(rows: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns the rows that have a cell with content; one without a name is refused."""
     filled = []
-    for number, row in enumerate(rows, 1):
+    for number, row in enumerate((dict(zip(columns, row)) for row in zip(*cells)), 1):
         if all(is_missing(value) for value in row.values()):
             continue
         if "name" in row and is_missing(row["name"]):

@@ -43,6 +43,17 @@ class Table(dict[str, NDArray[Any]]):
         return f"<table><thead>{row(list(self), 'th')}</thead><tbody>{body}</tbody></table>"
 
 
+class Tabular:
+    """Results of which one table is the main one."""
+
+    _main = "table"
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the main table as a DataFrame of pandas, which has to be installed."""
+        table: Table = getattr(self, self._main)
+        return table.to_pandas()
+
+
 MOST_ROWS = 100
 """Rows that a notebook shows."""
 

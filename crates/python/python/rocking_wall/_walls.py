@@ -15,15 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._calibration import Calibration
-from ._checks import Verdict
 from ._given import Given
-from ._parameters import Calculated, Parameters
+from ._parameters import Parameters
 from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
-from ._spectra import RockingSpectrum
+from ._results import Calibration, RockingSpectrum, TieStudy, Verdict
 from ._tables import Table, shown, toml
-from ._ties import TieStudy
 
 
 class Description(dict[str, Any]):
@@ -32,11 +29,8 @@ class Description(dict[str, Any]):
     def __init__(self, wall: _native.Wall) -> None:
         self._facts = wall.facts()
         super().__init__((name, value) for name, _, value, _ in self._facts)
-        u, force = wall.backbone()
-        self["solver"] = wall.method()
-        self["backbone"] = np.column_stack([u, force])
-        self["warnings"] = wall.warnings
-        self._picture = wall.picture()
+        self["solver"], backbone, self["warnings"], self._picture = wall.description()
+        self["backbone"] = np.array(backbone)
 
     def __repr__(self) -> str:
         lines = [f"{name:<22}{symbol:<8}{shown(value)} {unit}" for name, symbol, value, unit in self._facts]
@@ -67,7 +61,7 @@ class Storey:
     """Damping ratio [-]; by default 0.05."""
 
 
-class Wall(Given, Calculated):
+class Wall(Given):
     def __init__(
         self,
         height: float | None = None,
@@ -300,14 +294,14 @@ class Wall(Given, Calculated):
             raise ValueError("give either ratios or angles")
         sizes = radii if radii is not None else HEIGHTS if heights is None else heights
         slendernesses = angles if angles is not None else RATIOS if ratios is None else ratios
-        values = _native.spectrum_over_walls(
+        columns, rows, table, picture = _native.spectrum_over_walls(
             self._native,
             None if record is None else motion_of(record),
             (radii is not None, sizes),
             (angles is not None, slendernesses),
             threads,
         )
-        return RockingSpectrum(values[0], values[1], Table(values[2]))
+        return RockingSpectrum(columns, rows, Table(table), picture)
 
     def pulse_spectrum(
         self,
@@ -330,8 +324,8 @@ class Wall(Given, Calculated):
         """
         columns = PULSES if frequency_ratios is None else frequency_ratios
         rows = PULSES if amplitude_ratios is None else amplitude_ratios
-        values = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
-        return RockingSpectrum(values[0], values[1], Table(values[2]))
+        across, up, table, picture = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
+        return RockingSpectrum(across, up, Table(table), picture)
 
     def tie(
         self,

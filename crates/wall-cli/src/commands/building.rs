@@ -58,7 +58,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));
     let mut text = String::new();
     if let Some(path) = &output {
-        let trial = trial(&building, &parts)?;
+        let trial = trial(&building, &parts);
         let step = trial.step(&building);
         let archive = parts.archive(&building, step, &arguments.wall_fmu, &arguments.floor_fmu)?;
         let bytes = archive.to_bytes()?;

@@ -70,7 +70,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         object.insert("capacity".into(), capacity.json());
         let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
         object.insert("warnings".into(), warnings.into());
-        return console.print(&(serde_json::to_string_pretty(&object)? + "\n"));
+        return console.json(&object.into());
     }
     let mut text = String::new();
     for (name, value) in words {

@@ -143,15 +143,14 @@ fn show(
     let table = table(channels, &of.periods);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     if arguments.json {
-        let value = json!({
+        return console.json(&json!({
             "damping": arguments.damping,
             "maxima": if arguments.at_samples { "at_samples" } else { "everywhere" },
             "average_periods_s": of.average,
             "periods_s": of.periods,
             "records": channels.iter().map(Facts::json).collect::<Vec<_>>(),
             "unread": unread,
-        });
-        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
+        }));
     }
     let mut text = String::new();
     if arguments.files.iter().any(|path| path.is_dir()) {

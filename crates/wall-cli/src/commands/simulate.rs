@@ -32,16 +32,13 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     console.save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {
-        let page = run::page::render(&scene, &wall, &response)?;
-        console.write(path, page.as_bytes())?;
+        console.write(path, run::page::render(&scene, &wall, &response)?.as_bytes())?;
     }
-    let text = if arguments.json {
+    if arguments.json {
         let mut value = serde_json::to_value(&response)?;
         value["title"] = scene.title.clone().into();
-        serde_json::to_string_pretty(&value)? + "\n"
-    } else {
-        demands::summary(&scene, &response)
-            + &output::written("written        ", outputs.into_iter().flatten())
-    };
-    console.print(&text)
+        return console.json(&value);
+    }
+    let written = output::written("written        ", outputs.into_iter().flatten());
+    console.print(&(demands::summary(&scene, &response) + &written))
 }

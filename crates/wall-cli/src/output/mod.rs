@@ -44,16 +44,6 @@ impl Console<'_> {
         }
         self.write(path, draw()?.svg().as_bytes())
     }
-
-    /// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF.
-    /// If one of them is `-`, all messages from here on go to stderr.
-    pub(crate) fn check_distinct<'a>(
-        &self,
-        inputs: impl IntoIterator<Item = &'a PathBuf>,
-        outputs: impl IntoIterator<Item = &'a PathBuf>,
-    ) -> Result<()> {
-        distinct::check_distinct(self, inputs, outputs)
-    }
 }
 
 /// Lists files that were written, a line for each after `label`; standard output is no file.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use report::palette::{BLUE, GREY, RED};
 use report::plot::Plot;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Digits, Table};
 use run::figure::{both_rotations, period_ratios};
 use run::rotations::SLENDERNESS;
 
@@ -17,42 +17,36 @@ const SIZE: [f64; 2] = [440.0, 290.0];
 
 /// Returns the periods, one a row.
 pub fn table(both: &[BothRotations]) -> Table {
-    let names = [
-        "alpha_rad",
-        "start_over_u_ins",
-        "period_linear_s",
-        "period_trigonometric_s",
-        "period_eq5_s",
-        "ratio",
-        "ratio_eq5",
-    ];
-    let numbers = names.map(|name| Column::number(name, name, Digits::AtMost(6)));
-    let mut table = Table::new([Column::text("mechanism", "mechanism")].into_iter().chain(numbers));
-    for measured in both {
-        for period in measured.periods.iter().flatten() {
-            let Period { slenderness, start, linear, trigonometric, housner, .. } = *period;
-            let known = [slenderness, start, linear, trigonometric].map(Cell::from);
-            let ratios = [housner, Some(period.ratio()), period.over_housner()].map(Cell::from);
-            table.row([measured.name.into()].into_iter().chain(known).chain(ratios));
-        }
-    }
-    table
+    let rows = both
+        .iter()
+        .flat_map(|measured| measured.periods.iter().flatten().map(|period| (measured.name, period)));
+    Table::over(rows)
+        .value("mechanism", |(name, _)| *name)
+        .value("alpha_rad", |(_, period)| period.slenderness)
+        .value("start_over_u_ins", |(_, period)| period.start)
+        .value("period_linear_s", |(_, period)| period.linear)
+        .value("period_trigonometric_s", |(_, period)| period.trigonometric)
+        .value("period_eq5_s", |(_, period)| period.housner)
+        .value("ratio", |(_, period)| period.ratio())
+        .value("ratio_eq5", |(_, period)| period.over_housner())
+        .done()
 }
 
 /// Returns the ratios of periods by slenderness and start, and Figure 2 in numbers.
 pub fn text(both: &[BothRotations]) -> String {
-    let starts = both.iter().flat_map(|measured| STARTS.map(|start| format!("{} {start}", measured.name)));
-    let ratio = |heading: String| Column::number("", heading, Digits::Decimals(5));
-    let alpha = Column::number("", "alpha", Digits::Decimals(2));
-    let columns = [alpha, ratio("Eq. (5)".to_owned())].into_iter().chain(starts.map(ratio));
-    let mut table = Table::new(columns);
-    for (index, alpha) in SLENDERNESS.into_iter().enumerate() {
-        let ratios = both.iter().flat_map(|measured| &measured.periods).map(|row| row[index].ratio().into());
-        table.row([alpha.into(), both[0].periods[0][index].over_housner().into()].into_iter().chain(ratios));
+    let ratio = Digits::Decimals(5);
+    let mut table = Table::over(SLENDERNESS.into_iter().enumerate())
+        .number("", "alpha", Digits::Decimals(2), |(_, alpha)| *alpha)
+        .number("", "Eq. (5)", ratio, |(index, _)| both[0].periods[0][*index].over_housner());
+    for measured in both {
+        for (start, periods) in STARTS.iter().zip(&measured.periods) {
+            let heading = format!("{} {start}", measured.name);
+            table = table.number("", heading, ratio, |(index, _)| periods[*index].ratio());
+        }
     }
     let mut text =
         String::from("small rotations: their period over that of full rotations, by start over u_ins\n");
-    text += &table.text();
+    text += &table.done().text();
     let first = |times: &[f64]| times.first().copied().unwrap_or(f64::NAN);
     for BothRotations { name, duration, restitution, history, .. } in both {
         let (linear, full) = (first(&history.linear.impacts), first(&history.trigonometric.impacts));

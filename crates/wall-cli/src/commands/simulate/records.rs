@@ -16,12 +16,8 @@ use crate::output::progress::{self, Progress};
 use crate::output::{self, Console};
 use run::polarity::Polarities;
 
-/// A record, scaled.
-struct Shaking {
-    name: String,
-    note: String,
-    motion: GroundMotion,
-}
+/// A record, scaled: its name, a note on it, and its motion.
+type Shaking = (String, String, GroundMotion);
 
 pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if arguments.html.is_some() {
@@ -31,7 +27,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(arguments.listed());
     console.check_distinct(inputs, &arguments.csv)?;
     let motions = read(console, arguments)?;
-    let first = motions.first().map(|first| (first.motion.clone(), first.note.clone()));
+    let first = motions.first().map(|(_, note, motion)| (motion.clone(), note.clone()));
     let first = arguments.shaken(scene.clone(), first)?;
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
@@ -42,7 +38,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     let runs = signs.len() * motions.len();
     let row = |index: usize, progress: &Progress| {
-        let (Shaking { name, note, motion }, (sign, factor)) =
+        let ((name, note, motion), (sign, factor)) =
             (&motions[index / signs.len()], signs[index % signs.len()]);
         let motion = motion.checked_scaled(factor)?;
         let peak_acceleration = motion.peak();
@@ -58,12 +54,11 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let table = motions::table(&rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     if arguments.json {
-        let value = json!({
+        return console.json(&json!({
             "title": first.title,
             "alike_on_both_sides": polarities == Polarities::Alike,
             "runs": motions::json(&rows),
-        });
-        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
+        }));
     }
     let counts = motions::overturned(&rows);
     let text = format!("{}\n{}{counts}{}", first.title, table.text(), polarities.note());
@@ -74,9 +69,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
 fn read(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
         let (motion, note) = arguments.record.read(console, path)?;
-        let motion = arguments.record.motion.scaled(console, motion)?;
-        let name = short_name(path);
-        Ok(Shaking { name, note, motion })
+        Ok((short_name(path), note, arguments.record.motion.scaled(console, motion)?))
     };
     arguments.listed().iter().map(shaking).collect()
 }

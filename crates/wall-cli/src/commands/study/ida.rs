@@ -206,16 +206,14 @@ fn compute(
     let shares = shares.into_inner().unwrap_or_default();
     let runs: usize = shares.iter().map(|share| share.runs).sum();
     let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
-    let mut table = Table::new([
-        Column::text("", "model"),
-        Column::count("", "runs"),
-        Column::number("", "runs/s a core", Digits::Decimals(0)),
-        Column::number("", "ns a sample and run", Digits::Decimals(1)),
-    ]);
-    for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
-        let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
-        table.row([model.name.clone().into(), share.runs.into(), rate.into(), each.into()]);
-    }
+    let rows = study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0);
+    let each = |(_, share): &(&_, &Share)| 1e9 * share.seconds / share.samples;
+    let table = Table::over(rows)
+        .text("", "model", |(model, _)| model.name.clone())
+        .column(Column::count("", "runs"), |(_, share)| share.runs)
+        .number("", "runs/s a core", Digits::Decimals(0), |(_, share)| share.runs as f64 / share.seconds)
+        .number("", "ns a sample and run", Digits::Decimals(1), each)
+        .done();
     Ok(format!("{runs} in {seconds:.1} s on {}\n{}", counted(threads, "thread"), table.text()))
 }
 

@@ -11,7 +11,7 @@ use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use run::parallel;
 use run::polarity::Polarities;
-use serde_json::{Value, json};
+use serde_json::json;
 use study::tie::figure::picture;
 use study::tie::{TieStudy, table};
 
@@ -64,13 +64,28 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
     let table = table(&rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&value(&study, &table.json()))? + "\n"
-    } else {
-        let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
-        title(&study) + &table.text() + study.polarities().note() + &written
+    let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
+    let title = &study.scene().title;
+    if arguments.json {
+        return console.json(&json!({
+            "title": title,
+            "tie_height": tie_height,
+            "tie_side": tie_side.name(),
+            "motions": study.motions(),
+            "alike_on_both_sides": study.polarities() == Polarities::Alike,
+            "rows": table.json(),
+        }));
+    }
+    let side = match tie_side {
+        TieSide::Positive => "u > 0",
+        TieSide::Negative => "u < 0",
+        TieSide::Both => "both sides",
     };
-    console.print(&text)
+    let (motions, note) = (counted(study.motions(), "motion"), study.polarities().note());
+    let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
+    let table = table.text();
+    console
+        .print(&format!("{title}, tie at {tie_height} m against {side}, {motions}\n\n{table}{note}{written}"))
 }
 
 /// The records asked for, scaled.
@@ -87,28 +102,4 @@ fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<GroundMot
         motions.push(motion);
     }
     Ok(motions)
-}
-
-/// What was studied, in a line.
-fn title(study: &TieStudy) -> String {
-    let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
-    let side = match tie_side {
-        TieSide::Positive => "u > 0",
-        TieSide::Negative => "u < 0",
-        TieSide::Both => "both sides",
-    };
-    let motions = counted(study.motions(), "motion");
-    format!("{}, tie at {tie_height} m against {side}, {motions}\n\n", study.scene().title)
-}
-
-fn value(study: &TieStudy, rows: &Value) -> Value {
-    let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
-    json!({
-        "title": study.scene().title,
-        "tie_height": tie_height,
-        "tie_side": tie_side.name(),
-        "motions": study.motions(),
-        "alike_on_both_sides": study.polarities() == Polarities::Alike,
-        "rows": rows,
-    })
 }

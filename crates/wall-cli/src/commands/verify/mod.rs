@@ -86,12 +86,12 @@ fn formulas(console: &Console<'_>, arguments: &Formulas) -> Result<u8> {
     let formulas = verify()?;
     console.save(arguments.html.as_ref(), || manual::page(&subject, &formulas))?;
     console.save(arguments.markdown.as_ref(), || manual::markdown(&formulas))?;
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&manual::json(&subject, &formulas))? + "\n"
+    if arguments.json {
+        console.json(&manual::json(&subject, &formulas))?;
     } else {
-        format!("{subject}\n\n{}{}", manual::text(&formulas), output::written("written ", outputs()))
-    };
-    console.print(&text)?;
+        let (text, written) = (manual::text(&formulas), output::written("written ", outputs()));
+        console.print(&format!("{subject}\n\n{text}{written}"))?;
+    }
     let [_, failed] = manual::counts(&formulas);
     Ok(if failed == 0 { 0 } else { FAILED })
 }

@@ -1,0 +1,271 @@
+//! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
+//! damping that matches restitution; and of formulas beside references.
+
+use check::{CheckError, CheckFile, Subject, read};
+use evidence::verification::{page, verify};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use report::table::Column;
+use rocking_wall::response::Fate;
+use rocking_wall::scene::DEFAULT_TAIL;
+use rocking_wall::simulation::Excitation;
+use rocking_wall::variables::DampingModel;
+use run::polarity::Polarities;
+use run::records::NamedRecord;
+use study::calibration::figure::charts;
+use study::calibration::{
+    self, Calibration, CalibrationError, Grid, calibrate, calibrated_models, model_named,
+};
+use study::spectrum::figure::{Shown, svg};
+use study::spectrum::{
+    MOST_POINTS, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
+    over_pulses, over_walls,
+};
+use study::tie::{self, Outcome, Row, TieError, TieStudy};
+
+use crate::arrays::{Motion, Numbers, grid, samples};
+use crate::errors::{failed, of_scene, refused};
+use crate::tables::table;
+use crate::walls::Wall;
+use crate::watch::threads_of;
+
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns what its verdict says
+/// and its numbers as JSON, its rows, and its picture.
+#[pyfunction]
+pub(crate) fn check_wall<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    text: String,
+    records: Vec<(String, Motion)>,
+) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
+    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+    let records = records.into_iter().map(record).collect();
+    let subject = Subject::from(&wall.scene);
+    let checked = py.detach(|| {
+        let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
+        let verdict = code.check(subject)?;
+        let picture = verdict.details.figure()?.plot.picture().svg();
+        Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
+    });
+    let (summary, numbers, rows, picture) = checked.map_err(|error: CheckError| match error {
+        CheckError::Scene(error) => of_scene(error),
+        other => refused(other),
+    })?;
+    Ok((summary, numbers, table(py, rows)?, picture))
+}
+
+/// Checks every formula; returns the table of the numbers.
+#[pyfunction]
+pub(crate) fn verify_formulas(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let formulas = py.detach(verify).map_err(failed)?;
+    let mut rows = page::all(&formulas);
+    rows.columns.insert(0, Column::text("formula", ""));
+    rows.columns.push(Column::count("passes", ""));
+    let own = formulas.iter().flat_map(|one| one.comparisons.iter().map(|row| (&one.title, row.passes())));
+    for (row, (title, passes)) in rows.rows.iter_mut().zip(own) {
+        row.insert(0, title.clone().into());
+        row.push(passes.into());
+    }
+    table(py, rows)
+}
+
+/// Columns, rows, the table of `wall study spectrum --csv`, and the picture.
+type Values<'py> = (Numbers<'py>, Numbers<'py>, Bound<'py, PyDict>, String);
+
+/// Computes the spectrum of a record, or of the motion of the wall's scene, over walls.
+#[pyfunction]
+pub(crate) fn spectrum_over_walls<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    record: Option<Motion>,
+    sizes: (bool, Bound<'py, PyAny>),
+    slendernesses: (bool, Bound<'py, PyAny>),
+    threads: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Values<'py>> {
+    let mut scene = wall.scene.clone();
+    if let Some(Motion(record)) = record {
+        scene.shake(Excitation::new(record, None), DEFAULT_TAIL, Vec::new());
+    }
+    let motion = common_motion(&scene).map_err(of_scene)?;
+    let size = if sizes.0 { Size::SemiDiagonal } else { Size::Height };
+    let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
+    let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
+    check_count(columns.len(), rows.len())?;
+    let threads = threads_of(threads)?.get();
+    let quantities = [size.quantity(), slenderness.quantity()];
+    let mut points = Vec::with_capacity(rows.len());
+    // between two rows this thread looks at Ctrl-C
+    for row in &rows {
+        let row = std::slice::from_ref(row);
+        let over = || over_walls(&scene.parameters, &motion, (size, &columns), (slenderness, row), threads);
+        points.extend(py.detach(over).map_err(of_spectrum)?.points);
+        py.check_signals()?;
+    }
+    values(py, RockingSpectrum { quantities, columns, rows, points })
+}
+
+/// Columns of pulses for each thread between two looks at Ctrl-C.
+const COLUMNS_AT_ONCE: usize = 2;
+
+/// Computes the dimensionless spectrum of pulses of one form.
+#[pyfunction]
+pub(crate) fn spectrum_over_pulses<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    form: &str,
+    columns: &Bound<'py, PyAny>,
+    rows: &Bound<'py, PyAny>,
+    threads: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Values<'py>> {
+    let form = PulseForm::from_name(form)
+        .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
+    let (columns, rows) = (samples(columns)?, samples(rows)?);
+    check_count(columns.len(), rows.len())?;
+    let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());
+    let quantities = [QUANTITIES[4], QUANTITIES[5]];
+    let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
+    for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
+        let over = || over_pulses(parameters, form, columns, &rows, threads);
+        let found = py.detach(over).map_err(of_spectrum)?.points;
+        points.iter_mut().zip(found).for_each(|(row, found)| row.extend(found));
+        py.check_signals()?;
+    }
+    values(py, RockingSpectrum { quantities, columns, rows, points })
+}
+
+fn check_count(columns: usize, rows: usize) -> PyResult<()> {
+    let found = columns * rows;
+    if found == 0 {
+        return Err(refused("a spectrum needs at least one value along each axis"));
+    }
+    if found > MOST_POINTS { Err(refused(SpectrumError::TooManyPoints { found })) } else { Ok(()) }
+}
+
+fn of_spectrum(error: SpectrumError) -> PyErr {
+    match error {
+        SpectrumError::Run { .. } => failed(error),
+        _ => refused(error),
+    }
+}
+
+fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
+    let (title, table) = ("Rocking spectrum".to_owned(), table(py, spectrum.table())?);
+    let shown = Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None };
+    let [columns, rows] =
+        [&shown.spectrum.columns, &shown.spectrum.rows].map(|v| PyArray1::from_slice(py, v));
+    Ok((columns, rows, table, svg(&shown)))
+}
+
+/// Runs for each thread between two looks at Ctrl-C.
+const RUNS_AT_ONCE: usize = 4;
+
+/// Runs a wall with a tie of each stiffness under each motion; returns the outcomes by stiffness and motion,
+/// their table, the picture, and whether one sign of the motions stands for both.
+#[pyfunction]
+pub(crate) fn tie_of_wall<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    records: Vec<Motion>,
+    stiffness: Option<Bound<'py, PyAny>>,
+    both_polarities: bool,
+    threads: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
+    let records = records.into_iter().map(|Motion(record)| record).collect();
+    let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
+    let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
+    let stiffnesses = study.stiffnesses(&given).map_err(refused)?;
+    let threads = threads_of(threads)?.get();
+    let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
+    let mut rows = Vec::with_capacity(stiffnesses.len());
+    for stiffnesses in stiffnesses.chunks(at_once) {
+        rows.extend(py.detach(|| study.rows(stiffnesses, threads)).map_err(of_tie)?);
+        py.check_signals()?;
+    }
+    let is_alike = study.polarities() == Polarities::Alike;
+    Ok((outcomes(py, &rows)?, table(py, tie::table(&rows))?, tie::figure::picture(&rows).svg(), is_alike))
+}
+
+fn of_tie(error: TieError) -> PyErr {
+    match error {
+        TieError::Run(error) => of_scene(error),
+        other => refused(other),
+    }
+}
+
+fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
+    let of: Vec<&[Outcome]> = rows.iter().map(|row| &row.outcomes[..]).collect();
+    let values = PyDict::new(py);
+    values.set_item("stiffness", PyArray1::from_iter(py, rows.iter().map(|row| row.stiffness)))?;
+    values.set_item("force", grid(py, &of, |outcome| outcome.force)?)?;
+    values.set_item("u_ratio_max", grid(py, &of, |outcome| outcome.u_ratio)?)?;
+    values.set_item("falls", grid(py, &of, |outcome| outcome.fate.falls())?)?;
+    values.set_item("falls_away_from_tie", grid(py, &of, |outcome| outcome.away)?)?;
+    let comes_back = |outcome: &Outcome| matches!(outcome.fate, Fate::ComesBack { .. });
+    values.set_item("beyond_u_ins_and_back", grid(py, &of, comes_back)?)?;
+    values.set_item("strength_reached", grid(py, &of, |outcome| outcome.reached)?)?;
+    Ok(values)
+}
+
+/// Calibrates damping models of a wall; returns the tables of fits, coefficients and laws, and the charts.
+#[pyfunction]
+pub(crate) fn calibrate_wall<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    models: Option<Vec<String>>,
+    restitution: Option<Bound<'py, PyAny>>,
+    a1: Option<Bound<'py, PyAny>>,
+    start: &Bound<'py, PyAny>,
+    step: f64,
+    threads: Option<&Bound<'_, PyAny>>,
+) -> PyResult<([Bound<'py, PyDict>; 3], Vec<String>)> {
+    let mut grid = Grid { start: samples(start)?, step, ..Grid::default() };
+    if let Some(restitution) = &restitution {
+        grid.restitution = samples(restitution)?;
+    }
+    if let Some(a1) = &a1 {
+        grid.a1 = samples(a1)?;
+    }
+    let parameters = &wall.scene.parameters;
+    let models = match models {
+        Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
+        None => calibrated_models(parameters),
+    };
+    let threads = threads_of(threads)?;
+    let mut found = Vec::with_capacity(models.len());
+    for model in models {
+        grid.check(model).map_err(of_calibration)?;
+        let mut fits = Vec::new();
+        // between two values of a1 this thread looks at Ctrl-C
+        for &a1 in &grid.a1 {
+            let grid = Grid { a1: vec![a1], ..grid.clone() };
+            let part = py.detach(|| calibrate(parameters, model, &grid, threads)).map_err(of_calibration)?;
+            // a law with an a1 of its own has one part
+            let is_own = part.fits.iter().any(|fit| fit.a1 != a1);
+            fits.extend(part.fits);
+            py.check_signals()?;
+            if is_own {
+                break;
+            }
+        }
+        found.push(Calibration::new(model, fits));
+    }
+    let tables = [calibration::table::fits, calibration::table::coefficients, calibration::table::laws]
+        .map(|of| table(py, of(&found)));
+    let [fits, coefficients, laws] = tables;
+    Ok((
+        [fits?, coefficients?, laws?],
+        charts(&found).iter().map(|drawn| drawn.figure_file().svg()).collect(),
+    ))
+}
+
+fn model(name: &str) -> PyResult<DampingModel> {
+    model_named(name).map_err(|error| refused(format!("models: {error}")))
+}
+
+fn of_calibration(error: CalibrationError) -> PyErr {
+    match error {
+        CalibrationError::Run { .. } | CalibrationError::Minimiser(_) => failed(error),
+        _ => refused(error),
+    }
+}
