@@ -59,7 +59,7 @@ pub struct Bar {
 }
 
 impl Default for Bar {
-    /// Steel of 210 GPa; diameter, length and yield stress, which have to be given, are 0.
+    /// Steel of 210 `GPa`; diameter, length and yield stress, which have to be given, are 0.
     fn default() -> Self {
         Self {
             diameter: 0.0,

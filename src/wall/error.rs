@@ -67,8 +67,8 @@ pub enum ParameterError {
     TieHeight { tie_height: f64, height: f64 },
     /// A plastic elongation that is none.
     #[error(
-        "tie_ultimate = {ultimate} m must be 0 or more, the plastic elongation at which the tie breaks, or -1 \
-         for a tie that stays elastic"
+        "tie_ultimate = {ultimate} m must be 0 or more, the plastic elongation at which the tie breaks, or \
+         -1 for a tie that stays elastic"
     )]
     TieUltimate { ultimate: f64 },
     /// A number that the bar of a tie lacks.

@@ -6,8 +6,9 @@ use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
 use super::tie::{Tie, TieAction, TieMemory};
 
-/// Returns the corners in order of displacement, the two landings first and last. A tie has those that belong
-/// to its memory. `fully` says that rotations are full. A wall with one free side has no landing on the other: the corner at u = 0 is its end there.
+/// Returns the corners in order of displacement, the two landings first and last. A tie has those that
+/// belong to its memory. `fully` says that rotations are full. A wall with one free side has no landing on
+/// the other: the corner at u = 0 is its end there.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,
