@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
-use crate::wall::{Support, Warning};
+use crate::wall::{Sides, Support, Warning};
 
 /// One line of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -208,8 +208,11 @@ impl Response {
 
     /// Writes the history as CSV, numbers to their last digit; the header names the columns with their units.
     pub fn csv(&self) -> String {
-        let tied = self.demands.tie.is_some();
-        let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force_n" } else { "" });
+        let tie = self.demands.tie;
+        let yields = tie.is_some_and(|tie| tie.yielding.is_some());
+        let of_tie = ["", ",tie_force_n"][usize::from(tie.is_some())];
+        let of_yielding = ["", ",tie_elongation_m,tie_elongation_negative_m"][usize::from(yields)];
+        let mut csv = format!("{COLUMNS}{of_tie}{of_yielding}\n");
         for Sample { time, support, outputs } in &self.samples {
             // writing to a String cannot fail
             let _ = write!(csv, "{time:.9}");
@@ -227,8 +230,12 @@ impl Response {
             ] {
                 let _ = write!(csv, ",{value:?}");
             }
-            if tied {
+            if tie.is_some() {
                 let _ = write!(csv, ",{:?}", outputs.tie_force);
+            }
+            if yields {
+                let Sides { positive, negative } = outputs.tie_elongation;
+                let _ = write!(csv, ",{positive:?},{negative:?}");
             }
             csv.push('\n');
         }
@@ -236,6 +243,7 @@ impl Response {
     }
 }
 
-/// The columns of [`Response::csv`]; the force of a tie follows them where there is one.
+/// The columns of [`Response::csv`]. Those of a tie follow where there is one: its force, and the elongations
+/// of one that yields.
 const COLUMNS: &str = "time_s,u_m,u_dot_m_s,u_ddot_m_s2,u_ratio,restoring_force_n,damping_force_n,\
                        reaction_bottom_n,reaction_top_n,a_bottom_m_s2,a_top_m_s2";

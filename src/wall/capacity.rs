@@ -90,6 +90,16 @@ impl Wall {
         self.force.side(sign).lines.last().map_or(0.0, |line| direction * line.at(direction * u))
     }
 
+    /// Returns the |u| of the unstable equilibrium that a yielding tie moves outwards on the side of `sign`,
+    /// u₃ + (2y/h) `N_y`/k₀ with parallel softening \[m\]; `None` where the tie does not yield there.
+    pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
+        let tie = self.tie().filter(|tie| tie.holds(sign))?;
+        let side = self.force.side(sign);
+        let u = side.end - tie.lever * tie.strength? / side.lines.last()?.slope;
+        let yields = tie.strength_displacement()?..tie.fracture_displacement()?;
+        (yields.contains(&u) && u < self.body().departure.of(sign)).then_some(u)
+    }
+
     /// |u| at the end of the elastic branch on the side of `sign`; 0 for the rigid-linear law \[m\].
     pub fn elastic_end(&self, sign: f64) -> f64 {
         if self.is_rigid() { 0.0 } else { self.force.side(sign).corners[0] }

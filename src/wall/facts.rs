@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::equation::Wall;
 use super::equivalence;
+use super::tie::Tie;
 
 /// A number that follows from the parameters of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +48,29 @@ impl Wall {
             ("xi_giannini", "Eq. 17", equivalence::giannini_masiani(e), "-"),
         ]
         .map(|(name, symbol, value, unit)| Fact { name, symbol, value, unit })
-        .into()
+        .into_iter()
+        .chain(self.tie_facts())
+        .collect()
+    }
+
+    /// Lists the numbers of a tie, and the |u| at which it first pulls, yields and breaks.
+    fn tie_facts(&self) -> impl Iterator<Item = Fact> + use<> {
+        let tie = self.tie();
+        let [positive, negative] = [1.0, -1.0].map(|sign| self.yielding_equilibrium(sign));
+        let facts = [
+            ("tie_stiffness", "K", tie.map(|tie| tie.stiffness), "N/m"),
+            ("tie_strength", "N_y", tie.and_then(|tie| tie.strength), "N"),
+            ("tie_ultimate", "p_u", tie.and_then(|tie| tie.ultimate), "m"),
+            ("tie_engages", "u_e", tie.map(Tie::onset), "m"),
+            ("tie_yields", "u_y", tie.and_then(Tie::strength_displacement), "m"),
+            ("tie_breaks", "u_f", tie.and_then(Tie::fracture_displacement), "m"),
+            ("tie_equilibrium", "u*+", positive, "m"),
+            ("tie_equilibrium_negative", "u*-", negative, "m"),
+        ];
+        let given = |(name, symbol, value, unit): (_, _, Option<f64>, _)| {
+            value.map(|value| Fact { name, symbol, value, unit })
+        };
+        facts.map(given).into_iter().flatten()
     }
 }
 

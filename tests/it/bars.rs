@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use rocking_wall::response::Response;
 use rocking_wall::scene::{Scene, to_toml};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, TieSide};
 use rocking_wall::wall::{Bar, Parameters, TiePart, Wall};
 
 /// A parapet of 2 m and a bar every 3 m.
@@ -146,4 +148,75 @@ fn numbers_of_a_bar_in_other_units_are_asked_back() {
         assert!(warnings.len() == 1 && warnings[0].contains(meant), "{key}: {warnings:?}");
     }
     assert_eq!(Wall::new(&read(TIED).unwrap().parameters).unwrap().warnings(), []);
+}
+
+/// The wall of the hand example of ties, whose tie is strong enough to move the unstable equilibrium only if
+/// it lasts: u₃ + 2y/h `N_y`/k₀ = 0.15 + 0.0327203 m for 200 N.
+#[test]
+fn facts_say_where_a_tie_pulls_yields_and_breaks() {
+    let parameters = Parameters {
+        height: 3.0,
+        thickness: 0.3,
+        density: 1800.0,
+        gravity: 9.81,
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        u_start: 0.0,
+        tie_height: 2.6,
+        tie_stiffness: 200e3,
+        tie_slack: 0.02,
+        tie_strength: 3e3,
+        tie_ultimate: 0.05,
+        tie_side: TieSide::Both,
+        ..Parameters::default()
+    };
+    let facts = |parameters: &Parameters| {
+        let facts = Wall::new(parameters).unwrap().facts();
+        let value = |name| facts.iter().find(|fact| fact.name == name).map(|fact| fact.value);
+        ["tie_engages", "tie_yields", "tie_breaks", "tie_equilibrium", "tie_equilibrium_negative"].map(value)
+    };
+    let near = |found: Option<f64>, wanted: f64| assert!((found.unwrap() - wanted).abs() < 5e-8, "{found:?}");
+    let [engages, yields, breaks, ..] = facts(&parameters);
+    near(engages, 0.011_538_46);
+    near(yields, 0.020_192_31);
+    near(breaks, 0.049_038_46);
+    // it breaks before
+    assert_eq!(facts(&parameters)[3..], [None; 2]);
+    let weak = Parameters { tie_strength: 200.0, tie_ultimate: 0.5, ..parameters.clone() };
+    let k0 = Wall::new(&weak).unwrap().body().geometric_stiffness;
+    for found in &facts(&weak)[3..] {
+        near(*found, 0.15 + 2.0 * 2.6 / 3.0 * 200.0 / k0);
+    }
+    let one = Parameters { tie_side: TieSide::Negative, ..weak.clone() };
+    assert!(facts(&one)[3].is_none() && facts(&one)[4].is_some());
+    // an elastic tie has no such place, and none has no facts
+    assert_eq!(facts(&Parameters { tie_ultimate: -1.0, ..weak.clone() })[2..], [None; 3]);
+    assert_eq!(facts(&Parameters { tie_stiffness: 0.0, ..weak }), [None; 5]);
+}
+
+/// Columns of a tie stand where there is one, and elongations where it yields.
+#[test]
+fn histories_have_the_columns_of_their_tie() {
+    let scene = |ties: &[(&str, &str)]| {
+        let mut scene = Scene { stop_time: 2.0, ..Scene::default() };
+        for (name, value) in ties {
+            scene.set(name, value).unwrap();
+        }
+        Response::of(&scene).unwrap().csv()
+    };
+    let elastic =
+        [("tie_height", "3"), ("tie_stiffness", "1e5"), ("tie_strength", "1e3"), ("u_start", "0.1")];
+    let last = |csv: &str, count: usize| -> Vec<Vec<f64>> {
+        let rows = csv.lines().skip(1).map(|row| row.rsplit(',').take(count).map(|x| x.parse().unwrap()));
+        rows.map(Iterator::collect).collect()
+    };
+    assert!(scene(&[]).lines().next().unwrap().ends_with(",a_top_m_s2"));
+    assert!(scene(&elastic).lines().next().unwrap().ends_with(",a_top_m_s2,tie_force_n"));
+    let csv = scene(&[&elastic[..], &[("tie_ultimate", "1")]].concat());
+    assert!(csv.lines().next().unwrap().ends_with(",tie_force_n,tie_elongation_m,tie_elongation_negative_m"));
+    // released at 0.1 m with a lever of 1.5: e_y = 0.01 m, p = 0.14 m from the start on
+    for row in last(&csv, 2) {
+        assert!(row[0] == 0.0 && (row[1] - 0.14).abs() < 1e-15, "{row:?}");
+    }
 }

@@ -255,6 +255,7 @@ fn work_of_the_scenes() {
         ("shaken_parapet", Work { pieces: 8046, corners: 46, impacts: 0 }),
         ("rigid_block", Work { pieces: 18139, corners: 448, impacts: 448 }),
         ("quadrilinear_strip", Work { pieces: 35644, corners: 44, impacts: 0 }),
+        ("tied_facade", Work { pieces: 6242, corners: 571, impacts: 540 }),
         ("strip_between_floors", Work { pieces: 3000, corners: 0, impacts: 0 }),
     ];
     let scenes = crate::root().join("scenes");

@@ -6,7 +6,7 @@ use report::counted;
 
 use rocking_wall::response::{Fate, Response, Summary};
 use rocking_wall::scene::Scene;
-use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands, Work};
+use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands, Work, Yielding};
 use rocking_wall::variables::Mechanism;
 
 /// The summary of a run, a name and a value in each line.
@@ -78,10 +78,12 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     if has_top {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
     }
-    if let Some(TieDemands { force, strength, yielding: _ }) = &demands.tie {
-        let reached = strength.map_or(String::new(), |at| format!(", strength reached at {:.4} s", at.time));
+    if let Some(TieDemands { force, strength, yielding }) = &demands.tie {
+        let reaches = if yielding.is_some() { "yields" } else { "strength reached" };
+        let reached = strength.map_or(String::new(), |at| format!(", {reaches} at {:.4} s", at.time));
         let peak = figure(1e-3 * force.value);
         lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));
+        lines.extend(yielding.map(|yielding| ("tie stretched".to_owned(), stretched(&yielding))));
     }
     let crossing = |Crossing { fraction, first }: &Crossing| match first {
         Some(Instant { time, .. }) => format!("{fraction} u_ins at {time:.4} s"),
@@ -97,6 +99,18 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     lines
 }
 
+/// The plastic elongations of ties and when they broke, of the sides where they yielded.
+fn stretched(Yielding { elongation, breaks }: &Yielding) -> String {
+    let sides = [("u > 0", elongation.positive, breaks[0]), ("u < 0", elongation.negative, breaks[1])];
+    let side = |(name, elongation, broke): (&str, f64, Option<f64>)| {
+        let broke = broke.map_or(String::new(), |time| format!(", broken at {time:.4} s"));
+        format!("{} on {name}{broke}", figure(1000.0 * elongation))
+    };
+    let yielded = sides.into_iter().filter(|(_, elongation, broke)| *elongation > 0.0 || broke.is_some());
+    let yielded: Vec<_> = yielded.map(side).collect();
+    if yielded.is_empty() { "no".to_owned() } else { format!("{} [mm]", yielded.join("; ")) }
+}
+
 /// Four significant figures with a sign.
 fn figure(value: f64) -> String {
     let value = value + 0.0; // no negative zero
@@ -107,4 +121,23 @@ fn figure(value: f64) -> String {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6 decimals")]
     let decimals = (3.0 - digits).clamp(0.0, 6.0) as usize;
     format!("{value:+.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stretched;
+    use rocking_wall::solver::Yielding;
+    use rocking_wall::wall::Sides;
+
+    #[test]
+    fn ties_that_yielded_are_told_by_their_sides() {
+        let of = |positive: f64, negative: f64, breaks: [Option<f64>; 2]| {
+            stretched(&Yielding { elongation: Sides { positive, negative }, breaks })
+        };
+        assert_eq!(of(0.0, 0.0, [None; 2]), "no");
+        assert_eq!(of(0.02, 0.0, [None; 2]), "+20.00 on u > 0 [mm]");
+        // a brittle tie breaks without stretching
+        let both = of(0.0, 0.03, [Some(1.5), Some(2.25)]);
+        assert_eq!(both, "+0.000000 on u > 0, broken at 1.5000 s; +30.00 on u < 0, broken at 2.2500 s [mm]");
+    }
 }

@@ -14,7 +14,9 @@ use report::points::{clipped, decimated};
 /// Width of the plots \[px\].
 pub const WIDTH: f64 = 620.0;
 /// Largest |u|/`u_ins` of a history.
-const EDGE: f64 = 1.25;
+pub(crate) const EDGE: f64 = 1.25;
+/// Distance below which points of a path are drawn as one, as a share of its plot.
+const PATH_DETAIL: f64 = 1.0 / 400.0;
 /// Looks of the curves of [`period_ratios`], the first for the smallest start.
 const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
 
@@ -72,14 +74,19 @@ pub fn histories(
 /// The history is [`cut`].
 pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot {
     let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
-    let [lowest, highest] = [of(f64::min), of(f64::max)];
-    let reach = highest.max(-lowest).max(1.0);
-    let x_range = [-1.05 * reach, 1.05 * reach];
-    let within = clipped(backbone, x_range);
-    let path = clipped(backbone, [lowest, highest]);
-    let y_range = padded(within.iter().map(|point| point.1));
+    path_beside_backbone(backbone, clipped(backbone, [of(f64::min), of(f64::max)]), 1.0)
+}
+
+/// Draws the backbone, F \[kN\] over u/`u_ins`, up to `reach` at least, and beside it the path of a wall whose
+/// tie yields: loops.
+pub fn path_beside_backbone(backbone: &[(f64, f64)], mut path: Vec<(f64, f64)>, reach: f64) -> Plot {
+    let reach = 1.05 * path.iter().map(|point| point.0.abs()).fold(reach, f64::max);
+    let within = clipped(backbone, [-reach, reach]);
+    let y_range = padded(within.iter().chain(&path).map(|point| point.1));
+    let apart = [2.0 * reach, y_range[1] - y_range[0]].map(|range| PATH_DETAIL * range);
+    path.dedup_by(|next, last| (next.0 - last.0).abs() < apart[0] && (next.1 - last.1).abs() < apart[1]);
     let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, within) };
-    let axes = [Axis::over("u / u_ins", x_range), Axis::over("restoring force F (kN)", y_range)];
+    let axes = [Axis::over("u / u_ins", [-reach, reach]), Axis::over("restoring force F (kN)", y_range)];
     Plot::new([WIDTH, 320.0], axes, vec![law, Series::stroke(BLUE, 1.6, path)])
 }
 

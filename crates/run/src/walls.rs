@@ -7,7 +7,7 @@ use rocking_wall::scene::{
     parameters, parse_toml, read_floors, to_toml,
 };
 use rocking_wall::tables;
-use rocking_wall::wall::{COMPUTED, Parameters};
+use rocking_wall::wall::{Bar, COMPUTED, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
@@ -206,7 +206,8 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
 pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
     let groups = GROUPS.iter().filter(|(group, _)| WALL_GROUPS.contains(group));
     // the impact is that of the models
-    groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| *name != "impact")
+    let names = groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| *name != "impact");
+    names.chain(Bar::NUMBERS.map(|number| number.usual.name))
 }
 
 /// Writes the parameters and storeys of a wall as tables of a study file.

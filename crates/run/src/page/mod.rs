@@ -1,11 +1,11 @@
 //! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
 
+use report::escaped;
 use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};
-use report::{escaped, number};
 use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Impact;
-use rocking_wall::wall::{Parameters, Wall, usage};
+use rocking_wall::wall::{Parameters, Tie, Wall, usage};
 
 use crate::counterpart::Counterpart;
 use crate::{demands, figure as plots};
@@ -59,7 +59,7 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
         "u_ins": [u_ins.positive, u_ins.negative],
         "height": wall.body().height,
         "thickness": scene.parameters.thickness,
-        "tie": wall.tie().map(|tie| 0.5 * tie.lever * wall.body().height),
+        "tie": tie::data(wall, response, &frames),
         "hinge": hinge,
         "full": wall.rotations().is_some(),
         "overturned": overturned,
@@ -74,7 +74,7 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
         subtitle: &subtitle,
         verdict: &said(response),
         name: "the wall",
-        style: "",
+        style: include_str!("wall.css"),
         picture: &drawing(scene, wall, response),
         choices: &factors("shown", &FACTORS, factor(wall, response)),
         facts: &format!(
@@ -98,11 +98,11 @@ fn telling(frames: &[&Sample], falls: Option<f64>) -> usize {
 
 /// Describes what becomes of the wall.
 fn said(response: &Response) -> String {
-    let ratio = 100.0 * response.summary.u_ratio_max;
+    let (ratio, tie) = (100.0 * response.summary.u_ratio_max, tie::said(response));
     match response.summary.fate.words(1) {
-        Some(words) => verdict(&format!("The wall {words}."), true),
-        None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
-        None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),
+        Some(words) => verdict(&format!("The wall {words}.{tie}"), true),
+        None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins.{tie}"), false),
+        None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins.{tie}"), false),
     }
 }
 
@@ -146,23 +146,9 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         -far,
         h + 0.6 * top,
         0.02 * h,
-        ties = ties(wall, far, 2.0 * line),
+        ties = tie::lines(wall, half, 2.0 * line),
         ground = rect([-far, -far], [2.0 * far, far], "style=\"fill:var(--ground)\"")
     )
-}
-
-/// Ties from the wall to beyond the view box, on the side that they pull to; the script moves their ends.
-fn ties(wall: &Wall, far: f64, stroke: f64) -> String {
-    let Some(tie) = wall.tie() else { return String::new() };
-    let y = 0.5 * tie.lever * wall.body().height;
-    let line = |sign: f64| {
-        let away = -sign * far;
-        format!(
-            "<line class=\"tie\" x1=\"{away:.4}\" y1=\"{y:.4}\" x2=\"0\" y2=\"{y:.4}\" \
-             style=\"stroke:var(--mark)\" stroke-width=\"{stroke:.4}\"/>"
-        )
-    };
-    [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)).map(line).collect()
 }
 
 /// The largest exaggeration of the drawn rotation that keeps it below its limit.
@@ -178,9 +164,6 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let body = wall.body();
     let summary = &response.summary;
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
-    let tie = wall.tie().map_or("none".to_owned(), |tie| {
-        format!("{} kN/mm at {} m", number(1e-6 * tie.stiffness, 4), parameters.tie_height)
-    });
     let rows = [
         ("largest |u|", demands::largest(summary, "mm", 1)),
         ("overturned", demands::overturned(summary.fate, 3)),
@@ -199,10 +182,9 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
         ("impact", impact(parameters, wall.restitution())),
-        ("tie", tie),
     ];
-    let shown = rows.iter().filter(|(name, _)| *name != "tie" || wall.tie().is_some());
-    shown.map(|(name, value)| row(name, value)).collect()
+    let tie = tie::fact(wall, parameters.weaker_part()).map(|tie| ("tie", tie));
+    rows.iter().chain(&tie).map(|(name, value)| row(name, value)).collect()
 }
 
 /// A name with its number, without the number if it is 0: a rigid wall has no ω₁.
@@ -250,6 +232,16 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
     let u_ins = wall.body().instability;
     let backbone: Vec<_> =
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
+    let breaks = wall.tie().and_then(Tie::fracture_displacement).map(|breaks| breaks / u_ins.positive);
+    let (caption, force) = match breaks {
+        Some(breaks) => {
+            let within = response.samples.iter().filter(|sample| sample.outputs.ratio.abs() <= plots::EDGE);
+            let path = within.map(|sample| (sample.outputs.ratio, sample.outputs.restoring_force / 1000.0));
+            let caption = "Restoring force; dashed: reached for the first time";
+            (caption, plots::path_beside_backbone(&backbone, path.collect(), breaks.min(1.0)))
+        }
+        None => ("Restoring force on its backbone (dashed)", plots::path_on_backbone(&backbone, &ratio)),
+    };
     [
         plot(
             "history",
@@ -259,13 +251,8 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
             true,
         ),
         plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
-        plot(
-            "force",
-            "Restoring force on its backbone (dashed)",
-            &plots::path_on_backbone(&backbone, &ratio),
-            &[],
-            false,
-        ),
+        tie::figures(wall, response, end),
+        plot("force", caption, &force, &[], false),
     ]
     .concat()
 }
@@ -298,6 +285,8 @@ fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
             ratios.svg()
         )
 }
+
+mod tie;
 
 #[cfg(test)]
 mod tests;

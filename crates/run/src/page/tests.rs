@@ -74,6 +74,56 @@ fn the_line_of_a_wall_that_comes_back_goes_on() {
     assert!(ratio > 1.2 && -left > ratio, "the dot of the force stays within {left}: {ratio}");
 }
 
+/// A wall is pushed once to either side of its two ties: one that lasts, and one that breaks.
+#[test]
+fn a_tie_is_drawn_slack_pulling_yielding_and_broken() {
+    let tied = |scene: &mut Scene, ultimate: &str| {
+        for (name, value) in [
+            ("u_start", "0"),
+            ("u_dot_start", "0.6"),
+            ("tie_height", "3"),
+            ("tie_stiffness", "2e5"),
+            ("tie_strength", "1e3"),
+            ("tie_slack", "0.01"),
+            ("tie_ultimate", ultimate),
+            ("tie_side", "both"),
+        ] {
+            scene.set(name, value).unwrap();
+        }
+        scene.output_step = 0.002;
+        scene.stop_time = 5.0;
+    };
+    let states = |html: &str| -> Vec<Vec<u64>> {
+        let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
+        let data: serde_json::Value = serde_json::from_str(data).unwrap();
+        let sides = data["tie"]["sides"].as_array().unwrap().iter();
+        let numbers = |side: &serde_json::Value| side["state"].as_array().unwrap().clone();
+        sides.map(|side| numbers(side).iter().map(|state| state.as_u64().unwrap()).collect()).collect()
+    };
+    let in_turn = |mut states: Vec<u64>| {
+        states.dedup();
+        states
+    };
+    let lasts = page(|scene| tied(scene, "1"));
+    let [outwards, _] = &states(&lasts)[..] else { panic!("two ties") };
+    // slack, pulling, yielding, unloading, slack
+    assert_eq!(in_turn(outwards.clone())[..5], [0, 1, 2, 1, 0]);
+    assert!(lasts.contains("Its tie yields and gets ") && lasts.contains("<span>yields</span>"));
+    assert!(lasts.contains("id=\"tie_force\"") && lasts.contains("id=\"tie_elongation\""));
+    assert!(lasts.contains("0.2 kN/mm at 3 m, yields at 1 kN, breaks 1000 mm later"));
+
+    let torn = page(|scene| tied(scene, "0.01"));
+    assert_eq!(in_turn(states(&torn)[0].clone()), [0, 1, 2, 3]);
+    assert!(torn.contains(" A tie breaks at 0.") && torn.contains("<span>breaks</span>"));
+    let brittle = page(|scene| tied(scene, "0"));
+    assert_eq!(in_turn(states(&brittle)[0].clone()), [0, 1, 3]);
+    assert!(!brittle.contains("<span>yields</span>") && brittle.contains(", breaks at 1 kN"));
+    // an elastic tie is drawn, too, and has no elongation
+    let elastic = page(|scene| tied(scene, "-1"));
+    assert_eq!(in_turn(states(&elastic)[0].clone())[..3], [0, 1, 0]);
+    assert!(elastic.contains("id=\"tie_force\"") && !elastic.contains("id=\"tie_elongation\""));
+}
+
 #[test]
 fn the_restitution_shown_is_one_that_matters() {
     assert!(page(|_| {}).contains("none; the damping stands for e = 0.936"));

@@ -8,7 +8,7 @@ use clap::Args;
 use report::table::significant;
 use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::{Fact, Wall};
+use rocking_wall::wall::{Fact, TiePart, Wall};
 
 use crate::args::SceneArguments;
 use crate::output::{self, Console};
@@ -48,6 +48,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let weaker = parameters.weaker_part().map(|part| match part {
+        TiePart::Bar => "of its bar, which yields first",
+        TiePart::Anchor => "of its anchor, which breaks before the bar yields",
+    });
     let words = [
         ("title", scene.title.clone()),
         ("mechanism", parameters.mechanism.name().to_owned()),
@@ -57,6 +61,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         ("impact", parameters.impact.name().to_owned()),
         ("solver", method_name(&method).to_owned()),
     ];
+    let words = words.into_iter().chain(weaker.map(|words| ("tie", words.to_owned())));
     if arguments.json {
         let mut object = serde_json::Map::new();
         for (name, value) in words {
