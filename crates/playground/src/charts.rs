@@ -22,14 +22,12 @@ pub(crate) fn charts(wall: &Wall, response: &Response, width: f64) -> Charts {
     let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
     let ratios = plots::cut(shown.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
     let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
-    let u_ins = wall.body().instability;
-    let backbone = wall.backbone();
-    let backbone: Vec<_> = backbone.iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
+    let force = plots::force_path(wall, shown.iter().copied(), &ratios);
     let sized = |height: f64, plot: Plot| Plot { size: [width, height], ..plot };
     [
         ("history", sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end))),
         ("motion", sized(150.0, plots::motion(&ground, None, end))),
-        ("force", sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, &ratios))),
+        ("force", sized((0.5 * width).clamp(200.0, 270.0), force)),
     ]
 }
 

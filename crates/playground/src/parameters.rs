@@ -4,14 +4,24 @@ use fmu_export::{Kind, VariableId};
 use report::number;
 use rocking_wall::scene::{GROUPS, Scene, parameter_text};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
-use rocking_wall::wall::{COMPUTABLE, Parameters, Wall, equivalence, usage};
+use rocking_wall::wall::{Bar, COMPUTABLE, Parameters, Wall, equivalence, usage};
 use serde_json::{Value, json};
 
 use crate::request::Fields;
 
 /// Describes every parameter: name, meaning, unit, default and the names of its choices.
 pub(crate) fn described() -> Value {
-    GROUPS.iter().flat_map(|(_, names)| names.iter()).map(|name| described_one(name)).collect()
+    let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
+    let of_bar = Bar::NUMBERS.iter().map(|number| {
+        json!({
+            "name": number.usual.name,
+            "meaning": number.text,
+            "unit": Some(number.usual.unit).filter(|unit| !unit.is_empty()),
+            "default": "",
+            "choices": [],
+        })
+    });
+    names.map(|name| described_one(name)).chain(of_bar).collect()
 }
 
 /// Lists the parameters that do not matter beside the others. Texts that are not values stand for defaults.

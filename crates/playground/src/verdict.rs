@@ -3,6 +3,7 @@
 use report::number;
 use rocking_wall::response::{Fate, Response};
 use rocking_wall::scene::Scene;
+use rocking_wall::solver::Yielding;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
@@ -67,6 +68,12 @@ pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[Str
         rows.push(row("largest force of the tie", 1e-3 * tie.force.value, "kN"));
         if let Some(reached) = tie.strength {
             rows.push(row("the tie reaches its strength at", reached.time, "s"));
+        }
+        if let Some(Yielding { elongation, breaks }) = tie.yielding {
+            let longest = elongation.positive.max(elongation.negative);
+            rows.push(row("largest plastic elongation of the tie", 1000.0 * longest, "mm"));
+            let first = breaks.into_iter().flatten().reduce(f64::min);
+            rows.extend(first.map(|time| row("the tie breaks at", time, "s")));
         }
     }
     rows.push(["half cycles of rocking".to_owned(), response.demands.half_cycles.to_string()]);

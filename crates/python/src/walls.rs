@@ -11,7 +11,7 @@ use record::{Outcome, RecordSolver};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
-    parameter_text, to_toml,
+    parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Method, Motion as Solved};
@@ -102,12 +102,15 @@ impl Wall {
     fn received(values: Values) -> PyResult<Self> {
         let (text, parameters, start, motion, motion_notes) = values;
         let mut scene = Scene::parse("a wall that was sent", &text, Path::new(".")).map_err(of_scene)?;
+        let bar = scene.parameters.bar;
         for (name, text) in &parameters {
             // the text of the scene leaves out what a law of points does not use
             if scene.parameters.multilinear.is_none() || name != "force_law" {
                 scene.set(name, text).map_err(of_scene)?;
             }
         }
+        // stiffness and strength that are set take the place of the bar
+        scene.parameters.bar = bar;
         if let Some((bottom, top)) = motion {
             scene.excitation = Some(Excitation::new(bottom.0, top.map(|Motion(top)| top)));
         }
@@ -304,7 +307,7 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
                 continue;
             }
         }
-        let known = name == KINEMATICS || GROUPS.iter().any(|(_, names)| names.contains(&name.as_str()));
+        let known = set_names().any(|known| known == name);
         let unknown = |error: rocking_wall::scene::SceneError| PyTypeError::new_err(error.to_string());
         scene.set(&name, &text).map_err(if known { of_scene } else { unknown })?;
     }

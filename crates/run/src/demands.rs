@@ -79,7 +79,9 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
     }
     if let Some(TieDemands { force, strength, yielding }) = &demands.tie {
-        let reaches = if yielding.is_some() { "yields" } else { "strength reached" };
+        let has_yielded =
+            |Yielding { elongation, .. }: &Yielding| elongation.positive + elongation.negative > 0.0;
+        let reaches = if yielding.as_ref().is_some_and(has_yielded) { "yields" } else { "strength reached" };
         let reached = strength.map_or(String::new(), |at| format!(", {reaches} at {:.4} s", at.time));
         let peak = figure(1e-3 * force.value);
         lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));
@@ -103,12 +105,13 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
 fn stretched(Yielding { elongation, breaks }: &Yielding) -> String {
     let sides = [("u > 0", elongation.positive, breaks[0]), ("u < 0", elongation.negative, breaks[1])];
     let side = |(name, elongation, broke): (&str, f64, Option<f64>)| {
-        let broke = broke.map_or(String::new(), |time| format!(", broken at {time:.4} s"));
-        format!("{} on {name}{broke}", figure(1000.0 * elongation))
+        let length = (elongation > 0.0).then(|| format!("{} mm", figure(1000.0 * elongation)));
+        let broke = broke.map(|time| format!("broken at {time:.4} s"));
+        let words: Vec<_> = length.into_iter().chain(broke).collect();
+        (!words.is_empty()).then(|| format!("{} on {name}", words.join(", ")))
     };
-    let yielded = sides.into_iter().filter(|(_, elongation, broke)| *elongation > 0.0 || broke.is_some());
-    let yielded: Vec<_> = yielded.map(side).collect();
-    if yielded.is_empty() { "no".to_owned() } else { format!("{} [mm]", yielded.join("; ")) }
+    let yielded: Vec<_> = sides.into_iter().filter_map(side).collect();
+    if yielded.is_empty() { "no".to_owned() } else { yielded.join("; ") }
 }
 
 /// Four significant figures with a sign.
@@ -135,9 +138,9 @@ mod tests {
             stretched(&Yielding { elongation: Sides { positive, negative }, breaks })
         };
         assert_eq!(of(0.0, 0.0, [None; 2]), "no");
-        assert_eq!(of(0.02, 0.0, [None; 2]), "+20.00 on u > 0 [mm]");
+        assert_eq!(of(0.02, 0.0, [None; 2]), "+20.00 mm on u > 0");
         // a brittle tie breaks without stretching
         let both = of(0.0, 0.03, [Some(1.5), Some(2.25)]);
-        assert_eq!(both, "+0.000000 on u > 0, broken at 1.5000 s; +30.00 on u < 0, broken at 2.2500 s [mm]");
+        assert_eq!(both, "broken at 1.5000 s on u > 0; +30.00 mm, broken at 2.2500 s on u < 0");
     }
 }

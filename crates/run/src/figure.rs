@@ -10,6 +10,8 @@
 use report::palette::{AMBER, BLUE, DARK_GREY, GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::points::{clipped, decimated};
+use rocking_wall::response::Sample;
+use rocking_wall::wall::{Tie, Wall};
 
 /// Width of the plots \[px\].
 pub const WIDTH: f64 = 620.0;
@@ -70,21 +72,31 @@ pub fn histories(
     Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
-/// Draws the backbone, F \[kN\] over u/`u_ins`, and on it the part that a history of u/`u_ins` went through.
-/// The history is [`cut`].
-pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot {
+/// Draws the restoring force of a run, F \[kN\] over u/`u_ins`, on its backbone. The force of a tie that yields
+/// leaves it in loops. The history of u/`u_ins` is [`cut`].
+pub fn force_path<'a>(
+    wall: &Wall,
+    samples: impl Iterator<Item = &'a Sample>,
+    history: &[(f64, f64)],
+) -> Plot {
+    let u_ins = wall.body().instability;
+    let backbone: Vec<_> =
+        wall.backbone().iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
     let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
-    path_beside_backbone(backbone, clipped(backbone, [of(f64::min), of(f64::max)]), 1.0)
-}
-
-/// Draws the backbone, F \[kN\] over u/`u_ins`, up to `reach` at least, and beside it the path of a wall whose
-/// tie yields: loops.
-pub fn path_beside_backbone(backbone: &[(f64, f64)], mut path: Vec<(f64, f64)>, reach: f64) -> Plot {
-    let reach = 1.05 * path.iter().map(|point| point.0.abs()).fold(reach, f64::max);
-    let within = clipped(backbone, [-reach, reach]);
-    let y_range = padded(within.iter().chain(&path).map(|point| point.1));
+    let [lowest, highest] = [of(f64::min), of(f64::max)];
+    let breaks = wall.tie().and_then(Tie::fracture_displacement).map(|breaks| breaks / u_ins.positive);
+    let reach = 1.05 * highest.max(-lowest).max(breaks.unwrap_or(1.0).min(1.0));
+    let within = clipped(&backbone, [-reach, reach]);
+    let y_range = padded(within.iter().map(|point| point.1));
     let apart = [2.0 * reach, y_range[1] - y_range[0]].map(|range| PATH_DETAIL * range);
-    path.dedup_by(|next, last| (next.0 - last.0).abs() < apart[0] && (next.1 - last.1).abs() < apart[1]);
+    let path = if breaks.is_some() {
+        let shown = samples.map(|Sample { outputs, .. }| (outputs.ratio, 1e-3 * outputs.restoring_force));
+        let mut path: Vec<_> = shown.filter(|point| point.0.abs() <= EDGE).collect();
+        path.dedup_by(|next, last| (next.0 - last.0).abs() < apart[0] && (next.1 - last.1).abs() < apart[1]);
+        path
+    } else {
+        clipped(&backbone, [lowest, highest])
+    };
     let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, within) };
     let axes = [Axis::over("u / u_ins", [-reach, reach]), Axis::over("restoring force F (kN)", y_range)];
     Plot::new([WIDTH, 320.0], axes, vec![law, Series::stroke(BLUE, 1.6, path)])

@@ -4,6 +4,8 @@
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
 const parapet = v => v.mechanism === "parapet";
+const bar = v => parapet(v) && v.tie_given === "bar";
+const numbers = v => parapet(v) && v.tie_given === "numbers";
 const code = v => v.code === "circolare-2019";
 const fractions = v => v.code === "fractions";
 const high = v => code(v) && v.place === "building";
@@ -115,12 +117,24 @@ const GROUPS = [
     { name: "restitution_source", label: "Formula for e" },
   ]],
   ["Ties and transverse walls", [
-    { name: "tie_stiffness", label: "Stiffness of a tie", range: [0, 1000000, 5000], when: parapet },
+    { name: "tie_given", label: "A tie is given by", start: "numbers", when: parapet, page: true,
+      names: { numbers: "stiffness and strength", bar: "bar and anchor" } },
+    { name: "tie_stiffness", label: "Stiffness of a tie", range: [0, 1000000, 5000], when: numbers },
+    { name: "bar_diameter", label: "Diameter of the bar", start: "0.012", range: [0.006, 0.04, 0.001], when: bar },
+    { name: "bar_length", label: "Its free length", start: "6", range: [0.5, 20, 0.5], when: bar },
+    { name: "bar_yield_stress", label: "Its yield stress", start: "235000000", range: [1e8, 6e8, 5e6], when: bar },
+    { name: "bar_ultimate_strain", label: "It tears at the strain", start: "0.02", range: [0.005, 0.2, 0.005],
+      when: bar },
+    { name: "bar_anchor_capacity", label: "Capacity of an anchor", start: "50000", range: [1000, 2e5, 1000],
+      when: bar },
+    { name: "bar_spacing", label: "Spacing of the bars", start: "3", range: [0.5, 10, 0.1], when: bar },
     { name: "tie_height", label: "Height of the tie", start: "3", range: [0.1, 8, 0.05] },
     { name: "tie_side", label: "It resists",
       names: { positive: "u above 0", negative: "u below 0", both: "both" } },
     { name: "tie_slack", label: "Slack of the tie", range: [0, 0.1, 0.001] },
-    { name: "tie_strength", label: "Strength of the tie", range: [0, 20000, 100] },
+    { name: "tie_strength", label: "Strength of the tie", range: [0, 20000, 100], when: numbers },
+    { name: "tie_ultimate", label: "It stretches until it breaks; -1: elastic", range: [-1, 0.3, 0.01],
+      when: numbers },
     { name: "rocking", label: "It rocks",
       names: { two_sided: "to both sides", one_sided_positive: "to u above 0",
         one_sided_negative: "to u below 0" } },

@@ -105,7 +105,8 @@ function row(field, about) {
 }
 // Shows the values in the fields, and the fields that matter.
 function refresh() {
-  const parameters = FIELDS.filter(field => field.parameter && values[field.name] !== "");
+  const parameters = FIELDS.filter(field =>
+    field.parameter && values[field.name] !== "" && (field.when?.(values) ?? true));
   const fields = Object.fromEntries(parameters.map(({ name }) => [name, values[name]]));
   const unused = ask({ unused: fields }).answer ?? [];
   for (const field of FIELDS) {

@@ -20,9 +20,10 @@ function draw(wall, asked) {
     : `<g id="lower">${rect("body", -b / 2, 0, b, hinge)}</g>` +
       `<g id="upper">${rect("body", -b / 2, hinge, b, h - hinge)}${load}</g>`;
   // ties pull towards the side that they hold the wall from
-  const stiffness = Number(asked.tie_stiffness ?? 0), y = Number(asked.tie_height ?? 0);
+  const tied = "bar_diameter" in asked || Number(asked.tie_stiffness ?? 0) > 0;
+  const y = Number(asked.tie_height ?? 0);
   const pulls = { positive: [-1], negative: [1], both: [-1, 1] }[asked.tie_side] ?? [];
-  const ties = stiffness === 0 ? "" : pulls.map(side =>
+  const ties = !tied ? "" : pulls.map(side =>
     `<line class="tie" data-height="${y}" x1="${20 * side * h}" x2="0" y1="${y}" y2="${y}"/>`).join("");
   const stop = { one_sided_positive: -20 * h - b / 2, one_sided_negative: b / 2 }[asked.rocking];
   const transverse = stop === undefined ? "" : rect("support", stop, 0, 20 * h, 0.94 * h);

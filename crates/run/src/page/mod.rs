@@ -5,7 +5,7 @@ use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};
 use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Impact;
-use rocking_wall::wall::{Parameters, Tie, Wall, usage};
+use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::counterpart::Counterpart;
 use crate::{demands, figure as plots};
@@ -229,19 +229,6 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
         None if on_floors => "Acceleration of the floor",
         None => "Acceleration of the support",
     };
-    let u_ins = wall.body().instability;
-    let backbone: Vec<_> =
-        wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
-    let breaks = wall.tie().and_then(Tie::fracture_displacement).map(|breaks| breaks / u_ins.positive);
-    let (caption, force) = match breaks {
-        Some(breaks) => {
-            let within = response.samples.iter().filter(|sample| sample.outputs.ratio.abs() <= plots::EDGE);
-            let path = within.map(|sample| (sample.outputs.ratio, sample.outputs.restoring_force / 1000.0));
-            let caption = "Restoring force; dashed: reached for the first time";
-            (caption, plots::path_beside_backbone(&backbone, path.collect(), breaks.min(1.0)))
-        }
-        None => ("Restoring force on its backbone (dashed)", plots::path_on_backbone(&backbone, &ratio)),
-    };
     [
         plot(
             "history",
@@ -252,7 +239,13 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
         ),
         plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
         tie::figures(wall, response, end),
-        plot("force", caption, &force, &[], false),
+        plot(
+            "force",
+            "Restoring force; dashed: its backbone",
+            &plots::force_path(wall, response.samples.iter(), &ratio),
+            &[],
+            false,
+        ),
     ]
     .concat()
 }
