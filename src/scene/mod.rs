@@ -323,12 +323,14 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
         let is_computed = COMPUTABLE.contains(&name);
         usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
     };
+    let is_of_bar = scene.parameters.weaker_part().is_some();
     for (group, names) in GROUPS {
         let _ = writeln!(text, "\n[{group}]");
         if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
             let _ = writeln!(text, "{KINEMATICS} = {:?}", scene.parameters.kinematics.name());
         }
-        let bar = scene.parameters.bar.filter(|_| group == TIE_GROUP);
+        // a bar whose numbers have been changed since is none
+        let bar = scene.parameters.bar.filter(|_| group == TIE_GROUP && is_of_bar);
         text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
         for name in names {
             match (&scene.parameters.multilinear, *name) {

@@ -85,6 +85,11 @@ fn a_written_scene_keeps_its_bar() {
         "{text}"
     );
     assert_eq!(read(&text).unwrap().parameters, scene.parameters);
+    // a number that has been changed since counts
+    let mut changed = scene.clone();
+    changed.parameters.tie_strength = 3e3;
+    let text = to_toml(&changed, "");
+    assert!(!text.contains("bar =") && text.contains("tie_strength = 3000.0"), "{text}");
 }
 
 #[test]

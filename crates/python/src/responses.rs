@@ -28,6 +28,13 @@ const COLUMNS: [Column; 11] = [
     ("a_top", |sample| sample.support.top),
 ];
 
+/// The force of a tie, and the elongations of one that yields.
+const OF_TIE: [Column; 3] = [
+    ("tie_force", |sample| sample.outputs.tie_force),
+    ("tie_elongation", |sample| sample.outputs.tie_elongation.positive),
+    ("tie_elongation_negative", |sample| sample.outputs.tie_elongation.negative),
+];
+
 /// Returns the history of a run, what `wall simulate --json` prints of it, and its warnings and `more`.
 pub(crate) fn values<'py>(
     py: Python<'py>,
@@ -38,9 +45,10 @@ pub(crate) fn values<'py>(
     for (name, value) in COLUMNS {
         history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
     }
-    if response.demands.tie.is_some() {
-        let forces = response.samples.iter().map(|sample| sample.outputs.tie_force);
-        history.set_item("tie_force", PyArray1::from_iter(py, forces))?;
+    let yields = response.demands.tie.map(|tie| tie.yielding.is_some());
+    let of_tie = OF_TIE.iter().take(yields.map_or(0, |yields| if yields { OF_TIE.len() } else { 1 }));
+    for (name, value) in of_tie {
+        history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
     }
     let text = serde_json::to_string(response).map_err(failed)?;
     let values = py.import("json")?.call_method1("loads", (text,))?.cast_into::<PyDict>()?;

@@ -139,3 +139,17 @@ class Parameters(TypedDict, total=False):
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
     points: Sequence[Sequence[float]]
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
+    bar_diameter: float
+    """Diameter of the bar of the tie [m]; a bar stands for tie_stiffness, tie_strength and tie_ultimate."""
+    bar_length: float
+    """Free length of the bar between its anchors [m]."""
+    bar_young_modulus: float
+    """Young's modulus of the bar [Pa]; default 210e9."""
+    bar_yield_stress: float
+    """Stress at which the bar yields [Pa]."""
+    bar_ultimate_strain: float
+    """Strain at which the bar tears; where none is given, the tie stays elastic."""
+    bar_anchor_capacity: float
+    """Force at which an anchor fails, without warning [N]; by default it is stronger than the bar."""
+    bar_spacing: float
+    """Distance between bars along the wall [m]; by default one bar holds its width."""

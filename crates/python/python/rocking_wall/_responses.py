@@ -43,7 +43,8 @@ class Threshold(TypedDict):
 class Demands(TypedDict):
     """Demands of a motion on a wall, up to overturning; in SI units.
 
-    A wall with a tie has the peak of its force, and when that first reached the strength given.
+    A wall with a tie has the peak of its force, and when that first reached the strength given. A tie that
+    yields has its plastic elongations on u > 0 and on u < 0, and the times at which it broke.
     """
 
     u: Extremes
@@ -56,6 +57,10 @@ class Demands(TypedDict):
     residual: float
     tie_force: NotRequired[Instant]
     tie_strength: NotRequired[Instant | None]
+    tie_elongation: NotRequired[float]
+    tie_elongation_negative: NotRequired[float]
+    tie_break_time: NotRequired[float | None]
+    tie_break_time_negative: NotRequired[float | None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -112,6 +117,10 @@ class Response:
     """Impacts."""
     tie_force: Array | None = None
     """Force of the tie [N]; None without one."""
+    tie_elongation: Array | None = None
+    """Plastic elongation of the tie on u > 0 [m]; None without one that yields."""
+    tie_elongation_negative: Array | None = None
+    """Plastic elongation of the tie on u < 0 [m]; None without one that yields."""
 
     def __repr__(self) -> str:
         fate = f"overturned at {self.overturn_time:.4g} s" if self.overturned else "standing"

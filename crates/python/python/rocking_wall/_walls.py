@@ -463,5 +463,7 @@ What follows from them can be read:
 {calculated_lines()}
 
 Two parameters are those of scenes only: `kinematics` {{linear, trigonometric}}, and `points`
-[[u/u_ins, F/F0], ...] of `force_law="multilinear"`.
+[[u/u_ins, F/F0], ...] of `force_law="multilinear"`. A bar and its anchor stand for `tie_stiffness`,
+`tie_strength` and `tie_ultimate`: `bar_diameter`, `bar_length`, `bar_yield_stress`, and if they are known
+`bar_young_modulus`, `bar_ultimate_strain`, `bar_anchor_capacity` and `bar_spacing`.
 """

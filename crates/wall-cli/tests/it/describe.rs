@@ -26,3 +26,18 @@ fn describe_writes_the_curve() {
     refused(&folder, &["describe", "--thresholds", "2"], &["thresholds", "2"]);
     refused(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
 }
+
+/// The part of the tie that gives way first is told, with the places where the tie changes.
+#[test]
+fn a_tie_of_a_bar_is_described() {
+    let folder = folder("described_tie");
+    let scene = crate::root().join("scenes/tied_facade.toml").display().to_string();
+    let text = printed(&folder, &["describe", &scene]);
+    assert_has(&text, &["of its bar, which yields first", "tie_strength", "15749.9 N", "0.0617647 m"]);
+    let of_anchor = ["describe", &scene, "--json", "--set", "bar_anchor_capacity=30e3"];
+    let json = json(&folder, &of_anchor);
+    assert_eq!(json["tie"], "of its anchor, which breaks before the bar yields");
+    assert_eq!(json["tie_strength"].as_f64(), Some(10e3));
+    let both = ["describe", &scene, "--set", "bar_spacing=-3"];
+    refused(&folder, &both, &["bar_spacing = -3 m must be above 0"]);
+}
