@@ -72,8 +72,8 @@ pub fn histories(
     Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
-/// Draws the restoring force of a run, F \[kN\] over u/`u_ins`, on its backbone. The force of a tie that yields
-/// leaves it in loops. The history of u/`u_ins` is [`cut`].
+/// Draws the restoring force of a run, F \[kN\] over u/`u_ins`, on its backbone. The force of a tie that
+/// yields leaves it in loops. The history of u/`u_ins` is [`cut`].
 pub fn force_path<'a>(
     wall: &Wall,
     samples: impl Iterator<Item = &'a Sample>,
