@@ -94,20 +94,21 @@ pub(super) fn lines(wall: &Wall, edge: f64, stroke: f64) -> String {
 /// Describes a tie in the table of the page; `None` without one.
 pub(super) fn fact(wall: &Wall, weaker: Option<TiePart>) -> Option<String> {
     let tie = wall.tie()?;
-    let mut text = format!("{} kN/mm at {} m", number(1e-6 * tie.stiffness, 4), number(height(wall, tie), 6));
-    if let (Some(strength), Some(ultimate)) = (tie.strength, tie.ultimate) {
-        let part = match weaker {
-            Some(TiePart::Bar) => "its bar ",
-            Some(TiePart::Anchor) => "its anchor ",
-            None => "",
-        };
+    let part = match weaker {
+        Some(TiePart::Bar) => "its bar ",
+        Some(TiePart::Anchor) => "its anchor ",
+        None => "",
+    };
+    let yields = |(strength, ultimate): (f64, f64)| {
         let force = number(strength / 1000.0, 4);
-        text += &match ultimate {
+        match ultimate {
             0.0 => format!(", {part}breaks at {force} kN"),
             _ => format!(", {part}yields at {force} kN, breaks {} mm later", number(1000.0 * ultimate, 4)),
-        };
-    }
-    Some(text)
+        }
+    };
+    let yields = tie.strength.zip(tie.ultimate).map_or(String::new(), yields);
+    let stiffness = number(1e-6 * tie.stiffness, 4);
+    Some(format!("{stiffness} kN/mm at {} m{yields}", number(height(wall, tie), 6)))
 }
 
 /// Says what becomes of ties that yield; empty for others.
