@@ -203,7 +203,10 @@ impl Response {
             put_to_rest,
         };
         let residual = progress.state.displacement;
-        Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })
+        let wall = simulation.wall();
+        let of_start = wall.start_warning(scene.parameters.u_start);
+        let warnings = wall.warnings().iter().cloned().chain(of_start).collect();
+        Ok(Self { samples, summary, demands, residual, warnings })
     }
 
     /// Writes the history as CSV, numbers to their last digit; the header names the columns with their units.

@@ -63,7 +63,7 @@ impl Motion {
     }
 
     /// Returns the side of a branch on which a tie yields.
-    fn yielding_side(&self, branch: usize) -> Option<f64> {
+    pub(crate) fn yielding_side(&self, branch: usize) -> Option<f64> {
         let branch = &self.wall.branches()[branch];
         (branch.tie == TieAction::Yields).then(|| branch.side())
     }

@@ -176,7 +176,8 @@ impl Model for Unit {
         if self.exchange.is_some() {
             self.begin_own_motion(self.elapsed());
         }
-        for warning in self.wall().warnings() {
+        let of_start = self.wall().start_warning(self.parameters.u_start);
+        for warning in self.wall().warnings().iter().chain(&of_start) {
             log.warning(format_args!("{warning}"));
         }
         self.choose_warnings();

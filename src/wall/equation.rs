@@ -151,6 +151,23 @@ impl Wall {
         })
     }
 
+    /// Returns the warning of a start that has stretched or broken a tie: whoever pulls the wall to `u_start`
+    /// \[m\] pulls the tie with it.
+    pub fn start_warning(&self, u_start: f64) -> Option<Warning> {
+        let tie = self.tie.as_ref()?;
+        let memory = tie.memory_at(u_start);
+        let (broken, elongation) =
+            (tie.is_broken(u_start, &memory), tie.elongation(memory.yielded.of(u_start)));
+        let limit = if broken { tie.fracture_displacement() } else { tie.strength_displacement() };
+        let is_stretched = memory != TieMemory::default();
+        limit.filter(|_| is_stretched).map(|limit| Warning::StretchedStart {
+            u_start,
+            limit: limit.copysign(u_start),
+            elongation,
+            broken,
+        })
+    }
+
     /// The signs of u to which the wall can rock.
     pub fn sides(&self) -> impl Iterator<Item = f64> {
         let free = self.free_side();
@@ -231,9 +248,10 @@ impl Wall {
     pub fn tie_elongation(&self, branch: usize, displacement: f64) -> Sides {
         let Some(tie) = &self.tie else { return Sides::default() };
         let mut yielded = self.tie_memory.yielded;
-        if self.branches[branch].tie == TieAction::Yields {
-            let of_side = yielded.of_mut(displacement);
-            *of_side = of_side.max(displacement.abs());
+        let branch = &self.branches[branch];
+        if branch.tie == TieAction::Yields {
+            let of_side = yielded.of_mut(branch.side());
+            *of_side = of_side.max(branch.side() * displacement);
         }
         yielded.map(|yielded| tie.elongation(yielded))
     }

@@ -63,6 +63,15 @@ pub enum Warning {
          wall without its tie, not a collapse; compare tie_force with what the tie resists"
     )]
     TieHolds { u_ins: f64 },
+    /// A start that has stretched a tie, or broken it, and the plastic elongation that it has then \[m\].
+    #[error(
+        "u_start = {u_start} m is beyond {} m, where the tie {}: it starts {} by {} m",
+        six_digits(*limit),
+        if *broken { "breaks" } else { "yields" },
+        if *broken { "broken, stretched" } else { "stretched" },
+        six_digits(*elongation)
+    )]
+    StretchedStart { u_start: f64, limit: f64, elongation: f64, broken: bool },
     /// A number that walls rarely have: probably a typing error or another unit.
     #[error("{}", unusual(name, *value, unit, *usual, *meant))]
     Unusual {

@@ -253,6 +253,95 @@ def rocking(wall, t):
     return Decimal(0)
 
 
+def straight(u, v, force, slope, t):
+    """u and u̇ at t under ü = force + slope u, which is not 0."""
+    centre, rate = -force / slope, abs(slope).sqrt()
+    even, odd = cos_sin(rate * t) if slope < 0 else (cosh(rate * t), sinh(rate * t))
+    bent = rate * odd if slope > 0 else -rate * odd
+    return centre + (u - centre) * even + v / rate * odd, (u - centre) * bent + v * even
+
+
+class Yielding:
+    """A rigid wall that moves outwards from u = 0, with a tie that yields: pieces from event to event, up to
+    the first impact and the piece after it."""
+
+    def __init__(self, wall):
+        p = wall.given
+        f0, k0 = wall.strength(1)
+        arm, stiffness, strength = 2 * p["tie_height"] / wall.h, p["tie_stiffness"], p["tie_strength"]
+        engages = p["tie_slack"] / arm
+        yields = (p["tie_slack"] + strength / stiffness) / arm
+        breaks = yields + p["tie_ultimate"] / arm
+        # ü = force + slope u of a wall whose tie is slack or broken, pulls from a place on, or yields
+        free = -f0 / wall.m_eff, k0 / wall.m_eff
+        added = arm * arm * stiffness / wall.m_eff
+        pulling = lambda place: (free[0] + added * place, free[1] - added)
+        yielding = free[0] - arm * strength / wall.m_eff, free[1]
+        # start, u, u̇, and the law until u_ins, u = 0 or what else ends it
+        self.pieces, self.break_time = [], Decimal(-1)
+        now = self.add((Decimal(0), wall.u, wall.v), free, engages)
+        now = self.add(now, pulling(engages), yields)
+        if yields < breaks:
+            now = self.add(now, yielding, breaks)
+        t, u, v = now
+        if v > 0:
+            self.break_time = t
+        else:
+            slack = u - strength / stiffness / arm
+            now = self.add(now, pulling(slack), slack)
+        self.elongation = arm * (u - yields)
+        self.overturn_time, u, v = self.add(now, free, f0 / k0, Decimal(0))
+        if u == 0:
+            e = p["restitution"]
+            # on the other side F changes its sign, and there is no tie
+            self.pieces.append((self.overturn_time, u, e * v, (-free[0], free[1])))
+
+    def add(self, start, law, *places):
+        """Moves from a start to the first of the places, or to where u̇ = 0 if none of them is inwards."""
+        t, u, v = start
+        self.pieces.append((t, u, v, law))
+
+        def is_before(time):
+            now, speed = straight(u, v, *law, time)
+            inside = all(now < place if u < place else now > place for place in places)
+            return inside and (speed > 0 or v <= 0 or Decimal(0) in places)
+
+        step = Decimal("1e-3")
+        low = Decimal(0)
+        while is_before(low + step):
+            low += step
+        for _ in range(125):
+            step /= 2
+            low += step if is_before(low + step) else 0
+        now, speed = straight(u, v, *law, low)
+        reached = [place for place in places if abs(now - place) < Decimal("1e-25")]
+        return t + low, reached[0] if reached else now, speed if reached else Decimal(0)
+
+    def at(self, t):
+        start, u, v, law = next(piece for piece in reversed(self.pieces) if piece[0] <= t)
+        return straight(u, v, *law, t - start)
+
+
+def yielding(name, wall):
+    """Rows of a wall with a tie that yields, at times on each of its pieces."""
+    motion = Yielding(wall)
+    scale, speed = wall.strength(1)[0] / wall.strength(1)[1], abs(wall.v)
+    tight = Decimal("1e-12")
+    times = {"tie_breaks": [0.03, 0.1, 1.0, 1.4], "tie_turns": [0.1, 0.3, 0.6], "tie_brittle": [0.2]}[name]
+    for time in times:
+        u, v = motion.at(Decimal(time))
+        yield "u", time, u, scale, tight
+        yield "u_dot", time, v, speed, tight
+        if u > 0:
+            energy = wall.m_eff / 2 * wall.v * wall.v
+            yield "energy", time, energy, energy, tight
+    time = times[-1]
+    yield "tie_elongation", time, motion.elongation, Decimal(wall.given["tie_slack"]), tight
+    yield "tie_break_time", time, motion.break_time, Decimal(1), tight
+    if name == "tie_brittle":
+        yield "overturn_time", 0.5, motion.overturn_time, Decimal(1), tight
+
+
 def full_strip(wall):
     """ü of a strip wall in full rotations: d/dt (M u̇) − M′u̇²/2 + V′ = −(m/2) a_g, for u > 0."""
     m, b, g = wall.mass, wall.b, wall.given["gravity"]
@@ -334,6 +423,8 @@ def rows(name, scene, motion):
     if name[0] in "cto" and name[1:3].isdigit():
         return list(case(name))
     wall = Wall(tomllib.loads(scene), motion)
+    if name in ["tie_breaks", "tie_turns", "tie_brittle"]:
+        return list(yielding(name, wall))
     if name.startswith("damped"):
         wanted = ["damping_force"]
     elif name.startswith("ratio"):

@@ -40,22 +40,22 @@ fn folder() -> PathBuf {
     crate::root().join("tests/data/cases")
 }
 
-fn text(file: &str) -> String {
+pub(crate) fn text(file: &str) -> String {
     let path = folder().join(file);
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// One line of a reference history.
-struct Row {
-    time: f64,
-    displacement: f64,
+pub(crate) struct Row {
+    pub(crate) time: f64,
+    pub(crate) displacement: f64,
     velocity: f64,
     sensitivity: f64,
     /// Force of the tie and plastic elongations, of ties that yield.
-    tie: Option<[f64; 3]>,
+    pub(crate) tie: Option<[f64; 3]>,
 }
 
-fn rows(name: &str) -> Vec<Row> {
+pub(crate) fn rows(name: &str) -> Vec<Row> {
     let parse = |line: &str| {
         let mut numbers = line.split(',').map(|field| field.parse::<f64>().unwrap());
         let mut next = || numbers.next();

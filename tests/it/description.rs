@@ -151,3 +151,30 @@ fn the_documentation_lists_every_variable_with_its_default() {
 fn the_documentation_needs_nothing_from_outside() {
     page::assert_needs_nothing_from_outside(PAGE);
 }
+
+/// Outputs of a tie that yields are listed where the tie yields, each elongation on the sides it is for.
+#[test]
+fn outputs_of_ties_are_listed_where_they_matter() {
+    let outputs =
+        ["tie_force", "tie_elongation", "tie_elongation_negative", "tie_broken", "tie_break_time"];
+    let yields = Parameters {
+        tie_height: 3.0,
+        tie_stiffness: 1e6,
+        tie_strength: 5e3,
+        tie_ultimate: 0.0,
+        ..Parameters::default()
+    };
+    let one_side = [true, true, false, true, true];
+    for (parameters, listed) in [
+        (yields.clone(), one_side),
+        (Parameters { tie_side: TieSide::Negative, ..yields.clone() }, [true, false, true, true, true]),
+        (Parameters { tie_side: TieSide::Both, ..yields.clone() }, [true; 5]),
+        (Parameters { tie_ultimate: 0.1, ..yields.clone() }, one_side),
+        (Parameters { tie_ultimate: -1.0, ..yields.clone() }, [true, false, false, false, false]),
+        (Parameters { tie_strength: 0.0, ..yields.clone() }, [true, false, false, false, false]),
+        (Parameters { tie_stiffness: 0.0, ..yields }, [false; 5]),
+    ] {
+        let found = outputs.map(|name| usage(&parameters).any(|usage| usage.name == name && usage.matters));
+        assert_eq!(found, listed, "{parameters:?}");
+    }
+}

@@ -39,6 +39,8 @@ mod ties;
 mod trigonometric;
 mod unit;
 mod warnings;
+mod yielding;
+mod yielding_unit;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {

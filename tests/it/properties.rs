@@ -69,14 +69,14 @@ pub(crate) fn onset(wall: &Wall) -> f64 {
     body.strength.positive / (body.participation * body.effective_mass)
 }
 
-struct Run {
+pub(crate) struct Run {
     parameters: Parameters,
     accelerations: Vec<f64>,
     step: f64,
 }
 
 impl Run {
-    fn new(parameters: Parameters, motion: &[f64]) -> Self {
+    pub(crate) fn new(parameters: Parameters, motion: &[f64]) -> Self {
         let wall = Wall::new(&parameters).expect("a valid wall");
         let body = wall.body();
         let strength = body.strength.positive.min(body.strength.negative);
@@ -85,7 +85,7 @@ impl Run {
         Self { parameters, accelerations, step: 0.3 / wall.rocking_rate() }
     }
 
-    fn history(&self, time: f64, parts: u32) -> Vec<Progress> {
+    pub(crate) fn history(&self, time: f64, parts: u32) -> Vec<Progress> {
         let support = |index: usize| Support::rigid(self.accelerations[index]);
         let mut simulation = Simulation::new(&self.parameters, None, time, support(0)).expect("a valid wall");
         let mut history = vec![*simulation.progress()];
@@ -109,7 +109,7 @@ impl Run {
 
 /// Largest |Δu|/u_ins between two histories while the wall stands, and the number of samples until then:
 /// beyond, differences grow without bound.
-fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> (f64, usize) {
+pub(crate) fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> (f64, usize) {
     let standing = a.iter().zip(b).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
     standing
         .map(|(a, b)| (a.state.displacement - sign * b.state.displacement).abs() / scale)

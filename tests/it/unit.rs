@@ -13,7 +13,7 @@ use rocking_wall::wall::{Parameters, Wall};
 use crate::{edited_states, instantiated};
 
 /// Outputs that depend on the present state and inputs.
-const OUTPUTS: [V; 9] = [
+const OUTPUTS: [V; 11] = [
     V::U,
     V::UDot,
     V::UDdot,
@@ -23,6 +23,8 @@ const OUTPUTS: [V; 9] = [
     V::ReactionBottom,
     V::ReactionTop,
     V::TieForce,
+    V::TieElongation,
+    V::TieElongationNegative,
 ];
 /// Communication step [s].
 const STEP: f64 = 1e-5;
@@ -43,6 +45,8 @@ fn unit(interface: Interface, reals: &[(V, f64)], choices: &[(I, i32)]) -> Unit 
 /// Walls with all that outputs depend on, and a displacement on each of their branches \[m\].
 fn walls() -> impl Iterator<Item = (Unit, Vec<f64>)> {
     let tied = [(V::TieStiffness, 3e5), (V::TieSlack, 2e-3), (V::TieHeight, 2.0)];
+    // it yields from 0.1 m and breaks at 0.18 m
+    let tied = [&tied[..], &[(V::TieStrength, 29.4e3), (V::TieUltimate, 0.08)]].concat();
     // a free-standing block is no strip, and has no overburden
     let models = DampingModel::ALL.iter().filter(|model| **model != DampingModel::FreeStandingBlock);
     models.flat_map(move |model| {
@@ -55,7 +59,7 @@ fn walls() -> impl Iterator<Item = (Unit, Vec<f64>)> {
             ];
             let parapet = mechanism == Mechanism::Parapet;
             let mut reals = vec![(V::Xi, 0.05), (V::UStart, 0.0), (V::Overburden, 2e3)];
-            reals.extend(parapet.then_some(tied).into_iter().flatten());
+            reals.extend(tied.iter().filter(|_| parapet));
             let unit = unit(Interface::ModelExchange, &reals, &choices);
             let u_ins = unit.real(V::UIns);
             let places = [-1.05, -0.6, -0.06, 1e-3, 0.02, 0.06, 0.6, 1.05].map(|share| share * u_ins);

@@ -51,6 +51,45 @@ fn damping_beyond_its_meaning_is_warned_of() {
     }
 }
 
+/// Whoever pulls a wall to its start pulls its tie with it: from where it yields or breaks on that is told.
+#[test]
+fn a_start_that_has_stretched_a_tie_is_warned_of() {
+    // it yields at 0.015 + 0.01 = 0.025 m of the tie and breaks at 0.045 m, twice as far as u
+    let tied = Parameters {
+        tie_height: 4.0,
+        tie_stiffness: 2e5,
+        tie_slack: 0.01,
+        tie_strength: 3e3,
+        tie_ultimate: 0.02,
+        ..Parameters::default()
+    };
+    let wall = Wall::new(&tied).unwrap();
+    let told = |u_start: f64| wall.start_warning(u_start).map(|warning| warning.to_string());
+    for silent in [0.0, 0.0125, -0.1] {
+        assert_eq!(told(silent), None);
+    }
+    assert_eq!(
+        told(0.0175).unwrap(),
+        "u_start = 0.0175 m is beyond 0.0125 m, where the tie yields: it starts stretched by 0.01 m"
+    );
+    assert_eq!(
+        told(0.1).unwrap(),
+        "u_start = 0.1 m is beyond 0.0225 m, where the tie breaks: it starts broken, stretched by 0.02 m"
+    );
+    let elastic = Wall::new(&Parameters { tie_ultimate: -1.0, ..tied.clone() }).unwrap();
+    assert_eq!(elastic.start_warning(0.1), None);
+    let ties = [
+        (RealVariable::TieHeight, 4.0),
+        (RealVariable::TieStiffness, 2e5),
+        (RealVariable::TieSlack, 0.01),
+        (RealVariable::TieStrength, 3e3),
+        (RealVariable::TieUltimate, 0.02),
+        (RealVariable::UStart, 0.1),
+    ];
+    let (started, text) = logged(&ties, &[]);
+    assert!(started && text.contains("where the tie breaks"), "{text}");
+}
+
 /// How a unit starts is information.
 #[test]
 fn a_start_is_logged() {

@@ -166,16 +166,22 @@ def test_derivatives_are_those_of_the_library(unpacked2, unpacked3):
         assert component.slave.getOutputDerivatives([(reference[0], 1)]) == list(derivatives)
 
 
+# both ties of the second wall yield, one of them from the start on
+TIE = {"tie_height": 2.0, "tie_stiffness": 3e5, "tie_strength": 3e3, "tie_ultimate": 10.0}
+SHAPES = [{"u_start": 0.15}, {**TIE, "tie_side": "both", "u_start": -0.15}]
+
+
+@pytest.mark.parametrize("settings", SHAPES, ids=["free", "tied"])
 @pytest.mark.parametrize("there", ["to the component", "to the library"])
 @pytest.mark.parametrize("kind", ["Co-Simulation", "Model Exchange"])
-def test_a_state_goes_there_and_back(kind, there, unpacked2, unpacked3):
+def test_a_state_goes_there_and_back(kind, there, settings, unpacked2, unpacked3):
     native, hosted = (Unit, HostedUnit) if kind == "Co-Simulation" else (Exchange, HostedExchange)
 
     def start(unit):
         if kind == "Co-Simulation":
-            unit.start(u_start=0.15)
+            unit.start(**settings)
         else:
-            unit.run(u_start=0.15)
+            unit.run(**settings)
 
     def go_on(unit, until):
         if kind == "Model Exchange":

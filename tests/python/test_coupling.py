@@ -13,6 +13,7 @@ import pytest
 from conftest import ROOT
 from exchange import Exchange, integrate, parapet_on_floor
 from monolith import GROUND, Monolith, Wall
+from two_body import rod_energy
 
 sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "tests/coupling")]
 import compiled  # noqa: E402
@@ -81,6 +82,32 @@ def test_model_exchange_is_what_small_steps_approach(archives, unpacked, unpacke
         errors.append((np.abs(found - truth) / peaks).max())
     assert errors[0] > 4 * errors[1] > 16 * errors[2], errors
     assert errors[-1] < 1e-4
+
+
+@pytest.mark.parametrize("ultimate", [10.0, 0.02], ids=["yields", "breaks"])
+def test_a_tied_wall_and_its_floor_keep_their_energy(unpacked, unpacked_floor, ultimate):
+    """Without damping and impacts, what the floor gives the wall stretches the tie: to 1e-10 of the whole."""
+    tie = {"tie_height": 1.2, "tie_stiffness": 2e5, "tie_strength": 800.0, "tie_ultimate": ultimate}
+    rigid = {"force_law": "rigid_linear", "damping_model": "none", "height": 1.2, "thickness": 0.3}
+    floor_starts = {"mass": 5e3, "stiffness": 5e5, "damping_ratio": 0.0, "velocity_start": 0.5}
+    with Exchange(unpacked) as wall, Exchange(unpacked_floor, "floor") as floor:
+        wall.run(**rigid, **tie, u_start=0.0)
+        floor.run(**floor_starts)
+        mass, f0, u_ins = wall.get("mass", "F0", "u_ins")
+
+        def energy():
+            (x, v), (u, u_dot) = floor.states()[:2], wall.states()
+            force, p = wall.get("tie_force", "tie_elongation")
+            stored = (force**2 + (800.0**2 if wall.get("tie_broken") else 0.0)) / 2e5 / 2
+            potential = f0 * abs(u) * (1 - abs(u) / u_ins / 2) + 5e5 * x * x / 2
+            # the foot of the wall moves with the floor
+            return 5e3 * v * v / 2 + rod_energy(mass, v, v + 2 * u_dot) + potential + stored + 800.0 * p
+
+        first = energy()
+        for time in grid(1.0):
+            integrate([wall, floor], time, 1e-12, parapet_on_floor(wall, floor))
+            assert energy() == pytest.approx(first, rel=1e-10), time
+        assert wall.get("tie_elongation") > 1e-3 and wall.get("tie_broken") == (ultimate < 1.0)
 
 
 DURATION = 1.0

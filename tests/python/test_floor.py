@@ -319,11 +319,17 @@ def test_the_log(unpacked_floor):
 # --- with walls, other floors and another exporter
 
 
-def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor):
-    """A floor on rollers loses, one step later, the momentum that a rocking parapet with impacts gained."""
+TIE = {"tie_height": 3.0, "tie_stiffness": 2e5, "tie_strength": 500.0, "tie_side": "negative"}
+
+
+@pytest.mark.parametrize("tie", [{}, {**TIE, "tie_ultimate": 10.0}, {**TIE, "tie_ultimate": 0.0}])
+def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor, tie):
+    """A floor on rollers loses, one step later, the momentum that a rocking parapet with impacts gained, also
+    where its tie yields or breaks."""
     mass, step = 3000.0, 0.002
     with Unit(unpacked) as wall, Unit(unpacked_floor) as floor:
-        wall.start(u_start=0.05, impact="restitution", damping_model="none", force_law="rigid_linear")
+        rigid = {"impact": "restitution", "damping_model": "none", "force_law": "rigid_linear"}
+        wall.start(u_start=0.05, **rigid, **tie)
         floor.start(mass=mass, stiffness=0.0, damping_ratio=0.0, coupling="impulses")
         given, largest = 0.0, 0.0
         for _ in range(2000):
@@ -339,6 +345,9 @@ def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor):
             assert abs(momentum + given) <= 1e-12 * max(1.0, largest)
         assert largest > 10.0
         assert wall.get("u_max") == pytest.approx(0.05)
+        if tie:
+            assert wall.get("tie_broken") == (tie["tie_ultimate"] == 0.0)
+            assert wall.get("tie_broken") or wall.get("tie_elongation_negative") > 1e-3
 
 
 def test_storeys_stack(unpacked_floor):

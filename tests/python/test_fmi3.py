@@ -202,6 +202,28 @@ def test_the_adjoint_is_the_transposed(unpacked3):
         assert both == pytest.approx([1.0, -2.0, 0.5] @ directional, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("u_start", "by_u"), [(0.03, 0.0), (0.06, 2 * 3.0 / 4.0 * 3e5), (0.12, 0.0), (0.19, 0.0)]
+)
+def test_derivatives_of_a_tie_are_those_of_its_branch(unpacked3, u_start, by_u):
+    """Slack, pulling, yielding, broken: by the directional and the adjoint derivative."""
+    # it pulls from 0.05 m on, yields from 0.1 m on and breaks at 0.18 m of u
+    tie = {"tie_height": 3.0, "tie_stiffness": 3e5, "tie_slack": 0.075, "tie_strength": 2.25e4}
+    with Unit(unpacked3) as unit:
+        unit.start(**tie, tie_ultimate=0.12, u_start=u_start, u_dot_start=0.1)
+        knowns = [unit.reference(name) for name in ("u", "u_dot")]
+        rows = [unit.reference(name) for name in ("tie_force", "tie_elongation", "tie_elongation_negative")]
+        wanted = [by_u, 1.5 if u_start == 0.12 else 0.0, 0.0]
+        for row, by_displacement in zip(rows, wanted):
+            found = [unit.slave.getDirectionalDerivative([row], [known], [1.0])[0] for known in knowns]
+            assert found == pytest.approx([by_displacement, 0.0], rel=1e-12)
+            assert unit.slave.getAdjointDerivative([row], knowns, [1.0], 2) == found
+        # output derivatives are those along the motion
+        derivatives = unit.slave.getOutputDerivatives(rows, [1] * 3)
+        assert list(derivatives) == pytest.approx([0.1 * value for value in wanted], rel=1e-12)
+        assert unit.get("tie_broken") is (u_start == 0.19)
+
+
 @pytest.mark.parametrize("scene", ["plain_parapet", "shaken_parapet", "strip_between_floors"])
 def test_a_scene_has_the_variables_of_fmi_2(fmu, fmu3, wall, tmp_path, scene):
     made = []

@@ -23,6 +23,8 @@ from unit import Unit
 TOLERANCE = 1e-8
 OUTPUTS = ["u", "u_dot", "u_max", "overturned", "overturn_time"]
 RIGID = {"force_law": "rigid_linear", "damping_model": "none", "impact": "restitution"}
+TIE = {"tie_height": 2.0, "tie_stiffness": 3e5, "tie_slack": 0.01, "tie_strength": 3e3}
+YIELDING = {**TIE, "tie_ultimate": 0.05, "tie_side": "both", "u_start": 0.0}
 STRIP = {"mechanism": "vertical_spanning", "thickness": 0.1, "u_start": 0.08}
 # A relative change of gravity; it shows how a relative error of the equation changes the history.
 NUDGE = 1e-7
@@ -115,6 +117,8 @@ def agree(folder, description, settings, stop, **options):
         ({"u_start": 0.19, "u_dot_start": 0.3}, 3.0),
         ({"u_start": 0.19, "u_dot_start": 0.3, "a3": 0.9, "damping_model": "stiffness_proportional"}, 3.0),
         ({**STRIP, "overburden": 3000.0, "overburden_eccentricity": 0.02, "u_start": -0.05}, 6.0),
+        ({**TIE, "tie_ultimate": 10.0, "tie_side": "both", "u_start": -0.1}, 10.0),
+        ({**TIE, "tie_ultimate": 0.02, "u_start": -0.1}, 10.0),
     ],
     ids=[
         "default",
@@ -126,6 +130,8 @@ def agree(folder, description, settings, stop, **options):
         "overturning",
         "overturning SDR",
         "two sides",
+        "ties that yield",
+        "a tie that breaks",
     ],
 )
 def test_agrees_with_co_simulation(unpacked, settings, stop):
@@ -408,7 +414,7 @@ def test_the_derivative_is_smooth_beyond_the_corner(unpacked):
 def test_no_indicator_stays_at_zero_after_an_event(unpacked):
     """After an event at a random point, every indicator is away from zero and time and states are as set."""
     noise = random.Random(5)
-    for settings in ({}, RIGID, {**STRIP, "impact": "restitution"}, {"force_law": "trilinear"}):
+    for settings in ({}, RIGID, {**STRIP, "impact": "restitution"}, {"force_law": "trilinear"}, YIELDING):
         with Exchange(unpacked) as exchange:
             exchange.run(**settings)
             scale = exchange.get("u_ins")

@@ -57,17 +57,20 @@ def test_a_state_of_another_version_is_refused_with_that_word(either):
             ("version 2 of the format, this library reads version 3", 8, struct.pack("<Q", 2)),
             ("the state is of another version of this unit", guid, b"{another"),
             ("version 9 of the model's state, this library reads", behind_guid, struct.pack("<Q", 9)),
+            ("version 1 of the model's state, this library reads", behind_guid, struct.pack("<Q", 1)),
         ):
             body = state[:at] + new + state[at + len(new) : -8]
             assert message in refusal(unit, mended(body))
 
 
-@pytest.mark.parametrize(("archive", "length"), [("unpacked", 524), ("unpacked_floor", 501)])
-def test_a_change_of_the_state_raises_its_version(request, archive, length):
+@pytest.mark.parametrize(
+    ("archive", "model", "length"), [("unpacked", 2, 567), ("unpacked_floor", 1, 501)]
+)
+def test_a_change_of_the_state_raises_its_version(request, archive, model, length):
     """The values of a state are a list of `transfer_state`; another length is another version of it."""
     unpacked = request.getfixturevalue(archive)
     with Unit(unpacked) as unit:
         state = unit.start().slave.serializeFMUState(unit.slave.getFMUState())
     behind_guid = 24 + len(unpacked.description.guid)
     version, payload = struct.unpack_from("<QQ", state, behind_guid)
-    assert (version, payload) == (1, length), "raise STATE_VERSION of the model, then change this test"
+    assert (version, payload) == (model, length), "raise STATE_VERSION of the model, then change this test"

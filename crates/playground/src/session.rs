@@ -64,7 +64,7 @@ impl Session {
         let response = Response::of(&prepared.scene).map_err(|error| fault_of("wall", error.to_string()))?;
         let (scene, wall) = (&prepared.scene, &prepared.wall);
         let (body, summary) = (wall.body(), &response.summary);
-        let mut warnings: Vec<String> = wall.warnings().iter().map(ToString::to_string).collect();
+        let mut warnings: Vec<String> = response.warnings.iter().map(ToString::to_string).collect();
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
         warnings.extend(of_motion.map(|warning| warning.to_string()));
         if summary.put_to_rest {

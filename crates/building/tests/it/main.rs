@@ -135,6 +135,35 @@ fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
     }
 }
 
+/// A floor feels hinge and tie of its wall, also where the tie yields and breaks: M a + k x + R_b = 0 at each
+/// communication point, to the 1e-10 at which the loop counts as closed, and ten roundings of M a.
+#[test]
+fn a_tie_that_yields_reacts_on_its_floor() {
+    let folder = folder("building_tied");
+    let (mass, stiffness) = (2.0e4, 2.0e4 * 400.0);
+    // u at which the ties yield: N_y/K over 2y/h
+    let yields = 300.0 / 2e5 / 2.0;
+    let mut peaks = Vec::new();
+    for (ultimate, least) in [(-1.0, 0.0), (10.0, yields), (2e-3, yields + 1e-3)] {
+        let tie = "tie_height = 1.2\ntie_stiffness = 2e5\ntie_strength = 300.0\ntie_side = \"both\"";
+        let scene = format!("{}[tie]\n{tie}\ntie_ultimate = {ultimate:?}\n", parapet(2.0));
+        fs::write(folder.join("p.toml"), scene).unwrap();
+        let path = written(&folder, &[(mass, stiffness)], 0.0, &[("p", "bottom = \"floor_1\"")]);
+        let coupled = run(&path, &ground(0.3), 10.0, 1e-3);
+        let (floor, wall) = (&coupled.floors[0], &coupled.walls[0]);
+        assert!(wall.largest > least && wall.overturn_time.is_none(), "{} of {least}", wall.largest);
+        let largest = [mass * floor.acceleration.peak.value, wall.reaction_bottom.peak.value].map(f64::abs);
+        let allowed = 1e-10 * largest[1] + 10.0 * f64::EPSILON * largest[0];
+        let histories = floor.acceleration.values.iter().zip(&floor.drift.values);
+        for ((acceleration, drift), reaction) in histories.zip(&wall.reaction_bottom.values) {
+            let sum = mass * acceleration + stiffness * drift + reaction;
+            assert!(sum.abs() <= allowed, "{sum:e} of {allowed:e}");
+        }
+        peaks.push(wall.largest);
+    }
+    assert!(peaks.windows(2).all(|pair| pair[0] < pair[1]), "yielding and fracture free the wall: {peaks:?}");
+}
+
 /// Every line of a building, broken in every way: no message speaks in words of the reader.
 #[test]
 fn broken_files_are_refused_in_plain_words() {

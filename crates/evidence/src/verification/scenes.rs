@@ -8,7 +8,7 @@ use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::simulation::{Excitation, Simulation, segment_of};
 use rocking_wall::variables::RealVariable;
-use rocking_wall::wall::Support;
+use rocking_wall::wall::{Branch, Support};
 use serde::Deserialize;
 
 use crate::{Comparison, EvidenceError};
@@ -75,7 +75,7 @@ pub(super) fn compare(
             simulation.advance_through(next, None).map_err(SceneError::from)?;
             simulation.set_time(time);
             let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
-            let unit = RealVariable::from_name(variable).and_then(|variable| variable.variable().unit);
+            let unit = RealVariable::from_name(variable).map_or(Some("J"), |known| known.variable().unit);
             let what = (name, format!("{variable}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
             let computed = computed(&simulation, support(time), variable);
             comparisons.push(Comparison { scale, ..Comparison::new(what, [computed, value], bound) });
@@ -96,10 +96,30 @@ fn computed(simulation: &Simulation, support: Support, name: &str) -> f64 {
         "reaction_bottom" => outputs.reactions.bottom,
         "reaction_top" => outputs.reactions.top,
         "tie_force" => outputs.tie_force,
+        "tie_elongation" => outputs.tie_elongation.positive,
+        "tie_break_time" => simulation.progress().tie_break_time().unwrap_or(-1.0),
+        "energy" => energy(simulation, outputs.tie_force),
         "overturn_time" => simulation.progress().overturn_time.unwrap_or(-1.0),
         _ => {
             let facts = simulation.wall().facts();
             facts.iter().find(|fact| fact.name == name).map_or(f64::NAN, |fact| fact.value)
         }
     }
+}
+
+/// Returns the energy of a wall with its tie on u > 0, of which it has what has been lost \[J\].
+fn energy(simulation: &Simulation, tie_force: f64) -> f64 {
+    let (wall, state) = (simulation.wall(), simulation.progress().state);
+    let part = |branch: &Branch| {
+        let (from, to) = (branch.lower.max(0.0), branch.upper.min(state.displacement).max(0.0));
+        if from < to { 0.5 * (branch.own.at(from) + branch.own.at(to)) * (to - from) } else { 0.0 }
+    };
+    let own = 0.5 * state.velocity.powi(2) + wall.branches().iter().map(part).sum::<f64>();
+    let in_tie = wall.tie().map_or(0.0, |tie| {
+        let (strength, stored) =
+            (tie.strength.unwrap_or_default(), |force: f64| force * force / tie.stiffness / 2.0);
+        let lost = if tie.is_broken(1.0, &state.tie) { stored(strength) } else { 0.0 };
+        stored(tie_force) + lost + strength * simulation.outputs(Support::default()).tie_elongation.positive
+    });
+    wall.body().effective_mass * own + in_tie
 }

@@ -22,7 +22,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let outputs = [&arguments.csv, &arguments.html];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
+    let of_start = wall.start_warning(scene.parameters.u_start);
+    wall.warnings().iter().chain(&of_start).for_each(|warning| console.warn(&warning.to_string()));
     let response = arguments.scene.named(Response::of(&scene))?;
     for warning in scene.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
         console.warn(&warning);
