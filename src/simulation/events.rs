@@ -39,8 +39,9 @@ impl Simulation {
         let mut state = before;
         let mut event = self.motion().event(&mut state, rising, forcing);
         while state.tie != *self.wall().tie_memory() {
+            let [place, direction] = self.motion().tie_change(&state);
             self.prepare(&state);
-            self.motion().find_branch(&mut state);
+            state.branch = self.wall().branch_of(place, direction);
             event.add(self.motion().event(&mut state, rising, forcing));
         }
         self.progress.state = state;

@@ -106,7 +106,7 @@ impl Motion {
     }
 
     /// Sets the branch of a state whose ties have changed: ahead of the motion, and inwards where it turns.
-    pub(crate) fn find_branch(&self, state: &mut State) {
+    pub(super) fn find_branch(&self, state: &mut State) {
         let State { displacement, velocity, .. } = *state;
         let direction = if velocity == 0.0 { -displacement } else { velocity };
         state.branch = self.wall.branch_of(displacement, direction);

@@ -92,6 +92,8 @@ impl Motion {
                     let largest = state.displacement.abs().max(state.peaks.of(state.displacement));
                     let reach = largest.copysign(state.displacement);
                     event.fractured |= transition::unload(self, state, reach);
+                    // from there inwards, as corners on the way back have still to be passed
+                    state.branch = self.wall.branch_of(reach, -reach);
                 }
                 Phase::Moving => match self.exit(state) {
                     None => break,
@@ -110,6 +112,20 @@ impl Motion {
         }
         *rising &= outwards > 0.0 && state.phase == Phase::Moving;
         event
+    }
+
+    /// Returns where the ties of a state have become others than those of this motion, and the direction from
+    /// there on which the wall is: an importer's solver may have gone past further corners since.
+    pub(crate) fn tie_change(&self, state: &State) -> [f64; 2] {
+        let (before, after) = (self.wall.tie_memory().yielded, state.tie.yielded);
+        let changed = [1.0, -1.0].into_iter().find(|sign| before.of(*sign) != after.of(*sign));
+        let Some(side) = changed else {
+            // they are lost where the wall leaves its supports
+            let side = self.wall.branches()[state.branch].side();
+            return [side * self.wall.body().departure.of(side), side];
+        };
+        let is_broken = self.wall.tie().is_some_and(|tie| tie.is_broken(side, &state.tie));
+        [side * after.of(side), if is_broken { side } else { -side }]
     }
 
     /// Breaks a tie beyond whose fracture the wall has been placed.

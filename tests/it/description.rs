@@ -155,8 +155,7 @@ fn the_documentation_needs_nothing_from_outside() {
 /// Outputs of a tie that yields are listed where the tie yields, each elongation on the sides it is for.
 #[test]
 fn outputs_of_ties_are_listed_where_they_matter() {
-    let outputs =
-        ["tie_force", "tie_elongation", "tie_elongation_negative", "tie_broken", "tie_break_time"];
+    let outputs = ["tie_force", "tie_elongation", "tie_elongation_negative", "tie_broken", "tie_break_time"];
     let yields = Parameters {
         tie_height: 3.0,
         tie_stiffness: 1e6,

@@ -6,10 +6,9 @@ use fmu_export::{
     Category, Filter, Interface, Log, Model as _, ModelExchange as _, StateCodec, Status, Step,
     VariableId as _,
 };
-use rocking_wall::simulation::Simulation;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{BooleanVariable, RealVariable as V, TieSide};
-use rocking_wall::wall::{Parameters, Support};
+use rocking_wall::wall::Parameters;
 
 use crate::cases::{rows, text};
 use crate::yielding::by_hand;
@@ -125,8 +124,8 @@ fn model_exchange_follows_ties_that_yield() {
         let (mut unit, mut time) = (exchange(tie_ultimate, 0.0, 0.5), 0.0);
         let parameters = Parameters { tie_side: TieSide::Both, ..by_hand(tie_ultimate) };
         let mut steps = start(&parameters);
-        for _ in 0..14 {
-            integrate(&mut unit, &mut time, time + 0.1, 1e-3);
+        for tenth in 1..15 {
+            integrate(&mut unit, &mut time, 0.1 * f64::from(tenth), 1e-3);
             steps.advance(&still(0.1)).unwrap();
             let apart = unit.real(V::U) - steps.progress().state.displacement;
             // the wall of the brittle tie has fallen by then
@@ -152,8 +151,7 @@ fn each_event_of_a_tie_reports_changed_states() {
             assert_eq!(unit.real(other), 0.0);
             (changed, unit.real(V::TieForce), unit.real(own))
         };
-        let near =
-            |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-9 * 3e3, "{found} for {wanted}");
+        let near = |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-5, "{found} for {wanted}");
         let (changed, force, _) = step(ENGAGES * beyond, 0.4);
         assert!(changed);
         near(force, 0.0);
@@ -223,6 +221,26 @@ fn a_tie_remembers_its_own_side() {
     let wanted = [0.04, 0.1].map(|reach| (reach - YIELDS) * 5.2 / 3.0);
     let found = SIDES.map(|elongation| unit.real(elongation));
     assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-15), "{found:?}");
+}
+
+/// A solver that finds the fracture, or the turning point, late has passed further corners, and each of them
+/// counts.
+#[test]
+fn an_event_that_is_met_late_passes_every_corner() {
+    for side in [1.0, -1.0] {
+        let mut unit = exchange(0.05, 0.0, side * 0.5);
+        step_to(&mut unit, [side * 0.03, side * 0.4]);
+        let mut fallen = unit.clone();
+        // past u_f, u_ins and the departure at h/4 at once
+        step_to(&mut fallen, [side * 0.8, side * 0.4]);
+        assert!(fallen.boolean(BooleanVariable::TieBroken) && fallen.boolean(BooleanVariable::Overturned));
+        assert_eq!((fallen.real(V::TieForce), fallen.real(V::ReactionBottom)), (0.0, 0.0));
+        // back beyond u = 0 at once: with the impact there
+        step_to(&mut unit, [side * -1e-6, side * -0.3]);
+        let lost = unit.real(V::ImpulseBottom) / unit.real(V::Mass);
+        assert!((lost - side * 0.03).abs() < 1e-3, "{lost}");
+        assert!(unit.real(if side > 0.0 { SIDES[0] } else { SIDES[1] }) > 0.01);
+    }
 }
 
 /// A state that is set like an input yields beyond U, and from the next event on it is broken beyond u_f.
@@ -353,7 +371,7 @@ fn fractures_are_logged_and_end_no_step() {
         let texts = Arc::new(Mutex::new(Vec::new()));
         let sink = texts.clone();
         let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
-        let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Event));
+        let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Events));
         let mut unit = initialized(interface, &scene(0.0, 0.0, 0.4));
         if interface == Interface::ModelExchange {
             unit.update(&mut log).unwrap();
@@ -368,24 +386,4 @@ fn fractures_are_logged_and_end_no_step() {
         assert!((0.03..0.08).contains(&time), "{time}");
         assert_eq!(*texts.lock().unwrap(), [format!("a tie broke at t = {time} s")]);
     }
-}
-
-/// Supports feel hinge and tie together: their impulses are the momentum that the wall gains, also where a
-/// tie yields and breaks; and R_b jumps by ¾ ℓ N_y at the fracture.
-#[test]
-fn reactions_include_a_tie_that_yields() {
-    let mut simulation: Simulation = start(&by_hand(0.05));
-    let mass = simulation.wall().body().mass;
-    for step in [0.03, 0.03, 0.05, 0.1, 0.3] {
-        let before = simulation.progress().state.velocity;
-        let done = simulation.advance(&still(step)).unwrap();
-        let gained = mass * (simulation.progress().state.velocity - before);
-        assert!((done.impulses.bottom - gained).abs() <= 1e-12 * mass, "{done:?} for {gained}");
-    }
-    let reaction = |ultimate: f64| {
-        let simulation = start(&Parameters { u_start: BREAKS, ..by_hand(ultimate) });
-        simulation.outputs(Support::default()).reactions.bottom
-    };
-    let jump = reaction(0.05) - reaction(10.0);
-    assert!((jump - 0.75 * 5.2 / 3.0 * 3e3).abs() < 1e-9, "{jump}");
 }

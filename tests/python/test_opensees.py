@@ -71,7 +71,7 @@ for _ in range(int(count)):
 
 @pytest.mark.skipif(not has_opensees(), reason="not run: openseespy is not installed")
 def test_elastic_pp_gap_with_damage_is_the_tie_that_yields():
-    """At 0.1 ms it is within 3e-7 u_ins of the reference case, whose tie does not break."""
+    """At 0.1 ms it is within 3e-7 u_ins of the reference case for 3 s, in which the tie is stretched once."""
     scene = tomllib.loads((test_cases.CASES / "y01_free_cdc.toml").read_text())
     given = test_cases.given(scene)
     weight = given["density"] * given["gravity"] * given["height"] * given["thickness"]
@@ -82,7 +82,7 @@ def test_elastic_pp_gap_with_damage_is_the_tie_that_yields():
     damping = 2 * given["xi"] * (k1 * mass) ** 0.5
     lever = 2 * given["tie_height"] / given["height"]
     tie = [lever**2 * given["tie_stiffness"], lever * given["tie_strength"], given["tie_slack"] / lever]
-    rows = test_cases.rows("y01_free_cdc")[:601]
+    rows = test_cases.rows("y01_free_cdc")[:301]
     step = 1e-4
     every = round((rows[1]["t"] - rows[0]["t"]) / step)
     arguments = [mass, damping, u1, k1, k0, u_ins, *tie, given["u_start"], step, len(rows) - 1, every]
