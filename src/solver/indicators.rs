@@ -89,8 +89,8 @@ impl Motion {
                     transition::settle(self, state, [forcing, 0.0]);
                 }
                 Phase::Moving if self.has_turned_back(state) => {
-                    let largest = state.displacement.abs().max(state.peaks.of(state.displacement));
-                    let reach = largest.copysign(state.displacement);
+                    let side = self.wall.branches()[state.branch].side();
+                    let reach = side * state.peaks.of(side).max(side * state.displacement);
                     event.fractured |= transition::unload(self, state, reach);
                     // from there inwards, as corners on the way back have still to be passed
                     state.branch = self.wall.branch_of(reach, -reach);

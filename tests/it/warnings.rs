@@ -65,7 +65,7 @@ fn a_start_that_has_stretched_a_tie_is_warned_of() {
     };
     let wall = Wall::new(&tied).unwrap();
     let told = |u_start: f64| wall.start_warning(u_start).map(|warning| warning.to_string());
-    for silent in [0.0, 0.0125, -0.1] {
+    for silent in [0.0, 0.0124, -0.1] {
         assert_eq!(told(silent), None);
     }
     assert_eq!(

@@ -265,6 +265,30 @@ fn the_example_by_hand_turns_where_its_tie_holds() {
     assert!((hold.onset - 0.045_560_01).abs() <= 5e-9, "{hold:?}");
 }
 
+/// Demands on ties: the largest force and its first time, p of each side, and each fracture.
+#[test]
+fn the_example_by_hand_has_its_demands() {
+    for (ultimate, elongation, fracture) in [(10.0, 0.058_970_69, None), (0.05, 0.05, Some(0.135_006_728_6))]
+    {
+        let mut simulation = start(&by_hand(ultimate));
+        let mut demands = simulation.demands(Support::default(), &[]);
+        for _ in 0..4 {
+            simulation.advance_watched(&still(0.1), &mut demands).unwrap();
+        }
+        let tie = demands.tie.unwrap();
+        assert!(tie.force.value == 3e3 && tie.strength == Some(tie.force), "{tie:?}");
+        assert!((tie.force.time - YIELDS[0]).abs() < 1e-10, "{tie:?}");
+        let yielding = tie.yielding.unwrap();
+        assert!((yielding.elongation.positive - elongation).abs() < 5e-9, "{yielding:?}");
+        assert_eq!((yielding.elongation.negative, yielding.breaks[1]), (0.0, None));
+        let apart = yielding.breaks[0].zip(fracture).map(|(found, wanted): (f64, f64)| found - wanted);
+        assert!(
+            yielding.breaks[0].is_some() == fracture.is_some()
+                && apart.is_none_or(|apart| apart.abs() < 1e-10)
+        );
+    }
+}
+
 #[test]
 fn the_example_by_hand_overturns_where_its_tie_is_brittle() {
     let mut simulation = start(&by_hand(0.0));

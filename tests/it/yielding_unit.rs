@@ -169,7 +169,9 @@ fn each_event_of_a_tie_reports_changed_states() {
         near(force, 3e3);
         near(elongation, (0.03 - YIELDS) * 5.2 / 3.0);
         let slack = 0.03 - (YIELDS - ENGAGES);
-        assert!(step(slack * (1.0 - 1e-9), -0.1).0 && step(slack, 0.1).0 && step(0.03 * beyond, 0.1).0);
+        assert!(
+            step(slack * (1.0 - 1e-9), -0.1).0 && step(slack * beyond, 0.1).0 && step(0.03 * beyond, 0.1).0
+        );
         let (changed, force, elongation) = step(BREAKS * beyond, 0.1);
         assert!(changed);
         assert_eq!((force, elongation), (0.0, 0.05));
@@ -235,6 +237,13 @@ fn an_event_that_is_met_late_passes_every_corner() {
         step_to(&mut fallen, [side * 0.8, side * 0.4]);
         assert!(fallen.boolean(BooleanVariable::TieBroken) && fallen.boolean(BooleanVariable::Overturned));
         assert_eq!((fallen.real(V::TieForce), fallen.real(V::ReactionBottom)), (0.0, 0.0));
+        // an elastic tie is lost at the departure alone, and for good
+        let mut departed = exchange(-1.0, 0.0, side * 0.5);
+        for place in [0.8, 0.1] {
+            step_to(&mut departed, [side * place, side * (0.5 - place)]);
+            assert_eq!((departed.real(V::TieForce), departed.real(V::ReactionBottom)), (0.0, 0.0), "{place}");
+            assert_eq!(departed.directional_derivative(V::TieForce, V::U), Some(0.0));
+        }
         // back beyond u = 0 at once: with the impact there
         step_to(&mut unit, [side * -1e-6, side * -0.3]);
         let lost = unit.real(V::ImpulseBottom) / unit.real(V::Mass);

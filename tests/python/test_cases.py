@@ -2,7 +2,8 @@
 
 The Rust tests run every case. Two show here what an importer adds: the slopes of both supports' motions, and
 the flag that is set in the step of overturning. Those of ties that yield run in Model Exchange too: CVODE at
-1e-10 stays within 1e-6 u_ins. On Windows all of them run (test_platforms.py).
+1e-10 stays within 1e-6 u_ins, or 100 times its tolerance times the sensitivity. On Windows all of them run
+(test_platforms.py).
 
 A case passes if |error|/u_ins stays within max(1e-9, 100 eps sensitivity, 100 error_in_double) up to its
 horizon, as in the Rust tests.
@@ -24,6 +25,8 @@ NAMES = sorted(path.stem for path in CASES.glob("*.json"))
 YIELDING = [name for name in NAMES if name.startswith("y")]
 SEEN = ["c35_hf_cdc_dt005", "c29_rec_overturn_short", *YIELDING]
 EPSILON = 2.2e-16
+# of CVODE
+TOLERANCE = 1e-10
 
 
 @pytest.fixture
@@ -134,10 +137,11 @@ def test_ties_that_yield_in_model_exchange(name, version, request, wall, tmp_pat
     command = [wall, "package", CASES / f"{name}.toml", "-o", path]
     subprocess.run([*command, "--base", request.getfixturevalue(version)], check=True, capture_output=True)
     found = simulate_fmu(
-        str(path), fmi_type="ModelExchange", stop_time=table[-1]["t"], relative_tolerance=1e-10,
+        str(path), fmi_type="ModelExchange", stop_time=table[-1]["t"], relative_tolerance=TOLERANCE,
         output_interval=step, record_events=False, output=["u"],
     )  # fmt: skip
     assert len(table) > 10 and np.allclose(found["time"], [row["t"] for row in table], rtol=0, atol=1e-9)
     errors = np.abs(found["u"] - [row["u"] for row in table]) / reference["u_ins"]
-    print(f"{errors.max():.1e} u_ins")
-    assert errors.max() <= 1e-6
+    sensitivity = np.maximum.accumulate([row["sensitivity"] for row in table])
+    worst = (errors / np.maximum(1e-6, 100 * TOLERANCE * sensitivity)).max()
+    assert worst <= 1, f"{errors.max():.1e} u_ins, {worst:.1f} of the bound"
