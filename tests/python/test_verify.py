@@ -51,7 +51,8 @@ def test_the_fmu_gives_the_references(either):
     for name, values, motion in scenes():
         with Unit(either) as unit:
             start(unit, values, motion)
-            for row in rows[name]:
+            # the energy of a wall is no variable
+            for row in (row for row in rows[name] if row["variable"] != "energy"):
                 if (time := float(row["time"])) > unit.time:
                     unit.step(time - unit.time)
                 error = abs(unit.get(row["variable"]) - float(row["reference"]))
