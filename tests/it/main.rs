@@ -39,6 +39,7 @@ mod ties;
 mod trigonometric;
 mod unit;
 mod warnings;
+mod yielding_records;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {
