@@ -43,14 +43,11 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let forcing = [body.forcing(segment.from), body.forcing(segment.to)];
-        let stretched = memo.prepare(self, &state.tie);
-        let motion = stretched.as_deref().unwrap_or(self);
         if !integral
             && watch.is_none()
-            && let Some(end) = motion.quiet_end(state, segment.duration, forcing, memo)
+            && let Some(report) = self.pass_quietly(state, segment.duration, forcing, memo)
         {
-            (state.displacement, state.velocity) = (end.displacement, end.velocity);
-            return Ok(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() });
+            return Ok(report);
         }
         let watch = watch.map(|(demands, time, drift)| (demands, segment, time, drift));
         self.run(state, segment.duration, forcing, integral, memo, watch)
@@ -67,7 +64,28 @@ impl Motion {
         forcing: [f64; 2],
         memo: &mut Memo,
     ) -> Result<Report, SolverError> {
+        // of a wall as it was at first, records leave here the steps that are not quiet
+        if state.tie != *self.wall.tie_memory()
+            && let Some(report) = self.pass_quietly(state, duration, forcing, memo)
+        {
+            return Ok(report);
+        }
         self.run(state, duration, forcing, false, memo, None)
+    }
+
+    /// Moves `state` through a segment without events, with the ties as they are; `None` for another segment.
+    #[inline]
+    fn pass_quietly(
+        &self,
+        state: &mut State,
+        duration: f64,
+        forcing: [f64; 2],
+        memo: &mut Memo,
+    ) -> Option<Report> {
+        let stretched = memo.prepare(self, &state.tie);
+        let end = stretched.as_deref().unwrap_or(self).quiet_end(state, duration, forcing, memo)?;
+        (state.displacement, state.velocity) = (end.displacement, end.velocity);
+        Some(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() })
     }
 
     /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.

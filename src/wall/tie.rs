@@ -221,9 +221,11 @@ impl Tie {
         (self.lever * (yielded - first)).clamp(0.0, ultimate)
     }
 
-    /// Returns K (|e| − g₀ − p), the force of the tie where it pulls \[N\].
+    /// Returns K (|e| − g₀ − p), the force of the tie where it pulls \[N\]. Of one that yields it is at most
+    /// `N_y`, also to rounding.
     pub(super) fn tension(&self, hold: &Hold, displacement: f64) -> f64 {
-        (self.stiffness * (self.lever * displacement.abs() - hold.slack)).max(0.0)
+        let force = (self.stiffness * (self.lever * displacement.abs() - hold.slack)).max(0.0);
+        self.ultimate.and(self.strength).map_or(force, |most| force.min(most))
     }
 
     /// Returns what the tie does between two displacements that no corner separates.

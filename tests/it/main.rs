@@ -40,6 +40,7 @@ mod trigonometric;
 mod unit;
 mod warnings;
 mod yielding;
+mod yielding_records;
 mod yielding_unit;
 
 /// Returns the root of the workspace.

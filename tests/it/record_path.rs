@@ -141,12 +141,12 @@ fn lanes_agree(
 }
 
 /// Compares a run over a record with segments one by one, for a motion in units of the strength; each of its
-/// intervals in a number of steps.
+/// intervals in a number of steps. Returns the outcome of the run.
 pub(crate) fn records_agree(
     parameters: &Parameters,
     motion: &[f64],
     refinement: u32,
-) -> Result<(), TestCaseError> {
+) -> Result<Outcome, TestCaseError> {
     let wall = Wall::new(parameters).unwrap();
     // fine steps are plain ones, coarse ones are searched
     let accelerations: Vec<f64> = refined(motion, refinement).iter().map(|a| onset(&wall) * a).collect();
@@ -182,6 +182,8 @@ fn outcomes_agree(
             .max(of(&|p| p.state.velocity) / rate)
             .max(of(&|p| p.state.peaks.positive))
             .max(of(&|p| p.state.peaks.negative))
+            .max(of(&|p| p.state.tie.yielded.positive))
+            .max(of(&|p| p.state.tie.yielded.negative))
             / scale
     };
     let mut amplification = 1.0_f64;
@@ -251,8 +253,8 @@ fn forcing(wall: &Wall, accelerations: &[f64]) -> Vec<f64> {
     accelerations.iter().map(|&a| wall.body().forcing(Support::rigid(a))).collect()
 }
 
-/// Compares a run over a record with segments one by one.
-fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<(), TestCaseError> {
+/// Compares a run over a record with segments one by one, and returns its outcome.
+fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<Outcome, TestCaseError> {
     let forcing = forcing(&Wall::new(parameters).unwrap(), accelerations);
     let (history, outcome) = alone(parameters, &forcing, step, 1.0);
     let reference = Reference::new(parameters, accelerations, step);
@@ -266,9 +268,13 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     if reference.standing == reference.progress.len() {
         let peaks = outcome.state.peaks.largest() - end.state.peaks.largest();
         prop_assert!(peaks.abs() / reference.scale <= allowed, "peaks differ by {peaks:e} m");
+        for sign in [1.0, -1.0] {
+            let [ours, theirs] = [&outcome.state, &end.state].map(|state| state.tie.yielded.of(sign));
+            prop_assert!((ours - theirs).abs() / reference.scale <= allowed, "yielded {ours} and {theirs} m");
+        }
         prop_assert_eq!(outcome.overturning, None);
     }
-    Ok(())
+    Ok(outcome)
 }
 
 /// A wall of a multilinear law of two to five corners, or another, that starts on its way.

@@ -287,12 +287,27 @@ def test_a_tie(program, tmp_path, both):
     np.testing.assert_array_equal(alone.u_ratio_max, found.u_ratio_max)
 
 
+def test_a_tie_that_yields(program, tmp_path):
+    paths, out = records(program, tmp_path, 3), tmp_path / "tie.csv"
+    tied = TIED | {"tie_stiffness": 1e6, "tie_ultimate": 0.01}
+    arguments = [word for name, value in tied.items() for word in ("--set", f"{name}={value}")]
+    arguments += ["--unit", "m/s2", "--ultimate", "0,0.01,1"]
+    program("study", "tie", *arguments, "--records", *paths, "--csv", out)
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    found = rw.Wall(**tied).tie(motions, ultimate=[1, 0, 0.01])
+    assert_table(found.table, out)
+    assert found.varied == "tie_ultimate" and found.values.tolist() == [0, 0.01, 1]
+    assert found.broken[0].any() and not found.broken[2].any() and (found.force <= tied["tie_strength"]).all()
+    assert (found.elongation[0] == 0).all() and (found.elongation[2] > 0).any()
+
+
 def test_what_is_no_tie(record):
     wall = rw.Wall(**TIED)
     for call, words in [
         (lambda: rw.Wall().tie(record), "no tie_height; set it"),
         (lambda: wall.tie(), "there is no motion"),
         (lambda: wall.tie(scale=2.0), "scale needs records"),
+        (lambda: wall.tie(record, stiffness=[1e6], slack=[0.0]), "stiffness and slack are given"),
         (lambda: wall.tie(record, stiffness=[-1.0]), "tie_stiffness = -1 N/m is below its limit 0"),
     ]:
         with pytest.raises(ValueError, match=words):

@@ -163,6 +163,7 @@ impl Study {
             models: self.models(),
             records: self.records(),
             fractions: &report.fractions,
+            has_yielding_ties: (0..study.walls().len()).any(|wall| study.has_yielding_tie(wall)),
         };
         let of = |(_, of_wall): Kind| {
             let mut all = Table::default();

@@ -43,10 +43,12 @@ fn flag(cell: &Cell<'_>) -> Option<bool> {
     if let Cell::Flag(flag) = cell { Some(*flag) } else { None }
 }
 
-/// Returns a number: NaN for one that is not known, infinity for one that is above the levels.
+/// Returns a number: 1 or 0 for a flag among empty cells, NaN for one that is not known, infinity for one
+/// that is above the levels.
 fn number(cell: &Cell<'_>) -> f64 {
     match cell {
         Cell::Number(number) | Cell::Rounded(number, _) => *number,
+        Cell::Flag(flag) => f64::from(*flag),
         Cell::Between([least, most]) if least == most || *most == f64::INFINITY => *most,
         _ => f64::NAN,
     }

@@ -1,5 +1,7 @@
 //! The numbers of a branch that the steps of a run need, for all branches of a wall.
 
+use std::ops::Range;
+
 use oscillator::Oscillator;
 use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
@@ -145,7 +147,7 @@ impl Table {
             terms: 0,
         };
         if table.steppings.iter().all(|stepping| *stepping == Stepping::General) {
-            // nothing is prepared: no step needs it, and rows have no place for more than `MOST_BRANCHES`
+            // nothing is prepared: no step needs it
             return table;
         }
         table.at_once = table.count_at_once(motion, step);
@@ -274,7 +276,9 @@ impl Table {
         };
         let exits = [false, true].map(|upwards| {
             let mut row = ZERO;
-            (0..self.steppings.len()).for_each(|branch| set(&mut row, branch, find(branch, upwards)));
+            for branch in (0..self.steppings.len()).filter(|&at| self.steppings[at] != Stepping::General) {
+                set(&mut row, branch, find(branch, upwards));
+            }
             row
         });
         self.exits = exits;
@@ -305,7 +309,7 @@ pub(crate) fn get(row: &BranchRow, branch: usize) -> f64 {
 
 /// Sets the number of a branch.
 pub(crate) fn set(row: &mut BranchRow, branch: usize, number: f64) {
-    row.as_flattened_mut()[branch] = number;
+    row.as_flattened_mut()[branch % MOST_BRANCHES] = number;
 }
 
 /// Returns the largest c of a branch with secant damping, which is monotone in u \[1/s\].
@@ -314,11 +318,19 @@ fn largest_damping(motion: &Motion, branch: usize) -> f64 {
     branch.damping_at(branch.lower).max(branch.damping_at(branch.upper))
 }
 
+/// Returns the branches whose steps may be prepared: of many those in the middle, about u = 0. Each has its
+/// place in rows at the remainder of its number by their length.
+fn preparable(count: usize) -> Range<usize> {
+    let first = count.saturating_sub(MOST_BRANCHES) / 2;
+    first..first + MOST_BRANCHES
+}
+
 /// Decides how the steps on a branch are made.
 fn stepping(motion: &Motion, branch: usize, step: f64) -> Stepping {
     let wall = motion.wall();
     let adaptive = matches!(motion.method(), Method::Adaptive { .. });
-    if wall.branches().len() > MOST_BRANCHES || matches!(motion.method(), Method::Newmark { .. }) {
+    let is_preparable = preparable(wall.branches().len()).contains(&branch);
+    if !is_preparable || matches!(motion.method(), Method::Newmark { .. }) {
         Stepping::General
     } else if wall.branches()[branch].tie == TieAction::Yields {
         // it ends where the wall turns back

@@ -358,7 +358,8 @@ fn numbers_side_by_side_are_single_numbers() {
     }
 }
 
-/// A wall of more branches than are prepared goes by the general search for events.
+/// A wall of more branches than are prepared goes on by the general search for events beyond them, and comes
+/// back.
 #[test]
 fn many_branches_go_by_the_general_search() {
     // a law that rises to its twelfth corner and falls from there
@@ -371,5 +372,14 @@ fn many_branches_go_by_the_general_search() {
     let solver = RecordSolver::new(&motion, 5e-3);
     let start = starts(&motion)[10];
     let outcome = solver.run(start, Forcing::Samples(samples), false).expect("a bounded motion");
-    assert_eq!((outcome.state, outcome.work), searched(&motion, start, samples, 5e-3));
+    let (state, work) = searched(&motion, start, samples, 5e-3);
+    assert_eq!(outcome.work.corners, work.corners);
+    let u_ins = motion.wall().displacement_scale();
+    let apart = (outcome.state.displacement - state.displacement)
+        .abs()
+        .max((outcome.state.peaks.largest() - state.peaks.largest()).abs());
+    // 16 ε for each piece, amplified by up to a thousand
+    assert!(apart <= 1e3 * 16.0 * f64::EPSILON * work.pieces as f64 * u_ins, "{:e}", apart / u_ins);
+    // many times beyond the eight corners of a side that are prepared
+    assert!(state.peaks.largest() > 0.17 * u_ins && work.corners > 100, "{state:?}");
 }

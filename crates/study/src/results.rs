@@ -67,6 +67,11 @@ impl WallResults {
         &self.curves[model * self.records..(model + 1) * self.records]
     }
 
+    /// Returns whether all records have the same levels.
+    pub fn are_levels_shared(&self) -> bool {
+        self.at_levels
+    }
+
     /// Returns where each record first exceeds a fraction of `u_ins`.
     pub fn exceedances(&self, model: usize, fraction: f64) -> Vec<Exceedance> {
         self.curves(model).iter().map(|curve| curve.exceedance(fraction, self.at_levels)).collect()

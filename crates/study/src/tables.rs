@@ -1,10 +1,11 @@
 //! The tables of a study, wall by wall, for CSV files and the Python package.
 
 use ground_motion::STANDARD_GRAVITY;
-use report::table::{Cell, Growing, Table};
+use report::table::{Cell, Column, Digits, Growing, Table};
+use run::sample::fractile;
 
 use crate::fragility::{FitError, Interval, Lognormal, Summary};
-use crate::ida::{Curve, Exceedance};
+use crate::ida::{Curve, Exceedance, TieDemand};
 use crate::results::WallResults;
 
 /// Names of the parts of a study, and its limit states.
@@ -18,6 +19,8 @@ pub struct Names<'a> {
     pub records: Vec<&'a str>,
     /// Limit states as fractions of `u_ins`.
     pub fractions: &'a [f64],
+    /// Whether a wall of the study has ties that may yield.
+    pub has_yielding_ties: bool,
 }
 
 /// A kind of table: its name, and what makes it of the number and the results of a wall. Thousands of walls
@@ -27,17 +30,88 @@ pub type Kind = (&'static str, fn(&Names<'_>, usize, &WallResults) -> Table);
 /// The tables of a study.
 pub const KINDS: [Kind; 3] = [("levels", levels), ("collapses", collapses), ("fragilities", fragilities)];
 
+/// The table of the ties that may yield.
+pub const TIES: Kind = ("ties", ties);
+
 /// Every run.
 fn levels(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     let curves = results.all_curves().iter().enumerate();
     let runs = curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
-    names
+    let mut table = names
         .with_curves(wall, runs, |(index, _)| *index)
         .value("intensity_g", |(_, run)| in_g(run.intensity))
         .value("u_max_over_u_ins", |(_, run)| run.demand)
         .value("overturned", |(_, run)| run.overturning.is_some())
-        .value("overturn_time_s", |(_, run)| run.overturning)
-        .done()
+        .value("overturn_time_s", |(_, run)| run.overturning);
+    if names.has_yielding_ties {
+        table = table
+            .value("tie_force_n", |(_, run)| run.tie.map(|tie| tie.force))
+            .value("tie_elongation_m", |(_, run)| run.tie.map(|tie| tie.elongation))
+            .value("tie_broken", |(_, run)| run.tie.map(|tie| tie.broken));
+    }
+    table.done()
+}
+
+/// Fractiles over the runs at a level, and the largest value.
+const FRACTILES: [(&str, f64); 4] = [("16", 0.16), ("50", 0.5), ("84", 0.84), ("max", 1.0)];
+
+/// The ties of a wall that may yield, with every model: in how many runs they yielded and broke, and
+/// fractiles of their force and elongation, at each level where all records share these, or else over all
+/// runs.
+fn ties(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let three = Digits::AtMost(3);
+    let mut table = Table::over(tie_rows(names.models.len(), results))
+        .text("wall", "", |_| names.walls[wall].to_owned())
+        .text("model", "model", |row| names.models[row.model].to_owned())
+        .number("intensity_g", "level\n[g]", three, |row| row.level.map(in_g))
+        .number("runs", "runs", three, |row| row.demands.len())
+        .number("yielded", "yielded", three, |row| row.count(|tie| tie.elongation > 0.0))
+        .number("broken", "broken", three, |row| row.count(|tie| tie.broken));
+    for (name, part) in FRACTILES {
+        let column = Column::number(format!("tie_force_{name}_n"), format!("N {name}\n[kN]"), three);
+        table = table.column(column.shown(1e-3), move |row| row.fractile(|tie| tie.force, part));
+    }
+    for (name, part) in FRACTILES {
+        let column = Column::number(format!("tie_elongation_{name}_m"), format!("p {name}\n[mm]"), three);
+        table = table.column(column.shown(1e3), move |row| row.fractile(|tie| tie.elongation, part));
+    }
+    table.done()
+}
+
+/// The runs of a wall with a model, at one level or all.
+struct TieRow {
+    model: usize,
+    level: Option<f64>,
+    demands: Vec<TieDemand>,
+}
+
+impl TieRow {
+    fn count(&self, is: fn(&TieDemand) -> bool) -> usize {
+        self.demands.iter().filter(|tie| is(tie)).count()
+    }
+
+    fn fractile(&self, of: fn(&TieDemand) -> f64, part: f64) -> Option<f64> {
+        let mut values: Vec<f64> = self.demands.iter().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        fractile(&values, part)
+    }
+}
+
+fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
+    let mut rows: Vec<TieRow> = Vec::new();
+    for model in 0..models {
+        let runs = results.curves(model).iter().flat_map(Curve::runs);
+        let mut runs: Vec<_> = runs.filter_map(|run| Some((run.intensity, run.tie?))).collect();
+        runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (intensity, demand) in runs {
+            let level = results.are_levels_shared().then_some(intensity);
+            match rows.last_mut() {
+                Some(row) if (row.model, row.level) == (model, level) => row.demands.push(demand),
+                _ => rows.push(TieRow { model, level, demands: vec![demand] }),
+            }
+        }
+    }
+    rows
 }
 
 /// The collapse with every model and record.

@@ -132,8 +132,8 @@ class Parameters(TypedDict, total=False):
     """Side on which the tie holds the wall; where tie_stiffness is not 0; default positive."""
 
     tie_ultimate: float
-    """Plastic elongation at which the tie breaks, yielding at tie_strength; -1: it stays elastic [m], at
-    least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0."""
+    """Plastic elongation at which the tie breaks; it yields at tie_strength; -1: elastic [m], at least -1, at
+    most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0."""
 
     kinematics: Literal["linear", "trigonometric"]
     """Small rotations, or full ones (rigid-linear walls with restitution)."""

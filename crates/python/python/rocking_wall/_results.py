@@ -109,26 +109,32 @@ class RockingSpectrum(Tabular):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TieStudy(Tabular):
-    """Force of a parapet's tie and displacement of the wall over the stiffness of the tie.
+    """Demands on a parapet's tie and displacement of the wall over a parameter of the tie.
 
-    Arrays of two dimensions have a row for each stiffness and a column for each motion; with both polarities
-    the motions of the other sign come last.
+    Arrays of two dimensions have a row for each value and a column for each motion; with both polarities the
+    motions of the other sign come last.
     """
 
-    stiffness: NDArray[np.float64]
-    """Stiffnesses of the tie, in order; 0 for none [N/m]."""
+    varied: str
+    """The parameter that is varied, such as tie_stiffness."""
+    values: NDArray[np.float64]
+    """Its values, in order, in SI units."""
     force: NDArray[np.float64]
-    """Peak force of the tie [N], stiffnesses × motions."""
+    """Peak force of the tie [N], values × motions."""
     u_ratio_max: NDArray[np.float64]
-    """Largest |u|/u_ins [-], stiffnesses × motions; 1 where the wall falls."""
+    """Largest |u|/u_ins [-], values × motions; 1 where the wall falls."""
     falls: NDArray[np.bool_]
-    """Whether the wall falls, stiffnesses × motions."""
+    """Whether the wall falls, values × motions."""
     falls_away_from_tie: NDArray[np.bool_]
-    """Whether it falls to the side on which no tie holds it, stiffnesses × motions."""
+    """Whether it falls to the side on which no tie holds it, values × motions."""
     beyond_u_ins_and_back: NDArray[np.bool_]
-    """Whether |u| exceeds u_ins and the wall comes back, stiffnesses × motions."""
+    """Whether |u| exceeds u_ins and the wall comes back, values × motions."""
     strength_reached: NDArray[np.bool_]
-    """Whether the force reached the strength of the tie, stiffnesses × motions."""
+    """Whether the force reached the strength of the tie, values × motions."""
+    elongation: NDArray[np.float64]
+    """Plastic elongation of the tie at the end [m], the larger one of two, values × motions."""
+    broken: NDArray[np.bool_]
+    """Whether a tie broke, values × motions."""
     table: Table
     """Medians, largest values and counts over the motions, as `wall study tie --csv` writes them."""
     alike_on_both_sides: bool
@@ -137,7 +143,7 @@ class TieStudy(Tabular):
 
     def __repr__(self) -> str:
         rows, columns = self.force.shape
-        return f"TieStudy({rows} stiffnesses, {columns} motions, {int(self.falls.sum())} falls)"
+        return f"TieStudy({rows} values of {self.varied}, {columns} motions, {int(self.falls.sum())} falls)"
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_() + self._picture

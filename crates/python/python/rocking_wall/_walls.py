@@ -332,20 +332,30 @@ class Wall(Given):
         records: Sequence[Record] | Record = (),
         *,
         stiffness: ArrayLike | None = None,
+        strength: ArrayLike | None = None,
+        slack: ArrayLike | None = None,
+        height: ArrayLike | None = None,
+        ultimate: ArrayLike | None = None,
         scale: float = 1.0,
         both_polarities: bool = False,
         threads: int | None = None,
     ) -> TieStudy:
-        """Runs the wall with ties of many stiffnesses at its `tie_height`. Ctrl-C stops the work.
+        """Runs the wall with ties that differ in one parameter, by default the stiffness. Ctrl-C stops the
+        work.
 
         :param records: Records, each from rest; by default the motion of the scene.
         :param stiffness: Stiffnesses of the tie [N/m], 0 for none; by default 0, and 1e-2 to 1e3 of 2 W/h at
             the tie.
+        :param strength: Strengths of the tie [N] instead, 0 for none.
+        :param slack: Slacks of the tie [m] instead.
+        :param height: Heights of the tie above the base [m] instead.
+        :param ultimate: Plastic elongations at which the tie breaks [m] instead, -1 for one that stays
+            elastic.
         :param scale: Factor on the records.
         :param both_polarities: Run each motion with both signs.
         :param threads: Number of threads; by default one for each core.
 
-        Raises `ValueError` for a wall without a tie_height, without a motion, or with a negative stiffness.
+        Raises `ValueError` for a wall without a tie or a motion, or a value beyond its limits.
 
         >>> from rocking_wall import synthetic_record
         >>> wall = Wall(height=3, thickness=0.25, tie_height=3)
@@ -356,10 +366,18 @@ class Wall(Given):
         if scale != 1.0 and len(given) == 0:
             raise ValueError("scale needs records beside it")
         motions = [scaled(motion_of(record), scale, "scale") for record in given]
+        ties = {"stiffness": stiffness, "strength": strength, "slack": slack}
+        ties |= {"height": height, "ultimate": ultimate}
+        chosen = [name for name, values in ties.items() if values is not None] or ["stiffness"]
+        if len(chosen) > 1:
+            raise ValueError(f"{' and '.join(chosen)} are given; give one of them")
+        varied = f"tie_{chosen[0]}"
         values, table, picture, is_alike = _native.tie_of_wall(
-            self._native, motions, stiffness, both_polarities, threads
+            self._native, motions, (varied, ties[chosen[0]]), both_polarities, threads
         )
-        return TieStudy(**values, table=Table(table), alike_on_both_sides=is_alike, _picture=picture)
+        return TieStudy(
+            varied, **values, table=Table(table), alike_on_both_sides=is_alike, _picture=picture
+        )
 
     def calibrate(
         self,

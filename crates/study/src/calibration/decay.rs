@@ -3,7 +3,7 @@
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters};
-use run::free_motion::advance;
+use run::free_motion::{advance, as_in};
 
 /// Part of `u_ins` below which |u| stays once the decay has ended.
 pub(super) const DECAYED: f64 = 1e-3;
@@ -29,18 +29,18 @@ impl Decay {
     /// Returns |u|/`u_ins` at each step until the motion has decayed, and a margin more; `None` if that takes
     /// too many steps.
     pub(super) fn samples(mut self, step: f64) -> Result<Option<Vec<f64>>, SolverError> {
-        let wall = self.motion.wall();
-        let u_ins = wall.body().instability;
-        // the energy is constant between impacts and falls at each: once it is below this one, |u| stays
-        // below `DECAYED`
-        let [positive, negative] = [u_ins.positive, -u_ins.negative].map(|u| wall.energy(DECAYED * u, 0.0));
-        let decayed = positive.min(negative);
+        let u_ins = self.motion.wall().body().instability;
         let (mut samples, mut count, mut memo) = (Vec::new(), None, Memo::default());
         while samples.len() < count.unwrap_or(MOST_SAMPLES) {
             advance(&self.motion, &mut self.state, step, &mut memo)?;
             let (u, velocity) = (self.state.displacement, self.state.velocity);
             samples.push(u.abs() / u_ins.of(u));
-            if count.is_none() && wall.energy(u, velocity) < decayed {
+            let wall = as_in(self.motion.wall(), &self.state);
+            // the energy falls at impacts and where a tie yields, and is constant otherwise: once it is below
+            // this one, |u| stays below `DECAYED`
+            let [positive, negative] =
+                [u_ins.positive, -u_ins.negative].map(|u| wall.energy(DECAYED * u, 0.0));
+            if count.is_none() && wall.energy(u, velocity) < positive.min(negative) {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2e5")]
                 let margin = (MARGIN * samples.len() as f64).ceil() as usize;
                 count = Some(samples.len() + margin);

@@ -43,6 +43,9 @@ pub struct WallNote {
     pub restitution: f64,
     /// Damping ratio with each model \[-\].
     pub xi: Vec<f64>,
+    /// Whether it has ties that may yield.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_yielding_tie: bool,
 }
 
 /// A damping model, as the contents describe it.
@@ -107,6 +110,7 @@ impl Contents {
                 parameters: wall_text(wall),
                 restitution: made[0].restitution(),
                 xi: made.iter().map(rocking_wall::wall::Wall::damping_ratio).collect(),
+                has_yielding_tie: study.has_yielding_tie(index),
             }
         });
         let records = study.records().iter().enumerate().map(|(index, record)| {
@@ -141,6 +145,11 @@ impl Contents {
     /// Counts the combinations.
     pub fn count(&self) -> usize {
         self.walls.len() * self.models.len() * self.records.len()
+    }
+
+    /// Returns whether a wall has ties that may yield: its runs have a demand on them.
+    pub fn has_yielding_ties(&self) -> bool {
+        self.walls.iter().any(|wall| wall.has_yielding_tie)
     }
 
     /// Counts the parts.
@@ -191,7 +200,7 @@ impl Contents {
                 )
             });
             let walls = contents.walls.iter().flat_map(|wall| {
-                let WallNote { name, parameters, restitution, xi } = wall;
+                let WallNote { name, parameters, restitution, xi, .. } = wall;
                 let xi: Vec<_> = xi.iter().map(f64::to_string).collect();
                 let text = format!("wall {name}\n{parameters}e = {restitution}\nxi = {}", xi.join(", "));
                 text.lines().map(str::to_owned).collect::<Vec<_>>()

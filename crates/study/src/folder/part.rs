@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use crate::ida::{Curve, Run};
+use crate::ida::{Curve, Run, TieDemand};
 use bytes::Bytes;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::get_typed_column_reader;
@@ -32,6 +32,12 @@ const COLUMNS: [(&str, Physical); 8] = [
     ("u_max_over_u_ins", Physical::DOUBLE),
     ("overturned", Physical::BOOLEAN),
     ("overturn_time_s", Physical::DOUBLE),
+];
+/// Further columns of a study with ties that may yield. Runs of its other walls have no values there.
+const TIE_COLUMNS: [(&str, Physical); 3] = [
+    ("tie_force_n", Physical::DOUBLE),
+    ("tie_elongation_m", Physical::DOUBLE),
+    ("tie_broken", Physical::BOOLEAN),
 ];
 /// Key of our entry in the footer.
 const KEY: &str = "rocking-wall";
@@ -89,13 +95,16 @@ fn head(study: &str, part: usize) -> String {
 }
 
 fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Result<Vec<u8>, ParquetError> {
-    let column = |(name, physical): (&str, Physical)| {
+    let column = |&(name, physical): &(&str, Physical)| {
         let text = (physical == Physical::BYTE_ARRAY).then_some(LogicalType::String);
-        let repetition = if name == "overturn_time_s" { Repetition::OPTIONAL } else { Repetition::REQUIRED };
+        let is_optional = name == "overturn_time_s" || name.starts_with("tie_");
+        let repetition = if is_optional { Repetition::OPTIONAL } else { Repetition::REQUIRED };
         let builder = Type::primitive_type_builder(name, physical);
         Ok(Arc::new(builder.with_repetition(repetition).with_logical_type(text).build()?))
     };
-    let fields = COLUMNS.into_iter().map(column).collect::<Result<_, ParquetError>>()?;
+    let ties = if contents.has_yielding_ties() { &TIE_COLUMNS[..] } else { &[] };
+    let columns = || COLUMNS.iter().chain(ties);
+    let fields = columns().map(column).collect::<Result<_, ParquetError>>()?;
     let schema = Arc::new(Type::group_type_builder("runs").with_fields(fields).build()?);
     let zero = String::from_utf8_lossy(NO_CHECKSUM);
     let entry = KeyValue::new(KEY.to_owned(), format!("{}{CHECKSUM}{zero}", head(study, part)));
@@ -104,7 +113,7 @@ fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Res
         .set_key_value_metadata(Some(vec![entry]))
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
-    for (name, _) in COLUMNS.iter().filter(|(_, physical)| *physical == Physical::DOUBLE) {
+    for (name, _) in columns().filter(|(_, physical)| *physical == Physical::DOUBLE) {
         // these numbers hardly repeat, so that a dictionary would not help
         properties = properties.set_column_dictionary_enabled(ColumnPath::from(*name), false);
     }
@@ -151,7 +160,16 @@ fn rows(
     column::<BoolType>(group, &overturned, None)?;
     let times: Vec<f64> = runs.iter().filter_map(|(_, run)| run.overturning).collect();
     let present: Vec<i16> = overturned.iter().map(|&there| i16::from(there)).collect();
-    column::<DoubleType>(group, &times, Some(&present))
+    column::<DoubleType>(group, &times, Some(&present))?;
+    if !contents.has_yielding_ties() {
+        return Ok(());
+    }
+    let ties: Vec<TieDemand> = runs.iter().filter_map(|(_, run)| run.tie).collect();
+    let present: Vec<i16> = runs.iter().map(|(_, run)| i16::from(run.tie.is_some())).collect();
+    for number in [|tie: &TieDemand| tie.force, |tie: &TieDemand| tie.elongation] {
+        column::<DoubleType>(group, &ties.iter().map(number).collect::<Vec<_>>(), Some(&present))?;
+    }
+    column::<BoolType>(group, &ties.iter().map(|tie| tie.broken).collect::<Vec<_>>(), Some(&present))
 }
 
 /// Writes the next column; `present` says which rows have a value.
@@ -179,11 +197,13 @@ fn read(
     let (demands, _) = values::<DoubleType>(&*group, 5)?;
     let (times, present) = values::<DoubleType>(&*group, 7)?;
     let mut times = times.into_iter();
+    let mut ties = if contents.has_yielding_ties() { ties(&*group)? } else { Vec::new() }.into_iter();
     let range = contents.part(part);
     let mut runs: Vec<Vec<Run>> = vec![Vec::new(); range.len()];
     let rows = cases.into_iter().zip(intensities).zip(demands).zip(present);
     for (((case, intensity), demand), present) in rows {
-        let run = Run { intensity, demand, overturning: if present > 0 { times.next() } else { None } };
+        let overturning = if present > 0 { times.next() } else { None };
+        let run = Run { intensity, demand, overturning, tie: ties.next().flatten() };
         let place = usize::try_from(case).ok().and_then(|case| case.checked_sub(range.start));
         let Some(runs) = place.and_then(|place| runs.get_mut(place)).filter(|_| is_possible(&run)) else {
             return Ok(None);
@@ -192,6 +212,16 @@ fn read(
     }
     let is_complete = runs.iter().all(|runs| !runs.is_empty());
     Ok(is_complete.then(|| runs.into_iter().map(Curve::new).collect()))
+}
+
+/// Reads the demands on ties, row by row.
+fn ties(group: &dyn RowGroupReader) -> Result<Vec<Option<TieDemand>>, ParquetError> {
+    let (forces, present) = values::<DoubleType>(group, COLUMNS.len())?;
+    let (elongations, _) = values::<DoubleType>(group, COLUMNS.len() + 1)?;
+    let (broken, _) = values::<BoolType>(group, COLUMNS.len() + 2)?;
+    let demands = forces.into_iter().zip(elongations).zip(broken);
+    let mut demands = demands.map(|((force, elongation), broken)| TieDemand { force, elongation, broken });
+    Ok(present.into_iter().map(|present| if present > 0 { demands.next() } else { None }).collect())
 }
 
 /// Reads a column: its values, and which rows have one.
@@ -208,5 +238,7 @@ fn values<T: DataType>(
 
 fn is_possible(run: &Run) -> bool {
     let is_measure = |number: f64| number.is_finite() && number >= 0.0;
-    run.intensity > 0.0 && [run.intensity, run.demand].into_iter().chain(run.overturning).all(is_measure)
+    let tie = run.tie.iter().flat_map(|tie| [tie.force, tie.elongation]);
+    let measures = [run.intensity, run.demand].into_iter().chain(run.overturning).chain(tie);
+    run.intensity > 0.0 && measures.into_iter().all(is_measure)
 }

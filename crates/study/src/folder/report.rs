@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::fragility::Interval;
 use crate::ida::{Curve, Exceedance};
 use crate::results::{Fitting, WallResults};
-use crate::tables::{KINDS, Kind, Names};
+use crate::tables::{KINDS, Kind, Names, TIES};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Digits, Table};
@@ -126,6 +126,8 @@ struct Output<'a> {
     contradictions: Vec<String>,
     contradicted: usize,
     resurrected: usize,
+    /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
+    tied: [usize; 3],
 }
 
 impl<'a> Output<'a> {
@@ -135,16 +137,19 @@ impl<'a> Output<'a> {
             Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
         let Contents { walls, models, records, .. } = folder.contents();
+        let has_yielding_ties = folder.contents().has_yielding_ties();
+        let ties = has_yielding_ties.then_some(&TIES);
         let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().copied().map(draft).collect::<Result<_, _>>()?,
+            tables: kinds.iter().chain(ties).copied().map(draft).collect::<Result<_, _>>()?,
             names: Names {
                 walls: walls.iter().map(|wall| &*wall.name).collect(),
                 models: models.iter().map(|model| &*model.name).collect(),
                 records: records.iter().map(|record| &*record.name).collect(),
                 fractions: &folder.manifest().report.fractions,
+                has_yielding_ties,
             },
             risk: Risk::new(folder.path(), folder.manifest())?,
             sections: String::new(),
@@ -155,6 +160,7 @@ impl<'a> Output<'a> {
             contradictions: Vec::new(),
             contradicted: 0,
             resurrected: 0,
+            tied: [0; 3],
         })
     }
 
@@ -167,8 +173,20 @@ impl<'a> Output<'a> {
             draft.write(|file| file.write_all(text.as_bytes()))?;
         }
         self.risk.add(wall, results)?;
+        for tie in results.all_curves().iter().flat_map(Curve::runs).filter_map(|run| run.tie) {
+            self.tied[0] += 1;
+            self.tied[1] += usize::from(tie.elongation > 0.0);
+            self.tied[2] += usize::from(tie.broken);
+        }
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
+            if manifest.contents.walls[wall].has_yielding_tie {
+                let table = (TIES.1)(&self.names, wall, results).html();
+                let _ = writeln!(
+                    self.sections,
+                    "<section><h3>Ties, up to overturning</h3><div class=\"scroll\">{table}</div></section>"
+                );
+            }
             self.comparison.add(manifest, results);
             self.panels.extend(panel(manifest, wall, results));
             self.add_to_summary(manifest, wall, results);
@@ -232,6 +250,11 @@ impl<'a> Output<'a> {
             text.push_str(&self.population.fractiles(manifest, &[collapse]).text());
         } else {
             text.extend(self.summary.as_ref().map(Table::text));
+        }
+        let [tied, yielded, broken] = self.tied;
+        if tied > 0 {
+            let runs = counted(tied, "run");
+            let _ = writeln!(text, "ties yielded in {yielded} and broke in {broken} of {runs}; see ties.csv");
         }
         if self.resurrected > 0 {
             let _ = writeln!(

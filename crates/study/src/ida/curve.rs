@@ -1,5 +1,8 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
+use rocking_wall::solver::State;
+use rocking_wall::wall::Wall;
+
 /// A run: one wall through one record scaled to one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
@@ -9,6 +12,38 @@ pub struct Run {
     pub demand: f64,
     /// Time of overturning from the start of the record \[s\].
     pub overturning: Option<f64>,
+    /// Demand on ties that may yield; `None` where there are none.
+    pub tie: Option<TieDemand>,
+}
+
+/// Demand of a run on ties that may yield, of the two sides the larger one, up to overturning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieDemand {
+    /// Largest force \[N\].
+    pub force: f64,
+    /// Plastic elongation at the end \[m\]; above 0 where a tie has yielded.
+    pub elongation: f64,
+    /// A tie has broken.
+    pub broken: bool,
+}
+
+impl TieDemand {
+    /// Returns the demand of a run from upright, of its state at the end. All of it follows from the peaks: N
+    /// and p grow with the largest |u|.
+    pub(super) fn of(wall: &Wall, state: &State) -> Option<Self> {
+        let tie = wall.tie().filter(|tie| tie.ultimate.is_some())?;
+        let (strength, yields, breaks) =
+            (tie.strength?, tie.strength_displacement()?, tie.fracture_displacement()?);
+        let mut demand = Self { force: 0.0, elongation: 0.0, broken: false };
+        for sign in [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)) {
+            let reach = state.peaks.of(sign).min(wall.body().instability.of(sign));
+            let force = if reach < yields { tie.force(sign * reach) } else { strength };
+            demand.force = demand.force.max(force);
+            demand.elongation = demand.elongation.max(tie.elongation(reach));
+            demand.broken |= reach >= breaks;
+        }
+        Some(demand)
+    }
 }
 
 /// Intensity at which the demand first exceeds a limit state.

@@ -44,7 +44,7 @@ use run::records::NamedRecord;
 use run::shaking::Shaking;
 use run::walls::NamedWall;
 
-pub use curve::{Curve, Exceedance, Run};
+pub use curve::{Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
@@ -170,6 +170,11 @@ impl Study {
         self.motion(wall, model).wall().clone()
     }
 
+    /// Returns whether a wall has ties that may yield.
+    pub fn has_yielding_tie(&self, wall: usize) -> bool {
+        self.wall(wall, 0).tie().is_some_and(|tie| tie.ultimate.is_some())
+    }
+
     /// Makes the motion of a wall and model. It is not kept: the motions of all walls would take more memory
     /// than the curves of a part.
     fn motion(&self, wall: usize, model: usize) -> Motion {
@@ -254,6 +259,7 @@ impl Study {
             intensity,
             demand: outcome.state.reported_peak(instability, outcome.overturning.is_some())[1],
             overturning: outcome.overturning,
+            tie: TieDemand::of(motion.wall(), &outcome.state),
         };
         Ok(levels.iter().zip(shaking.runs([0.0, 0.0], &factors)?).map(run).collect())
     }

@@ -1,14 +1,16 @@
-//! Force of a parapet's tie and displacement of the wall over the stiffness of the tie.
+//! Demands on a parapet's tie and displacement of the wall over the stiffness, strength, slack, height or
+//! ultimate elongation of the tie, or the diameter of its bar.
 //!
 //! ```
 //! use ground_motion::SyntheticMotion;
 //! use rocking_wall::scene::Scene;
-//! use study::tie::TieStudy;
+//! use study::tie::{STIFFNESS, TieStudy};
 //!
 //! let mut scene = Scene::default();
 //! scene.set("tie_height", "4")?;
-//! let study = TieStudy::new(scene, vec![SyntheticMotion::default().motion()?], false)?;
-//! let rows = study.rows(&study.stiffnesses(&[0.0, 1e6])?, 1)?;
+//! let records = vec![SyntheticMotion::default().motion()?];
+//! let study = TieStudy::new(scene, (&STIFFNESS, &[0.0, 1e6]), records, false)?;
+//! let rows = study.rows(study.values(), 1)?;
 //! assert!(rows[0].outcomes[0].force == 0.0 && rows[1].outcomes[0].force > 0.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -16,13 +18,12 @@
 pub mod figure;
 mod table;
 
-use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError, check_limits};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::TieDemands;
-use rocking_wall::variables::{RealVariable, TieSide};
+use rocking_wall::solver::{TieDemands, Yielding};
+use rocking_wall::variables::TieSide;
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use run::parallel;
@@ -38,9 +39,15 @@ pub enum TieError {
     /// There is no tie.
     #[error("the wall has no tie_height; set it, such as tie_height = 3")]
     NoHeight,
-    /// A stiffness beyond the limits of the model description.
+    /// There is no tie but its height.
+    #[error("the wall has no {missing}, so {varied} has no effect; set it, such as {missing} = {example}")]
+    NoEffect { varied: &'static str, missing: &'static str, example: &'static str },
+    /// Nothing to vary.
+    #[error("there is no value of {varied}; give at least one")]
+    NoValue { varied: &'static str },
+    /// A value beyond the limits of the model description.
     #[error("{0}")]
-    Stiffness(String),
+    Value(SceneError),
     /// There is no motion.
     #[error("there is no motion; give records, or a scene with one")]
     NoMotion,
@@ -55,12 +62,80 @@ pub enum TieError {
     Run(#[from] SceneError),
 }
 
-/// A wall with a tie of any stiffness, under each motion and its signs.
+/// A parameter of the tie that a study varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Varied {
+    /// Name of the parameter, as scenes have it.
+    pub parameter: &'static str,
+    /// Column with its unit, in files.
+    column: &'static str,
+    /// Heading with its unit, for people.
+    heading: &'static str,
+    /// Label of the axis.
+    label: &'static str,
+    /// Whether the axis is logarithmic.
+    is_logarithmic: bool,
+}
+
+/// The stiffness K.
+pub const STIFFNESS: Varied = Varied {
+    parameter: "tie_stiffness",
+    column: "stiffness_n_m",
+    heading: "K [N/m]",
+    label: "stiffness (N/m)",
+    is_logarithmic: true,
+};
+/// The force `N_y` that the tie resists.
+pub const STRENGTH: Varied = Varied {
+    parameter: "tie_strength",
+    column: "strength_n",
+    heading: "N_y [N]",
+    label: "strength (N)",
+    is_logarithmic: true,
+};
+/// The slack g₀.
+pub const SLACK: Varied = Varied {
+    parameter: "tie_slack",
+    column: "slack_m",
+    heading: "slack [m]",
+    label: "slack (m)",
+    is_logarithmic: false,
+};
+/// The height above the base.
+pub const HEIGHT: Varied = Varied {
+    parameter: "tie_height",
+    column: "height_m",
+    heading: "height [m]",
+    label: "height of the tie (m)",
+    is_logarithmic: false,
+};
+/// The plastic elongation `p_u` at which the tie breaks; −1 for a tie that stays elastic.
+pub const ULTIMATE: Varied = Varied {
+    parameter: "tie_ultimate",
+    column: "ultimate_m",
+    heading: "p_u [m]",
+    label: "ultimate elongation (m)",
+    is_logarithmic: false,
+};
+/// The diameter of its bar, from which stiffness, strength and ultimate elongation follow.
+pub const BAR_DIAMETER: Varied = Varied {
+    parameter: "bar_diameter",
+    column: "bar_diameter_m",
+    heading: "bar [m]",
+    label: "diameter of the bar (m)",
+    is_logarithmic: false,
+};
+/// All that can be varied.
+pub const ALL: [Varied; 6] = [STIFFNESS, STRENGTH, SLACK, HEIGHT, ULTIMATE, BAR_DIAMETER];
+
+/// A wall whose tie has several values of one parameter, under each motion and its signs.
 #[derive(Clone, Debug)]
 pub struct TieStudy {
+    varied: Varied,
+    values: Vec<f64>,
     scenes: Vec<Scene>,
     polarities: Polarities,
-    tied: Wall,
+    yields: bool,
 }
 
 /// Outcome of one motion: its demands on the tie and on the wall.
@@ -76,28 +151,53 @@ pub struct Outcome {
     pub away: bool,
     /// The force reached the tie's strength.
     pub reached: bool,
+    /// Plastic elongation of the tie at the end, the larger one of two \[m\].
+    pub elongation: f64,
+    /// A tie broke.
+    pub broken: bool,
 }
 
-/// The outcomes for one stiffness of the tie.
+/// The outcomes for one value of what is varied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Stiffness of the tie; 0 for none \[N/m\].
-    pub stiffness: f64,
+    /// The value, in SI units.
+    pub value: f64,
     /// One for each motion and sign.
     pub outcomes: Vec<Outcome>,
 }
 
 impl TieStudy {
     /// Prepares the study of a scene under records, each from rest and with a tail, or under its own motion;
-    /// with both signs where they are asked for and differ.
+    /// with both signs where they are asked for and differ. What is varied takes the values given, in order;
+    /// for a stiffness without values these are 0 and 1e-2 to 1e3 of 2 W/h at the tie.
     ///
     /// # Errors
-    /// [`TieError`] of a scene without a tie or a motion, or that makes no wall.
-    pub fn new(scene: Scene, records: Vec<GroundMotion>, both_polarities: bool) -> Result<Self, TieError> {
-        if scene.parameters.tie_height <= 0.0 {
+    /// [`TieError`] of a scene without a tie or a motion, and of a value beyond its limits or that makes no
+    /// wall.
+    pub fn new(
+        scene: Scene,
+        (varied, given): (&Varied, &[f64]),
+        records: Vec<GroundMotion>,
+        both_polarities: bool,
+    ) -> Result<Self, TieError> {
+        let Parameters { tie_height, tie_stiffness, tie_strength, .. } = scene.parameters;
+        if tie_height <= 0.0 && *varied != HEIGHT {
             return Err(TieError::NoHeight);
         }
-        let tied = Wall::new(&Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() })?;
+        let lacks = |missing, example| TieError::NoEffect { varied: varied.parameter, missing, example };
+        if scene.parameters.bar.is_none() && *varied == BAR_DIAMETER {
+            return Err(lacks("bar", "{ diameter = 0.016, length = 6, yield_stress = 235e6 }"));
+        }
+        if tie_stiffness == 0.0 && *varied != STIFFNESS {
+            return Err(lacks(STIFFNESS.parameter, "1e6"));
+        }
+        if tie_strength == 0.0 && *varied == ULTIMATE {
+            return Err(lacks(STRENGTH.parameter, "1e4"));
+        }
+        let values = values(&scene, varied, given)?;
+        let walls = values.iter().map(|&value| Ok(Wall::new(&with(&scene, varied, value)?.parameters)?));
+        let walls = walls.collect::<Result<Vec<_>, TieError>>()?;
+        let yields = walls.iter().filter_map(Wall::tie).any(|tie| tie.ultimate.is_some());
         let shaken = |record: GroundMotion| {
             let mut shaken = scene.clone();
             shaken.shake(Excitation::new(record, None), DEFAULT_TAIL, Vec::new());
@@ -110,7 +210,8 @@ impl TieStudy {
             }
             scenes.push(scene);
         }
-        let polarities = Polarities::of(both_polarities, &scenes[0].parameters, &tied);
+        let tied = walls.iter().find(|wall| wall.tie().is_some()).unwrap_or(&walls[0]);
+        let polarities = Polarities::of(both_polarities, &scenes[0].parameters, tied);
         if polarities == Polarities::Both {
             for index in 0..scenes.len() {
                 let mut other = scenes[index].clone();
@@ -122,7 +223,7 @@ impl TieStudy {
             // as few samples as possible
             scene.output_step = scene.stop_time;
         }
-        Ok(Self { scenes, polarities, tied })
+        Ok(Self { varied: *varied, values, scenes, polarities, yields })
     }
 
     /// Returns the scene under the first motion.
@@ -140,58 +241,77 @@ impl TieStudy {
         self.polarities
     }
 
-    /// Returns the stiffnesses given, in order; if there are none, 0 and 1e-2 to 1e3 of 2 W/h at the tie
-    /// \[N/m\].
-    ///
-    /// # Errors
-    /// [`TieError::Stiffness`].
-    pub fn stiffnesses(&self, given: &[f64]) -> Result<Vec<f64>, TieError> {
-        let mut stiffnesses = given.to_vec();
-        let variable = RealVariable::TieStiffness.variable();
-        for &stiffness in given {
-            check_limits(variable, stiffness).map_err(TieError::Stiffness)?;
-        }
-        if stiffnesses.is_empty() {
-            let lever = self.tied.tie().map_or(1.0, |tie| tie.lever);
-            let unit = self.tied.body().geometric_stiffness / (lever * lever);
-            stiffnesses.push(0.0);
-            stiffnesses.extend((-8..=12).map(|exponent| unit * 10.0_f64.powf(f64::from(exponent) / 4.0)));
-        }
-        stiffnesses.sort_by(f64::total_cmp);
-        stiffnesses.dedup();
-        Ok(stiffnesses)
+    /// Returns what is varied.
+    pub fn varied(&self) -> &Varied {
+        &self.varied
     }
 
-    /// Runs every motion with a tie of each stiffness \[N/m\] on some threads.
+    /// Returns the values of what is varied, in order, in SI units.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Returns whether a tie of the study may yield.
+    pub fn yields(&self) -> bool {
+        self.yields
+    }
+
+    /// Runs every motion with a tie of each of some values, on some threads.
     ///
     /// # Errors
     /// [`TieError`] of the first run that fails.
-    pub fn rows(&self, stiffnesses: &[f64], threads: usize) -> Result<Vec<Row>, TieError> {
+    pub fn rows(&self, values: &[f64], threads: usize) -> Result<Vec<Row>, TieError> {
         let count = self.scenes.len();
-        let outcomes = parallel::map(stiffnesses.len() * count, threads, |index| {
-            outcome(&self.scenes[index % count], stiffnesses[index / count])
+        let outcomes = parallel::map(values.len() * count, threads, |index| {
+            outcome(&with(&self.scenes[index % count], &self.varied, values[index / count])?)
         })?;
-        let rows = stiffnesses.iter().zip(outcomes.chunks(count));
-        Ok(rows.map(|(&stiffness, chunk)| Row { stiffness, outcomes: chunk.to_vec() }).collect())
+        let rows = values.iter().zip(outcomes.chunks(count));
+        Ok(rows.map(|(&value, chunk)| Row { value, outcomes: chunk.to_vec() }).collect())
     }
 }
 
-fn outcome(scene: &Scene, stiffness: f64) -> Result<Outcome, TieError> {
+/// Returns a scene whose tie has a value.
+fn with(scene: &Scene, varied: &Varied, value: f64) -> Result<Scene, TieError> {
     let mut scene = scene.clone();
-    scene.parameters.tie_stiffness = stiffness;
+    scene.set(varied.parameter, &value.to_string()).map_err(TieError::Value)?;
+    Ok(scene)
+}
+
+/// Returns the values given, in order, or stiffnesses beside that of the wall.
+fn values(scene: &Scene, varied: &Varied, given: &[f64]) -> Result<Vec<f64>, TieError> {
+    let mut values = given.to_vec();
+    if values.is_empty() && *varied == STIFFNESS {
+        let wall = Wall::new(&Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() })?;
+        let lever = wall.tie().map_or(1.0, |tie| tie.lever);
+        let unit = wall.body().geometric_stiffness / (lever * lever);
+        values.push(0.0);
+        values.extend((-8..=12).map(|exponent| unit * 10.0_f64.powf(f64::from(exponent) / 4.0)));
+    }
+    if values.is_empty() {
+        return Err(TieError::NoValue { varied: varied.parameter });
+    }
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    Ok(values)
+}
+
+fn outcome(scene: &Scene) -> Result<Outcome, TieError> {
     let free = match scene.parameters.tie_side {
         TieSide::Positive => -1.0,
         TieSide::Negative => 1.0,
         TieSide::Both => 0.0,
     };
-    let Response { summary, demands, residual, .. } = Response::of(&scene)?;
+    let Response { summary, demands, residual, .. } = Response::of(scene)?;
     let tie = demands.tie;
+    let Yielding { elongation, breaks } = tie.and_then(|tie| tie.yielding).unwrap_or_default();
     Ok(Outcome {
         force: tie.map_or(0.0, |TieDemands { force, .. }| force.value),
         u_ratio: summary.u_ratio_max,
         fate: summary.fate,
         away: summary.fate.falls() && residual * free > 0.0,
         reached: tie.is_some_and(|tie| tie.strength.is_some()),
+        elongation: elongation.positive.max(elongation.negative),
+        broken: breaks.iter().any(Option::is_some),
     })
 }
 

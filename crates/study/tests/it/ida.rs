@@ -209,7 +209,7 @@ fn the_free_vibration_after_a_record_counts() {
 }
 
 fn level(intensity: f64, demand: f64, overturned: bool) -> Run {
-    Run { intensity, demand, overturning: overturned.then_some(3.0) }
+    Run { intensity, demand, overturning: overturned.then_some(3.0), tie: None }
 }
 
 #[test]

@@ -14,3 +14,4 @@ mod messages;
 mod record_files;
 mod rocking_spectrum;
 mod storeys;
+mod ties;

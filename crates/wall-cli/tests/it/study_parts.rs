@@ -1,6 +1,7 @@
 //! Tests what the parts of a study hold, and studies of many walls.
 
 use std::fs;
+use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
@@ -8,12 +9,59 @@ use parquet::record::Field;
 use crate::command_line::{content, folder, printed, refused, succeed};
 use crate::ida::{bytes, part_files, study};
 
-/// The parts hold the rows of levels.csv, in its order, for any reader of Parquet.
+/// The parts hold the rows of levels.csv, in its order, for any reader of Parquet. Where no tie may yield,
+/// nothing is said of ties.
 #[test]
 fn parts_hold_what_the_csv_holds() {
     let folder = study("ida_parquet");
     succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
-    let csv = content(&folder, "out/levels.csv");
+    let csv = levels(&folder);
+    assert!(!csv.contains("tie") && !folder.join("out/ties.csv").exists());
+}
+
+/// Walls of a table have ties that yield, that stay elastic, or none. Only runs of the first have demands on
+/// them. Bytes depend on the study alone.
+#[test]
+fn a_table_of_walls_names_the_parameters_of_ties() {
+    let folder = folder("ida_ties");
+    let study = "models = [\"CDC\", \"CDR\"]\nlevels = { method = \"grid\", values = [0.1, 0.3, 0.5] }\n\
+                 intensity = { measure = \"PGA\" }\n\
+                 records = { synthetic = { count = 3, duration = 10, step = 0.01 } }\n\
+                 report = { resamples = 100 }\nwalls = [{ table = \"walls.csv\" }]\n";
+    fs::write(folder.join("study.toml"), study).unwrap();
+    let walls = "name,height,thickness,tie_height,tie_stiffness,tie_slack,tie_strength,tie_ultimate,\
+                 tie_side\nyields,3,0.3,2.6,2e5,5e-3,5e2,0.05,both\nbrittle,3,0.3,2.6,2e5,5e-3,5e2,0,both\n\
+                 elastic,3,0.3,2.6,2e5,5e-3,5e2,-1,both\nfree,3,0.3,,,,,,\n";
+    fs::write(folder.join("walls.csv"), walls).unwrap();
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out", "--threads", "2"]);
+    let csv = levels(&folder);
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let of = |wall: &'static str| rows.iter().filter(move |row| row[0] == wall);
+    assert!(of("elastic").chain(of("free")).all(|row| row[7..] == ["", "", ""]), "{csv}");
+    assert!(of("brittle").all(|row| row[8] == "0.0"));
+    let count = |wall, is: fn(&Vec<&str>) -> bool| of(wall).filter(|row| is(row)).count();
+    let [yielded, broken] = [count("yields", |row| row[8] != "0.0"), count("yields", |row| row[9] == "true")];
+    let snapped = count("brittle", |row| row[9] == "true");
+    assert!(yielded > broken && broken > 0 && snapped >= broken, "{csv}");
+    let line =
+        format!("ties yielded in {yielded} and broke in {} of 36 runs; see ties.csv", broken + snapped);
+    assert!(told.contains(&line), "{line}: {told}");
+    // two walls, two models and three levels
+    let ties = content(&folder, "out/ties.csv");
+    assert_eq!(ties.lines().count(), 1 + 2 * 2 * 3, "{ties}");
+    let sum = |wall: &str, column: usize| -> usize {
+        let cells = ties.lines().filter(|line| line.starts_with(wall));
+        cells.map(|line| line.split(',').nth(column).unwrap().parse::<usize>().unwrap()).sum()
+    };
+    assert_eq!([sum("yields", 3), sum("yields", 4), sum("yields", 5)], [18, yielded, broken], "{ties}");
+    assert!(content(&folder, "out/study.html").contains("Ties, up to overturning"));
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "one", "--threads", "1"]);
+    assert!(bytes(&folder.join("out")) == bytes(&folder.join("one")));
+}
+
+/// Returns levels.csv of the study `out`, once its parts are found to have the same rows.
+fn levels(folder: &Path) -> String {
+    let csv = content(folder, "out/levels.csv");
     let mut lines = csv.lines().skip(1);
     let word = |(name, field): (&String, &Field)| match field {
         Field::Str(text) if text.contains(',') => format!("\"{text}\""),
@@ -35,6 +83,7 @@ fn parts_hold_what_the_csv_holds() {
         }
     }
     assert_eq!(lines.next(), None);
+    csv
 }
 
 /// Many walls from a table: their page shows distributions, and the bytes depend on nothing but the study.

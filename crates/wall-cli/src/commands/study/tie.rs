@@ -1,4 +1,4 @@
-//! `wall study tie`: force of a parapet's tie and displacement of the wall against the stiffness of the tie.
+//! `wall study tie`: demands on a parapet's tie and displacement of the wall over a parameter of the tie.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use run::parallel;
 use run::polarity::Polarities;
 use serde_json::json;
 use study::tie::figure::picture;
-use study::tie::{TieStudy, table};
+use study::tie::{BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
 
 use crate::args::{SceneArguments, read_record};
 use crate::output::{self, Console};
@@ -36,8 +36,23 @@ pub(crate) struct Arguments {
     scale: f64,
     /// Stiffnesses in N/m, separated by commas, from 0 for no tie [default: 0, and 1e-2 to 1e3 of
     /// 2 W/h at the tie]
-    #[arg(long, value_name = "N_PER_M", value_delimiter = ',')]
+    #[arg(long, value_name = "N_PER_M", value_delimiter = ',', group = "varied")]
     stiffness: Vec<f64>,
+    /// Strengths in N instead, 0 for none
+    #[arg(long, value_name = "N", value_delimiter = ',', group = "varied")]
+    strength: Vec<f64>,
+    /// Slacks in m instead
+    #[arg(long, value_name = "M", value_delimiter = ',', group = "varied")]
+    slack: Vec<f64>,
+    /// Heights of the tie in m instead
+    #[arg(long, value_name = "M", value_delimiter = ',', group = "varied")]
+    height: Vec<f64>,
+    /// Plastic elongations in m at which the tie breaks instead, -1 for one that stays elastic
+    #[arg(long, value_name = "M", value_delimiter = ',', group = "varied", allow_negative_numbers = true)]
+    ultimate: Vec<f64>,
+    /// Diameters in m of the bar that the scene has instead
+    #[arg(long, value_name = "M", value_delimiter = ',', group = "varied")]
+    bar_diameter: Vec<f64>,
     /// Number of threads [default: one for each core]
     #[arg(long)]
     threads: Option<NonZeroUsize>,
@@ -47,7 +62,7 @@ pub(crate) struct Arguments {
     /// Write the table as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw force and displacement over the stiffness, as SVG
+    /// Draw demands and displacement over what is varied, as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }
@@ -58,18 +73,18 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
     let records = records(console, arguments)?;
-    let study = arguments.scene.named(TieStudy::new(scene, records, arguments.both_polarities))?;
-    let stiffnesses = study.stiffnesses(&arguments.stiffness)?;
-    let rows = study.rows(&stiffnesses, parallel::threads(arguments.threads).get())?;
-    console.picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
-    let table = table(&rows);
+    let study = TieStudy::new(scene, varied(arguments), records, arguments.both_polarities);
+    let study = arguments.scene.named(study)?;
+    let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
+    console.picture(arguments.plot.as_ref(), || Ok(picture(&study, &rows)))?;
+    let table = table(&study, &rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
     let title = &study.scene().title;
     if arguments.json {
         return console.json(&json!({
             "title": title,
-            "tie_height": tie_height,
+            "tie_height": (*study.varied() != HEIGHT).then_some(tie_height),
             "tie_side": tie_side.name(),
             "motions": study.motions(),
             "alike_on_both_sides": study.polarities() == Polarities::Alike,
@@ -83,9 +98,22 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     };
     let (motions, note) = (counted(study.motions(), "motion"), study.polarities().note());
     let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
+    let place = if *study.varied() == HEIGHT { String::new() } else { format!(" at {tie_height} m") };
     let table = table.text();
-    console
-        .print(&format!("{title}, tie at {tie_height} m against {side}, {motions}\n\n{table}{note}{written}"))
+    console.print(&format!("{title}, tie{place} against {side}, {motions}\n\n{table}{note}{written}"))
+}
+
+/// What is varied, and its values.
+fn varied(arguments: &Arguments) -> (&'static Varied, &[f64]) {
+    let Arguments { stiffness, strength, slack, height, ultimate, bar_diameter, .. } = arguments;
+    let others: [(_, &[f64]); 5] = [
+        (&STRENGTH, strength),
+        (&SLACK, slack),
+        (&HEIGHT, height),
+        (&ULTIMATE, ultimate),
+        (&BAR_DIAMETER, bar_diameter),
+    ];
+    others.into_iter().find(|(_, values)| !values.is_empty()).unwrap_or((&STIFFNESS, stiffness))
 }
 
 /// The records asked for, scaled.
