@@ -98,6 +98,29 @@ impl Floors {
         &self.storeys
     }
 
+    /// Returns the storeys in another state of the building: with a damping ratio of every mode, and another
+    /// first period \[s\], with stiffnesses in proportion.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] of a number that storeys cannot have.
+    pub fn in_state(&self, damping_ratio: Option<f64>, period: Option<f64>) -> Result<Self, SceneError> {
+        let softer = period.map_or(1.0, |period| self.storeys.periods()[0] / period);
+        let storey = |storey: &Storey| Storey {
+            stiffness: storey.stiffness * softer * softer,
+            damping_ratio: damping_ratio.unwrap_or(storey.damping_ratio),
+            ..*storey
+        };
+        let storeys: Vec<_> = self.storeys.storeys().iter().map(storey).collect();
+        let storeys =
+            Storeys::new(&storeys).map_err(|error| SceneError::Value { message: error.to_string() })?;
+        Ok(Self { storeys, ..self.clone() })
+    }
+
+    /// Returns the damping ratios that the storeys state.
+    pub fn stated_damping(&self) -> impl Iterator<Item = f64> {
+        self.tables.iter().filter_map(|table| table.damping_ratio)
+    }
+
     /// Returns the floors at the bottom and, for a strip wall, at the top.
     ///
     /// # Errors

@@ -3,6 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::equation::Wall;
+use super::error::ParameterError;
+use super::force_law::RestoringForce;
+use super::mechanism::{Body, Sides};
+use super::parameters::Parameters;
 use super::tie::Tie;
 
 /// Share of F₀ below which a force counts as 0: at the end of a softening line only rounding is left of it.
@@ -31,6 +35,87 @@ pub struct CapacityPoint {
     pub secant_period: Option<f64>,
 }
 
+/// A wall at rest: its body, its restoring force and its tie. Damping and impacts have no part in it.
+///
+/// ```
+/// use rocking_wall::wall::{Parameters, Statics};
+///
+/// let wall = Statics::new(&Parameters { height: 4.0, thickness: 0.4, ..Parameters::default() })?;
+/// assert!((wall.force_end().positive - 0.2).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statics {
+    pub(super) body: Body,
+    pub(super) force: RestoringForce,
+    pub(super) tie: Option<Tie>,
+}
+
+impl Statics {
+    /// Makes the body, the force and the tie that the parameters ask for.
+    ///
+    /// # Errors
+    /// [`ParameterError`], with the values, the limit and the remedy.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let body = Body::new(parameters)?;
+        let force = RestoringForce::new(parameters, &body)?;
+        let tie = Tie::new(parameters, &body)?;
+        Ok(Self { body, force, tie })
+    }
+
+    /// Masses, geometry and the rigid force.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The tie; `None` without one.
+    pub fn tie(&self) -> Option<&Tie> {
+        self.tie.as_ref()
+    }
+
+    /// Displacements at which the force falls to zero, u₃ of each side \[m\].
+    pub fn force_end(&self) -> Sides {
+        Sides { positive: self.force.positive.end, negative: self.force.negative.end }
+    }
+
+    /// |u| of the corners of the wall's own force between 0 and u₃, on the side of `sign` \[m\].
+    pub fn own_corners(&self, sign: f64) -> &[f64] {
+        &self.force.side(sign).corners
+    }
+
+    /// |F| of the wall without its tie at |u| on the side of `sign` \[N\].
+    pub fn own_force(&self, sign: f64, u: f64) -> f64 {
+        let side = self.force.side(sign);
+        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
+        let direction = 1.0_f64.copysign(sign);
+        let force = direction * line.at(direction * u);
+        if force.abs() <= ROUNDING * self.body.strength.of(sign) { 0.0 } else { force }
+    }
+
+    /// |F| at |u| of the line along which the force falls to 0 on the side of `sign`, the last of the law
+    /// \[N\].
+    pub fn softening_force(&self, sign: f64, u: f64) -> f64 {
+        let direction = 1.0_f64.copysign(sign);
+        self.force.side(sign).lines.last().map_or(0.0, |line| direction * line.at(direction * u))
+    }
+
+    /// |u| at the end of the elastic branch on the side of `sign`; 0 for the rigid-linear law \[m\].
+    pub fn elastic_end(&self, sign: f64) -> f64 {
+        self.force.side(sign).corners.first().copied().unwrap_or(0.0)
+    }
+
+    /// The largest |F| of the wall without its tie on the side of `sign` \[N\].
+    pub fn largest_own_force(&self, sign: f64) -> f64 {
+        self.largest_own_force_from(sign, 0.0)
+    }
+
+    /// The largest |F| of the wall without its tie from |u| on, on the side of `sign` \[N\].
+    pub fn largest_own_force_from(&self, sign: f64, u: f64) -> f64 {
+        let corners = self.force.side(sign).corners.iter().copied().filter(|corner| *corner > u);
+        corners.map(|corner| self.own_force(sign, corner)).fold(self.own_force(sign, u), f64::max)
+    }
+}
+
 impl Wall {
     /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. The tie
     /// has the force of a displacement that is reached for the first time.
@@ -45,7 +130,7 @@ impl Wall {
     /// breaks there are two, before and after the fracture.
     pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
         let u_ins = self.body().instability.of(sign);
-        let side = self.force.side(sign);
+        let side = self.statics().force.side(sign);
         let mut corners = vec![0.0];
         let tie = self.tie().filter(|tie| tie.holds(sign));
         let breaks = tie.and_then(Tie::fracture_displacement);
@@ -70,45 +155,19 @@ impl Wall {
     /// the largest a* of the force law, on the weaker of the sides to which the wall can rock \[m/s²\].
     pub fn rocking_onset(&self) -> f64 {
         let body = self.body();
-        let largest = |sign: f64| self.largest_own_force(sign) / (body.participation * body.effective_mass);
+        let largest =
+            |sign: f64| self.statics().largest_own_force(sign) / (body.participation * body.effective_mass);
         self.sides().map(largest).fold(f64::INFINITY, f64::min)
-    }
-
-    /// |F| of the wall without its tie at |u| on the side of `sign` \[N\].
-    pub fn own_force(&self, sign: f64, u: f64) -> f64 {
-        let side = self.force.side(sign);
-        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
-        let direction = 1.0_f64.copysign(sign);
-        let force = direction * line.at(direction * u);
-        if force.abs() <= ROUNDING * self.body().strength.of(sign) { 0.0 } else { force }
-    }
-
-    /// |F| at |u| of the line along which the force falls to 0 on the side of `sign`, the last of the law
-    /// \[N\].
-    pub fn softening_force(&self, sign: f64, u: f64) -> f64 {
-        let direction = 1.0_f64.copysign(sign);
-        self.force.side(sign).lines.last().map_or(0.0, |line| direction * line.at(direction * u))
     }
 
     /// Returns the |u| of the unstable equilibrium that a yielding tie moves outwards on the side of `sign`,
     /// u₃ + (2y/h) `N_y`/k₀ with parallel softening \[m\]; `None` where the tie does not yield there.
     pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
         let tie = self.tie().filter(|tie| tie.holds(sign))?;
-        let side = self.force.side(sign);
+        let side = self.statics().force.side(sign);
         let u = side.end - tie.lever * tie.strength? / side.lines.last()?.slope;
         let yields = tie.strength_displacement()?..tie.fracture_displacement()?;
         (yields.contains(&u) && u < self.body().departure.of(sign)).then_some(u)
-    }
-
-    /// |u| at the end of the elastic branch on the side of `sign`; 0 for the rigid-linear law \[m\].
-    pub fn elastic_end(&self, sign: f64) -> f64 {
-        if self.is_rigid() { 0.0 } else { self.force.side(sign).corners[0] }
-    }
-
-    /// The largest |F| of the wall without its tie on the side of `sign` \[N\].
-    pub fn largest_own_force(&self, sign: f64) -> f64 {
-        let corners = self.capacity_corners(sign);
-        corners.iter().map(|corner| self.own_force(sign, corner.displacement)).fold(0.0, f64::max)
     }
 
     fn first_tie_force(&self, sign: f64, u: f64) -> f64 {
@@ -119,7 +178,7 @@ impl Wall {
         let body = self.body();
         let (m, participation) = (body.effective_mass, body.participation);
         let (u_ins, strength) = (body.instability.of(sign), body.strength.of(sign));
-        let force = self.own_force(sign, u) + self.tie().map_or(0.0, |tie| tie.lever * tie_force);
+        let force = self.statics().own_force(sign, u) + self.tie().map_or(0.0, |tie| tie.lever * tie_force);
         CapacityPoint {
             displacement: u,
             force,

@@ -3,6 +3,7 @@
 use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
+use super::capacity::Statics;
 use super::damping::{Damping, DampingLaw, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
@@ -17,10 +18,8 @@ use super::warning::Warning;
 /// A validated wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wall {
-    body: Body,
-    pub(super) force: RestoringForce,
+    statics: Statics,
     rotations: Option<FullRotations>,
-    tie: Option<Tie>,
     tie_memory: TieMemory,
     damping: DampingLaw,
     restitution: f64,
@@ -66,10 +65,8 @@ impl Wall {
         let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
         let rocking = parameters.rocking;
         let wall = Self {
-            body,
-            force,
+            statics: Statics { body, force, tie },
             rotations,
-            tie,
             tie_memory: TieMemory::default(),
             damping,
             restitution,
@@ -87,7 +84,7 @@ impl Wall {
     #[must_use]
     pub fn with_tie_memory(mut self, memory: TieMemory) -> Self {
         self.tie_memory = memory;
-        let Self { body, force, rotations, tie, damping, impact, .. } = &self;
+        let Self { statics: Statics { body, force, tie }, rotations, damping, impact, .. } = &self;
         let (fully, free_side) = (rotations.is_some(), self.free_side());
         let tie = tie.as_ref().map(|tie| (tie, &memory));
         let corners = layout::corners(body, force, damping, tie, *impact, fully, free_side);
@@ -95,9 +92,14 @@ impl Wall {
         Self { branches, corners, ..self }
     }
 
+    /// The wall at rest.
+    pub fn statics(&self) -> &Statics {
+        &self.statics
+    }
+
     /// Masses, geometry and the rigid force.
     pub fn body(&self) -> &Body {
-        &self.body
+        &self.statics.body
     }
 
     /// Branches in order of displacement; branch `i` lies between corners `i` and `i + 1`.
@@ -117,7 +119,7 @@ impl Wall {
 
     /// Returns whether the force is rigid-linear: it jumps at u = 0.
     pub fn is_rigid(&self) -> bool {
-        self.force.elastic_stiffness.is_none()
+        self.statics.force.elastic_stiffness.is_none()
     }
 
     /// Returns whether the wall can rest at u = 0: by the jump of its force, or against transverse walls.
@@ -139,7 +141,7 @@ impl Wall {
         if self.free_side().is_some_and(|side| side * u_start < 0.0) {
             return Err(ParameterError::StartsBehindWalls { u_start, rocking: self.rocking.name() });
         }
-        let u_ins = self.body.instability.of(u_start);
+        let u_ins = self.statics.body.instability.of(u_start);
         if u_start.abs() <= u_ins {
             return Ok(());
         }
@@ -178,7 +180,9 @@ impl Wall {
     /// wall.
     pub fn has_equal_sides(&self) -> bool {
         let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
-        self.body.strength.positive == self.body.strength.negative && self.sides().count() == 2 && !one_tied
+        self.statics.body.strength.positive == self.statics.body.strength.negative
+            && self.sides().count() == 2
+            && !one_tied
     }
 
     /// The wall in full rotations; `None` where they are taken as small.
@@ -217,7 +221,7 @@ impl Wall {
 
     /// The tie; `None` without one.
     pub fn tie(&self) -> Option<&Tie> {
-        self.tie.as_ref()
+        self.statics.tie.as_ref()
     }
 
     /// What the ties remember; branches and corners are those of ties with this memory.
@@ -228,7 +232,7 @@ impl Wall {
     /// Force N of the tie on a branch \[N\]; 0 without one.
     pub fn tie_force(&self, branch: usize, displacement: f64) -> f64 {
         let Branch { tie: action, lower, upper, .. } = self.branches[branch];
-        let Some(tie) = self.tie.as_ref() else { return 0.0 };
+        let Some(tie) = self.tie() else { return 0.0 };
         match action {
             TieAction::None => 0.0,
             TieAction::Pulls => tie
@@ -241,12 +245,12 @@ impl Wall {
     /// dN/d|u| on a branch, K 2y/h where the tie pulls \[N/m\].
     pub fn tie_slope(&self, branch: usize) -> f64 {
         let pulls = self.branches[branch].tie == TieAction::Pulls;
-        self.tie.as_ref().filter(|_| pulls).map_or(0.0, |tie| tie.stiffness * tie.lever)
+        self.tie().filter(|_| pulls).map_or(0.0, |tie| tie.stiffness * tie.lever)
     }
 
     /// Plastic elongations p of the ties of a wall at a displacement on a branch \[m\].
     pub fn tie_elongation(&self, branch: usize, displacement: f64) -> Sides {
-        let Some(tie) = &self.tie else { return Sides::default() };
+        let Some(tie) = self.tie() else { return Sides::default() };
         let mut yielded = self.tie_memory.yielded;
         let branch = &self.branches[branch];
         if branch.tie == TieAction::Yields {
@@ -258,7 +262,7 @@ impl Wall {
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
     pub fn omega1(&self) -> f64 {
-        self.force.omega1(self.body.effective_mass)
+        self.statics.force.omega1(self.statics.body.effective_mass)
     }
 
     /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.
@@ -268,7 +272,7 @@ impl Wall {
 
     /// Damping coefficient on the elastic branch C \[N s/m\].
     pub fn elastic_damping(&self) -> f64 {
-        self.damping.elastic * self.body.effective_mass
+        self.damping.elastic * self.statics.body.effective_mass
     }
 
     /// Coefficient of restitution in use, at impacts or behind computed damping, e₁ against transverse walls
@@ -288,7 +292,7 @@ impl Wall {
 
     /// Displacements at which the force falls to zero, u₃ of each side \[m\].
     pub fn force_end(&self) -> Sides {
-        Sides { positive: self.force.positive.end, negative: self.force.negative.end }
+        self.statics.force_end()
     }
 
     /// Forces per unit effective mass within which a wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff`, or 0 for an
@@ -311,7 +315,7 @@ impl Wall {
 
     /// √(k₀/`m_eff`), the rate at which a tilted wall falls \[1/s\].
     pub fn rocking_rate(&self) -> f64 {
-        (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
+        (self.statics.body.geometric_stiffness / self.statics.body.effective_mass).sqrt()
     }
 
     /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip it is twice the
@@ -332,7 +336,7 @@ impl Wall {
 
     /// The larger `u_ins`, to which errors and tolerances refer \[m\].
     pub fn displacement_scale(&self) -> f64 {
-        self.body.instability.positive.max(self.body.instability.negative)
+        self.statics.body.instability.positive.max(self.statics.body.instability.negative)
     }
 
     /// Returns the branch of a displacement. At a corner it is the one ahead of a motion of the given
@@ -350,7 +354,7 @@ impl Wall {
 
     /// Corners (u, F) of the restoring force from landing to landing, for drawing \[m, N\].
     pub fn backbone(&self) -> Vec<(f64, f64)> {
-        let m = self.body.effective_mass;
+        let m = self.statics.body.effective_mass;
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
         // the short branch before u₃ only drops the damping
         let branches = self.branches.iter().enumerate();

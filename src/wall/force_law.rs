@@ -3,7 +3,7 @@
 use crate::choices::{ForceLaw, Softening};
 
 use super::error::ParameterError;
-use super::mechanism::Body;
+use super::mechanism::{Body, Sides};
 use super::parameters::Parameters;
 
 /// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`), or of F over `m_eff`.
@@ -62,16 +62,18 @@ impl RestoringForce {
     /// A relation between `a1`, `a3`, `d1`, or the points of a multilinear law, that does not hold.
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         let k0 = body.geometric_stiffness;
-        let side = |f0: f64, u_ins: f64| match &parameters.multilinear {
+        let a3 = parameters.a3_of_sides.unwrap_or(Sides { positive: parameters.a3, negative: parameters.a3 });
+        let side = |f0: f64, u_ins: f64, a3: f64| match &parameters.multilinear {
             Some(points) => Side::multilinear(points, f0, u_ins),
-            None => Side::from_parameters(parameters, [f0, u_ins, k0]),
+            None => Side::from_parameters(parameters, a3, [f0, u_ins, k0]),
         };
-        check(parameters)?;
-        let positive = side(body.strength.positive, body.instability.positive);
-        let mut negative = side(body.strength.negative, body.instability.negative);
+        check(parameters, a3.positive)?;
+        check(parameters, a3.negative)?;
+        let positive = side(body.strength.positive, body.instability.positive, a3.positive);
+        let mut negative = side(body.strength.negative, body.instability.negative, a3.negative);
         let rigid = parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear;
         let elastic_stiffness = (!rigid).then(|| positive.lines[0].slope);
-        if let Some(k1) = elastic_stiffness {
+        if let Some(k1) = elastic_stiffness.filter(|_| a3.positive == a3.negative) {
             // k₁ is the same on both sides: the same number keeps the branch through the origin one line.
             negative.lines[0].slope = k1;
         }
@@ -86,6 +88,11 @@ impl RestoringForce {
         Ok(Self { positive, negative, elastic_stiffness, elastic_fraction })
     }
 
+    /// Returns whether both sides have the same elastic branch: one line through the origin.
+    pub(super) fn is_straight(&self) -> bool {
+        self.elastic_stiffness.is_some_and(|k1| self.negative.lines[0].slope == k1)
+    }
+
     /// The side of `sign`; the negative one is in signed displacements and forces.
     pub(super) fn side(&self, sign: f64) -> &Side {
         if sign < 0.0 { &self.negative } else { &self.positive }
@@ -98,8 +105,8 @@ impl RestoringForce {
 }
 
 impl Side {
-    fn from_parameters(parameters: &Parameters, [f0, u_ins, k0]: [f64; 3]) -> Self {
-        let Parameters { a1, a3, d1, .. } = *parameters;
+    fn from_parameters(parameters: &Parameters, a3: f64, [f0, u_ins, k0]: [f64; 3]) -> Self {
+        let Parameters { a1, d1, .. } = *parameters;
         let rigid = parameters.force_law == ForceLaw::RigidLinear;
         let (u1, u3) = (if rigid { 0.0 } else { a1 * u_ins }, a3 * u_ins);
         let slope = match parameters.softening {
@@ -152,8 +159,8 @@ impl Side {
 }
 
 /// Relations within the force law: 0 < a₁ < a₃ ≤ 1, u₁ < u₂, rising points.
-fn check(parameters: &Parameters) -> Result<(), ParameterError> {
-    let Parameters { a1, a3, d1, softening, .. } = *parameters;
+fn check(parameters: &Parameters, a3: f64) -> Result<(), ParameterError> {
+    let Parameters { a1, d1, softening, .. } = *parameters;
     if let Some(points) = &parameters.multilinear {
         return check_points(points);
     }

@@ -54,7 +54,7 @@ pub(super) fn corners(
     let pulls_at_once = |(tie, memory): (&Tie, &TieMemory)| {
         [1.0, -1.0].into_iter().any(|sign| tie.hold(sign, memory).is_some_and(|hold| hold.onset == 0.0))
     };
-    if !passage && !tie.is_some_and(pulls_at_once) {
+    if !passage && force.is_straight() && !tie.is_some_and(pulls_at_once) {
         // One elastic line runs through the origin.
         corners.retain(|corner| corner.displacement != 0.0);
     }

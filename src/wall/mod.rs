@@ -30,7 +30,7 @@ mod warning;
 
 pub use bar::{Bar, BarNumber, BarTie, TiePart};
 pub use branch::{Branch, Corner};
-pub use capacity::CapacityPoint;
+pub use capacity::{CapacityPoint, Statics};
 pub(crate) use damping::DampingSeries;
 pub use damping::{BranchDamping, Damping};
 pub use equation::Wall;

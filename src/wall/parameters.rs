@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::bar::Bar;
 use super::error::ParameterError;
+use super::mechanism::Sides;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
     Solver, TieSide, start_values,
@@ -61,12 +62,19 @@ pub struct Parameters {
     /// The bar of the tie, which [`Parameters::apply_bar`] turns into the tie's own numbers. Only scenes
     /// carry it.
     pub bar: Option<Bar>,
+    /// a₃ of each side in place of `a3`. No file carries it: a check sets it for hinges that are set back.
+    pub a3_of_sides: Option<Sides>,
 }
 
 impl Default for Parameters {
     /// The start values of the model description.
     fn default() -> Self {
-        start_values!(Self { kinematics: Kinematics::Linear, multilinear: None, bar: None })
+        start_values!(Self {
+            kinematics: Kinematics::Linear,
+            multilinear: None,
+            bar: None,
+            a3_of_sides: None
+        })
     }
 }
 

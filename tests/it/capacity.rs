@@ -94,9 +94,10 @@ fn corners_are_those_of_the_law() {
                 assert_near(corners[count - 2].displacement_ratio, 0.9);
                 assert_eq!(corners[count - 2].force, 0.0);
                 assert!(corners[count - 1].force < 0.0 && corners[count - 1].displacement_ratio == 1.0);
-                assert_eq!(corners[1].displacement, wall.elastic_end(sign));
+                assert_eq!(corners[1].displacement, wall.statics().elastic_end(sign));
                 // the softening line goes through the last corner before u₃, and through u₃
-                let softening = |place: usize| wall.softening_force(sign, corners[place].displacement);
+                let softening =
+                    |place: usize| wall.statics().softening_force(sign, corners[place].displacement);
                 assert_near(softening(count - 3) / corners[count - 3].force, 1.0);
                 assert_eq!(softening(count - 2), 0.0);
                 let m = wall.body().effective_mass;

@@ -59,11 +59,10 @@ def literal(value):
 def written(folder, wall, checked):
     """Writes the scene of a check; a text is the scene, without its table `[check]`."""
     if not isinstance(wall, str):
-        groups = {"geometry": False, "tie": True}
-        of = {
-            group: {name: value for name, value in wall.items() if name.startswith("tie") == tie}
-            for group, tie in groups.items()
-        }
+        of = {"geometry": {}, "tie": {}, "force_law": {}}
+        for name, value in wall.items():
+            group = "tie" if name.startswith("tie") else "force_law" if name == "a1" else "geometry"
+            of[group][name] = value
         wall = "".join(f"{group} = {literal(values)}\n" for group, values in of.items())
     path = folder / "scene.toml"
     lines = (f"{name} = {literal(value)}\n" for name, value in checked.items())
@@ -131,6 +130,8 @@ AT_HEIGHT = {
     "soil": "B",
     "before_activation": "law",
 }
+# what a check wants to be stated
+PARAPET = {"height": 4.0, "thickness": 0.4, "density": 1800.0, "a1": 0.03}
 # a wall, its check, and ζ_E of SLV on the side u > 0
 CHECKED = {
     "on the ground": ({}, {**SLV, "before_activation": "rigid"}, 0.855812),
@@ -142,7 +143,7 @@ CHECKED = {
 
 @pytest.mark.parametrize("wall, checked, zeta", CHECKED.values(), ids=CHECKED)
 def test_a_check_by_the_code(program, tmp_path, wall, checked, zeta):
-    wall = {"height": 4.0, "thickness": 0.4, **wall}
+    wall = {**PARAPET, **wall}
     verdict = rw.Wall(**wall).check(**checked)
     # six digits
     found = verdict.numbers["sides"]["positive"]["SLV"]["zeta_E"]
@@ -157,17 +158,17 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
     paths = records(program, tmp_path, 3)
     checked = {**SLV, "before_activation": "law", "method": "dynamic"}
     named = {"code": "circolare-2019", "records": {"files": [path.name for path in paths], "unit": "m/s2"}}
-    scene = written(tmp_path, {"height": 4.0, "thickness": 0.4}, {**checked, **named})
+    scene = written(tmp_path, PARAPET, {**checked, **named})
     told = program("check", scene, "--json", "--csv", tmp_path / "rows.csv")
     motions = [rw.read_record(path, unit="m/s2") for path in paths]
-    verdict = rw.Wall(height=4, thickness=0.4).check(motions, **checked)
+    verdict = rw.Wall(**PARAPET).check(motions, **checked)
     assert_verdict(verdict, told, tmp_path / "rows.csv")
     dynamic = verdict.numbers["dynamic"]["SLV"]
     assert [run["record"] for run in dynamic["runs"]] == ["1.csv", "2.csv", "3.csv"]
     assert verdict.zeta == dynamic["zeta_E"] and "SLV under records" in verdict.table["check"]
     # records whose spectrum is the demand
     of_spectrum = {**checked, "SLV": {"ag": 0.15}, "method": "nonlinear", "record_scale": "none"}
-    own = rw.Wall(height=4, thickness=0.4).check(motions, **of_spectrum)
+    own = rw.Wall(**PARAPET).check(motions, **of_spectrum)
     demands = [each.numbers["sides"]["positive"]["SLV"]["demand"] for each in (own, verdict)]
     assert demands[0] != demands[1]
 
@@ -186,7 +187,7 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
 )
 def test_what_the_code_cannot_check(arguments, words):
     with pytest.raises(ValueError, match=words):
-        rw.Wall(height=4, thickness=0.4).check(**arguments)
+        rw.Wall(**PARAPET).check(**arguments)
 
 
 @pytest.mark.parametrize("axes", ["heights", "radii"])

@@ -13,7 +13,7 @@
 //! "#;
 //! let code = read(&CheckFile::parse("scene.toml", text)?)?;
 //! let parameters = Parameters::default();
-//! let verdict = code.check(Subject { parameters: &parameters, floors: None })?;
+//! let verdict = code.check(Subject::new(&parameters))?;
 //! assert!(!verdict.passed && (verdict.zeta - 0.855812).abs() < 5e-7);
 //! assert_eq!(verdict.headline(), "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -29,6 +29,7 @@ use serde_json::{Value, json};
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::find::Sought;
 use crate::report::{Figure, Origin, the_wall};
 use crate::site::Records;
 use crate::{circolare, fractions};
@@ -51,6 +52,8 @@ pub struct Entry {
     pub checks: &'static [&'static str],
     /// The smallest table `[check]` that it takes, in one line.
     pub example: &'static str,
+    /// Keys that a wall of a file of walls may state alone; of `a|b` one replaces the other.
+    pub(crate) of_wall: &'static [&'static str],
     /// Describes the keys of that table for a JSON schema.
     pub(crate) describe: fn(&str, &mut Schema) -> Schema,
     /// Reads that table.
@@ -72,6 +75,20 @@ pub trait Code: fmt::Debug + Send + Sync {
     /// The records that the table names.
     fn records(&self) -> &Records;
 
+    /// The parameters of a wall with the tie that the table states.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a bar that cannot be.
+    fn prepared(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
+        Ok(parameters.clone())
+    }
+
+    /// Says why a check does not pass a wall, whose value of what is sought is the last of its range; `None`
+    /// where there is nothing to say.
+    fn blocks(&self, _subject: Subject<'_>, _check: &str, _sought: Sought) -> Option<String> {
+        None
+    }
+
     /// Whether a verdict takes runs under records: a search then tries fewer values.
     fn takes_runs(&self) -> bool {
         false
@@ -90,11 +107,20 @@ pub struct Subject<'a> {
     pub parameters: &'a Parameters,
     /// Storeys between ground and wall.
     pub floors: Option<&'a Floors>,
+    /// Parameters that decide, and that nobody stated: see [`CheckFile::assumed`].
+    pub assumed: &'a [&'static str],
+}
+
+impl<'a> Subject<'a> {
+    /// Makes a wall on the ground, all of whose parameters are stated.
+    pub fn new(parameters: &'a Parameters) -> Self {
+        Self { parameters, floors: None, assumed: &[] }
+    }
 }
 
 impl<'a> From<&'a Scene> for Subject<'a> {
     fn from(scene: &'a Scene) -> Self {
-        Self { parameters: &scene.parameters, floors: scene.floors.as_ref() }
+        Self { floors: scene.floors.as_ref(), ..Self::new(&scene.parameters) }
     }
 }
 
@@ -112,6 +138,8 @@ pub struct Verdict<'a> {
     pub zeta: f64,
     /// A row for each check of each side; of sides that are alike, one.
     pub rows: Vec<Row>,
+    /// Where only a rule that replaces it lets the wall pass: what governs by itself \[-\].
+    pub raised: Option<f64>,
     /// What is to be said of the rows, in sentences.
     pub notes: Vec<String>,
     /// What the engineer should know; none of it stops the check.
@@ -139,6 +167,8 @@ pub struct Row {
     pub ends: Ends,
     /// Where the code has it.
     pub clause: &'static str,
+    /// What is to be said beside the numbers; empty where nothing is.
+    pub remark: String,
 }
 
 /// A capacity and its demand.
@@ -184,10 +214,10 @@ pub trait Details {
     }
 }
 
-/// A table of intermediate numbers without rows: a name, a unit, and a column for each side.
-pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>) -> Table {
+/// A table of intermediate numbers of some digits, without rows: a name, a unit, and a column for each side.
+pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits) -> Table {
     let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
-    Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, Digits::Significant(6)))))
+    Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
 }
 
 /// Describes the table `[check]`, that of any code, and adds the tables that it refers to.
@@ -224,7 +254,11 @@ pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
 impl Verdict<'_> {
     /// The verdict in a line.
     pub fn headline(&self) -> String {
-        let passed = if self.passed { "PASSED" } else { "NOT PASSED" };
+        let passed = match (self.passed, self.raised) {
+            (true, None) => "PASSED".to_owned(),
+            (true, Some(raised)) => format!("PASSED by the raise of SLD; by displacement {raised:.3}"),
+            (false, _) => "NOT PASSED".to_owned(),
+        };
         let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
         format!("{passed}: {governs} governs with {symbol} = {zeta:.3} ({})", self.at("both sides alike"))
     }
@@ -239,6 +273,7 @@ impl Verdict<'_> {
         let four = Digits::AtMost(4);
         let has_ground = self.rows.iter().any(|row| row.ground.is_some());
         let ground = |heading: &'static str| if has_ground { heading } else { "" };
+        let has_remarks = self.rows.iter().any(|row| !row.remark.is_empty());
         let mut table = Table::new([
             Column::text("check", "check"),
             Column::text("side", "side"),
@@ -254,6 +289,7 @@ impl Verdict<'_> {
             Column::text("", "demand"),
             Column::number("decides", "decides", four),
             Column::text("clause", "clause"),
+            Column::text("remark", if has_remarks { "remark" } else { "" }),
         ]);
         for row in &self.rows {
             let (ends, factor, unit, shown) = match row.ends {
@@ -276,6 +312,7 @@ impl Verdict<'_> {
                 demand.into(),
                 row.decides.into(),
                 Cell::from(row.clause),
+                row.remark.clone().into(),
             ]);
         }
         table

@@ -42,6 +42,17 @@ impl CheckError {
         Self::Wall { message: message.into() }
     }
 
+    /// Says with which hinge of a strip the check is impossible.
+    pub(crate) fn at_hinge(self, ratio: f64) -> Self {
+        let at = |message: String| format!("with the hinge at hinge_ratio = {ratio}: {message}");
+        match self {
+            Self::Value { keys, message } => Self::Value { keys, message: at(message) },
+            Self::Wall { message } => Self::Wall { message: at(message) },
+            Self::Parameters(error) => Self::Wall { message: at(error.to_string()) },
+            error => error,
+        }
+    }
+
     /// Returns the keys from the table `[check]` to the value that the error is about, such as `SLV`, `ag`,
     /// be it there or missing; `None` where it is about no value of the table.
     pub fn keys(&self) -> Option<&[String]> {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{Place, SceneError, parse_document, refusal};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
+use run::walls::assumed;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
@@ -11,9 +12,74 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use crate::error::CheckError;
 use crate::site::Records;
 
+/// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
+/// [`CheckFile::parse_with`].
+///
+/// # Errors
+/// The assignment that is none.
+pub fn with_assignments(text: &str, set: &[String]) -> Result<String, String> {
+    let mut lines = vec![text.to_owned()];
+    for assignment in set {
+        let Some((key, value)) = assignment.split_once('=') else {
+            return Err(format!("{assignment}: expected NAME=VALUE, such as check.soil=B"));
+        };
+        let [key, value] = [key, value].map(str::trim);
+        let written = format!("{key} = {value}");
+        // a text needs no quotes here; one of JSON is one of TOML
+        let quoted = || format!("{key} = {}", serde_json::Value::from(value));
+        let line = if written.parse::<toml::Table>().is_ok() { written } else { quoted() };
+        if let Err(error) = line.parse::<toml::Table>() {
+            return Err(format!("{assignment}: {}", error.message()));
+        }
+        lines.push(line);
+    }
+    Ok(lines.join("\n"))
+}
+
+/// Moves the places of a value by some bytes.
+fn shift(value: &mut Spanned<DeValue<'_>>, by: usize) {
+    let place = value.span();
+    match value.get_mut() {
+        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| shift(value, by)),
+        DeValue::Array(array) => array.iter_mut().for_each(|value| shift(value, by)),
+        _ => {}
+    }
+    let inner = std::mem::replace(value.get_mut(), DeValue::Boolean(false));
+    *value = Spanned::new(place.start + by..place.end + by, inner);
+}
+
+/// Lays a table over another, key by key.
+fn overlay<'a>(base: &mut DeTable<'a>, patch: &DeTable<'a>) {
+    for (key, value) in patch {
+        let below = base.get_mut(key).map(Spanned::get_mut);
+        if let (Some(DeValue::Table(below)), DeValue::Table(patch)) = (below, value.get_ref()) {
+            overlay(below, patch);
+        } else {
+            base.remove(key);
+            base.insert(key.clone(), value.clone());
+        }
+    }
+}
+
+/// Returns the first key below `key` that is not allowed.
+fn not_allowed(key: &str, value: &DeValue<'_>, is_allowed: &dyn Fn(&str) -> bool) -> Option<String> {
+    if is_allowed(key) {
+        return None;
+    }
+    match value.as_table() {
+        Some(table) => {
+            let paths = table.iter().map(|(inner, _)| format!("{key}.{}", inner.get_ref()));
+            paths.into_iter().find(|path| !is_allowed(path))
+        }
+        None => Some(key.to_owned()),
+    }
+}
+
 /// A scene, or a file of walls, with a table `[check]`.
 pub struct CheckFile<'a> {
     place: Place<'a>,
+    /// Bytes of the text that are the file's own; assignments follow.
+    own: usize,
     document: DeTable<'a>,
     folder: PathBuf,
     records: Vec<NamedRecord>,
@@ -25,10 +91,66 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`SceneError::Line`] where the text is not TOML.
     pub fn parse(name: &'a str, text: &'a str) -> Result<Self, SceneError> {
+        Self::parse_with(name, text, text.len())
+    }
+
+    /// Parses a text that has `own` bytes of its own, and assignments behind them: see [`with_assignments`].
+    ///
+    /// # Errors
+    /// [`SceneError::Line`] where the text is not TOML.
+    pub fn parse_with(name: &'a str, text: &'a str, own: usize) -> Result<Self, SceneError> {
         let place = Place::new(name, text);
-        let document = parse_document(&place)?;
+        let mut document = parse_document(&Place::new(name, &text[..own]))?;
         let folder = Path::new(name).parent().unwrap_or(Path::new(".")).to_owned();
-        Ok(Self { place, document, folder, records: Vec::new() })
+        let mut from = own;
+        for line in text[own..].split_inclusive('\n') {
+            if let Ok(table) = DeTable::parse(line) {
+                let mut table = table.into_inner();
+                table.iter_mut().for_each(|(_, value)| shift(value, from));
+                overlay(&mut document, &table);
+            }
+            from += line.len();
+        }
+        Ok(Self { place, own, document, folder, records: Vec::new() })
+    }
+
+    /// Returns the file with what one of its walls states of the check laid over the file's own statements;
+    /// `None` for a wall that states nothing. `allowed` are the keys that walls may state, such as
+    /// `building.height_ratio`; of `a|b` one replaces the other.
+    ///
+    /// # Errors
+    /// [`SceneError::Line`] of another key.
+    pub(crate) fn of_wall(&self, entry: usize, allowed: &[&str]) -> Result<Option<Self>, SceneError> {
+        let walls = self.document.get("walls").and_then(|walls| walls.get_ref().as_array());
+        let wall = walls.and_then(|walls| walls.get(entry)).and_then(|wall| wall.get_ref().as_table());
+        let Some(own) = wall.and_then(|wall| wall.get("check")) else { return Ok(None) };
+        let Some(own) = own.get_ref().as_table() else {
+            let message = "check of a wall is a table, such as { hinge = \"worst\" }";
+            return Err(self.place.error(own.span(), message));
+        };
+        let mut document = self.document.clone();
+        let Some(DeValue::Table(check)) = document.get_mut("check").map(Spanned::get_mut) else {
+            return Ok(None);
+        };
+        let has = |others: &str, path: &str| others.split('|').any(|other| other == path);
+        for (key, value) in own {
+            let key = key.get_ref().as_ref();
+            if let Some(path) =
+                not_allowed(key, value.get_ref(), &|path| allowed.iter().any(|own| has(own, path)))
+            {
+                let message = format!(
+                    "check.{path} is that of the building, not of a wall alone; state it in the file's [check]"
+                );
+                return Err(self.place.error(value.span(), message));
+            }
+            for other in allowed.iter().filter(|others| has(others, key) && others.contains('|')) {
+                other.split('|').for_each(|other| drop(check.remove(other)));
+            }
+        }
+        overlay(check, own);
+        let Self { own, folder, records, .. } = self;
+        let place = Place::new(self.place.name(), self.place.text());
+        Ok(Some(Self { place, own: *own, document, folder: folder.clone(), records: records.clone() }))
     }
 
     /// Takes these records in place of those that the table names.
@@ -44,7 +166,7 @@ impl<'a> CheckFile<'a> {
 
     /// The text of the file.
     pub fn text(&self) -> &'a str {
-        self.place.text()
+        &self.place.text()[..self.own]
     }
 
     /// The folder of the file.
@@ -65,6 +187,14 @@ impl<'a> CheckFile<'a> {
             table = value.and_then(|value| value.get_ref().as_table());
             value.is_some()
         })
+    }
+
+    /// Returns the parameters that decide verdicts, and that the file leaves to their start values; `set`
+    /// holds assignments that state them, too.
+    pub fn assumed(&self, set: &[String]) -> Vec<&'static str> {
+        let is_set =
+            |name: &str| set.iter().any(|set| set.split('=').next().is_some_and(|key| key.trim() == name));
+        assumed(|group, name| self.states(&[group, name]) || is_set(name))
     }
 
     fn check(&self) -> Option<&Spanned<DeValue<'a>>> {
@@ -113,6 +243,12 @@ impl<'a> CheckFile<'a> {
         let span = error.keys().filter(|_| self.check().is_some()).map(|keys| self.span(keys));
         match (span, error) {
             (_, CheckError::Scene(error)) => error,
+            (Some(span), _) if span.start >= self.own && self.own < self.place.text().len() => {
+                let after = &self.place.text()[self.own..];
+                let line = after.get(..span.start - self.own).unwrap_or_default().matches('\n').count();
+                let line = after.lines().nth(line).unwrap_or_default();
+                SceneError::File { file: self.name().to_owned(), reason: format!("--set {line}: {reason}") }
+            }
             (Some(span), _) => self.place.error(span, reason),
             (None, _) => SceneError::File { file: self.name().to_owned(), reason },
         }

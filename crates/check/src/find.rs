@@ -1,6 +1,9 @@
-//! The smallest thickness or tie, or the largest height, with which a wall passes.
+//! The smallest thickness or tie, or the largest height, with which a wall passes each of its checks.
 
-use report::palette::{BLUE, DARK_GREY, RED};
+use std::fmt::Write;
+
+use report::number;
+use report::palette::{BLUE, DARK_GREY, GREEN, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
@@ -10,11 +13,15 @@ use crate::code::{Code, Subject};
 use crate::error::CheckError;
 
 /// Values that are tried, in equal ratios.
-const TRIED: u32 = 121;
+const TRIED: u32 = 241;
 /// Values that are tried where each takes runs under records.
 const TRIED_UNDER_RECORDS: u32 = 31;
 /// Halvings of the step in which the wall begins to pass: the value is then known to 1e-9 of it.
 const HALVINGS: u32 = 30;
+/// Force of a tie over W + O above which it is said to be large \[-\].
+const LARGE: f64 = 0.5;
+/// Colours of the lines of checks.
+const COLORS: [&str; 4] = [BLUE, RED, GREEN, DARK_GREY];
 
 /// What is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,50 +34,73 @@ pub enum Sought {
     TieStrength,
     /// The smallest stiffness of the tie \[N/m\].
     TieStiffness,
+    /// The smallest diameter of the bar of the tie \[m\]: its stiffness, strength and elongation follow.
+    BarDiameter,
 }
 
 impl Sought {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Thickness, Self::Height, Self::TieStrength, Self::TieStiffness];
+    pub const ALL: [Self; 5] =
+        [Self::Thickness, Self::Height, Self::TieStrength, Self::TieStiffness, Self::BarDiameter];
 
     /// Name of the parameter.
     pub fn name(self) -> &'static str {
-        ["thickness", "height", "tie_strength", "tie_stiffness"][self as usize]
+        ["thickness", "height", "tie_strength", "tie_stiffness", "bar_diameter"][self as usize]
     }
 
     /// Unit of the parameter.
     pub fn unit(self) -> &'static str {
-        ["m", "m", "N", "N/m"][self as usize]
+        ["m", "m", "N", "N/m", "m"][self as usize]
     }
 
-    fn is_of_tie(self) -> bool {
-        matches!(self, Self::TieStrength | Self::TieStiffness)
+    /// Returns whether it is a number of the tie.
+    pub fn is_of_tie(self) -> bool {
+        matches!(self, Self::TieStrength | Self::TieStiffness | Self::BarDiameter)
     }
 
     /// The wall with another value of the parameter.
-    pub fn applied(self, parameters: &Parameters, value: f64) -> Parameters {
+    ///
+    /// # Errors
+    /// [`CheckError`] of a bar that cannot be.
+    pub fn applied(self, parameters: &Parameters, value: f64) -> Result<Parameters, CheckError> {
         let mut parameters = parameters.clone();
-        *match self {
-            Self::Thickness => &mut parameters.thickness,
-            Self::Height => &mut parameters.height,
-            Self::TieStrength => &mut parameters.tie_strength,
-            Self::TieStiffness => &mut parameters.tie_stiffness,
-        } = value;
-        parameters
+        match self {
+            Self::Thickness => parameters.thickness = value,
+            Self::Height => parameters.height = value,
+            Self::TieStrength => parameters.tie_strength = value,
+            Self::TieStiffness => parameters.tie_stiffness = value,
+            Self::BarDiameter => {
+                if let Some(bar) = &mut parameters.bar {
+                    bar.diameter = value;
+                }
+                parameters.apply_bar()?;
+            }
+        }
+        Ok(parameters)
     }
 
-    /// The range of values that is searched: an eighth to eight times the wall's own size, or ties from very
-    /// weak to very strong beside its weight.
+    /// The range of values that is searched, within which a builder would choose: a quarter to four times the
+    /// wall's own size; ties up to the weight that the wall carries; bars of 6 to 60 mm.
     fn range(self, parameters: &Parameters) -> [f64; 2] {
-        let Parameters { height, thickness, width, density, gravity, .. } = *parameters;
-        let weight = density * gravity * height * thickness * width;
+        let (weight, load) = (weight(parameters), load(parameters));
         match self {
-            Self::Thickness => [thickness / 8.0, 8.0 * thickness],
-            Self::Height => [height / 8.0, 8.0 * height],
-            Self::TieStrength => [1e-3 * weight, 1e2 * weight],
-            Self::TieStiffness => [1e-2 * weight / height, 1e5 * weight / height],
+            Self::Thickness => [0.25 * parameters.thickness, 4.0 * parameters.thickness],
+            Self::Height => [0.25 * parameters.height, 4.0 * parameters.height],
+            Self::TieStrength => [1e-3 * weight, load],
+            Self::TieStiffness => [load / parameters.height, 1e4 * load / parameters.height],
+            Self::BarDiameter => [6e-3, 60e-3],
         }
     }
+}
+
+fn weight(parameters: &Parameters) -> f64 {
+    let Parameters { height, thickness, width, density, gravity, .. } = *parameters;
+    density * gravity * height * thickness * width
+}
+
+/// W + O \[N\].
+fn load(parameters: &Parameters) -> f64 {
+    weight(parameters) + parameters.overburden
 }
 
 /// What was found.
@@ -78,66 +108,125 @@ impl Sought {
 pub struct Found {
     /// What was sought.
     pub sought: Sought,
-    /// The value at which the wall begins to pass; `None` if it passes nowhere in the range.
+    /// The value from which on the wall passes every check that decides; `None` if there is none.
     pub value: Option<f64>,
     /// The range that was searched.
     pub range: [f64; 2],
-    /// The wall passes all over the range: `value` is its end.
-    pub everywhere: bool,
-    /// There are values beyond the one found with which the wall fails.
-    pub fails_beyond: bool,
-    /// (value, capacity over demand) over the range; NaN where the wall or its check is impossible.
-    pub curve: Vec<(f64, f64)>,
+    /// Each check, in the order of the verdict.
+    pub checks: Vec<FoundCheck>,
+    /// Force of the tie at the value over W + O \[-\].
+    pub force_ratio: Option<f64>,
     /// Symbol of capacity over demand.
     symbol: &'static str,
 }
 
+/// What was found for one check.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundCheck {
+    /// Its name.
+    pub check: &'static str,
+    /// Whether it decides.
+    pub decides: bool,
+    /// The value from which on the wall passes it, up to the end of the range (a height: down to its start).
+    pub value: Option<f64>,
+    /// Whether the wall passes it all over the range.
+    pub everywhere: bool,
+    /// Intervals of values that pass, apart from that one.
+    pub intervals: Vec<[f64; 2]>,
+    /// Why there is no value, where that can be said.
+    pub reason: Option<String>,
+    /// (value, capacity over demand) over the range; NaN where the wall or its check is impossible.
+    pub curve: Vec<(f64, f64)>,
+}
+
 impl Found {
+    /// Returns whether every value of the range passes what decides.
+    pub fn everywhere(&self) -> bool {
+        self.checks.iter().filter(|check| check.decides).all(|check| check.everywhere)
+    }
+
     /// What was found, in lines.
     pub fn text(&self) -> String {
         let (name, unit) = (self.sought.name(), self.sought.unit());
-        let [from, to] = self.range.map(|end| format!("{end:.4}"));
-        let (extreme, beyond) =
-            if self.sought == Sought::Height { ("largest", "smaller") } else { ("smallest", "larger") };
-        let text = match self.value {
-            None if self.sought.is_of_tie() => format!(
-                "no {name} from {from} to {to} {unit} passes; a side without a tie may govern: see tie_side\n"
-            ),
+        let [from, to] = self.range.map(|end| number(end, 5));
+        let is_height = self.sought == Sought::Height;
+        let extreme = if is_height { "largest" } else { "smallest" };
+        let mut text = match self.value {
             None => format!("no {name} from {from} to {to} {unit} passes\n"),
-            Some(_) if self.everywhere => format!("every {name} from {from} to {to} {unit} passes\n"),
+            Some(_) if self.everywhere() => format!("every {name} from {from} to {to} {unit} passes\n"),
             Some(value) => format!("{extreme} {name} that passes: {value:.6} {unit}\n"),
         };
-        let look = format!("some {beyond} values fail; look at the chart (--plot)\n");
-        text + if self.fails_beyond { &look } else { "" }
+        for found in &self.checks {
+            let FoundCheck { check, decides, value, .. } = found;
+            let informs = if *decides { "" } else { " (for information)" };
+            let end = if is_height { "up to" } else { "from" };
+            let line = match value {
+                Some(_) if found.everywhere => format!("  {check}{informs}: every value\n"),
+                Some(value) => format!("  {check}{informs}: {end} {} {unit}\n", number(*value, 6)),
+                None => {
+                    let reason = found.reason.as_deref().map_or_else(String::new, |why| format!("; {why}"));
+                    format!("  {check}{informs}: none{reason}\n")
+                }
+            };
+            text.push_str(&line);
+            for [low, high] in &found.intervals {
+                let [low, high] = [low, high].map(|end| number(*end, 5));
+                let _ = writeln!(text, "    passes from {low} to {high} {unit}, too, and fails beyond");
+            }
+        }
+        if let Some(ratio) = self.force_ratio {
+            let _ = write!(text, "  the tie has {} of W + O", number(ratio, 3));
+            text += if ratio > LARGE { ": a large force for an anchor in masonry\n" } else { "\n" };
+        }
+        text
     }
 
     /// What was found, by names.
     pub fn json(&self) -> Value {
+        let one = |found: &FoundCheck| {
+            json!({
+                "check": found.check,
+                "decides": found.decides,
+                "value": found.value,
+                "passes_everywhere": found.everywhere,
+                "intervals": found.intervals,
+                "reason": found.reason,
+                "curve": found.curve,
+            })
+        };
         json!({
             "parameter": self.sought.name(),
             "value": self.value,
             "range": self.range,
-            "passes_everywhere": self.everywhere,
-            "fails_beyond": self.fails_beyond,
-            "curve": self.curve,
+            "passes_everywhere": self.everywhere(),
+            "force_over_load": self.force_ratio,
+            "checks": self.checks.iter().map(one).collect::<Vec<_>>(),
         })
     }
 
-    /// Draws capacity over demand over the values that were tried, up to three times the one found; the limit
-    /// 1, and that value.
+    /// Draws capacity over demand of each check over the values that were tried, up to three times the one
+    /// found; the limit 1, and that value.
     pub fn plot(&self) -> Plot {
         let (name, unit) = (self.sought.name(), self.sought.unit());
         let symbol = self.symbol.replace("zeta", "ζ");
         let [left, right] = self.range;
         let right = self.value.map_or(right, |value| right.min(3.0 * value));
-        let shown = self.curve.iter().copied().filter(|point| point.1.is_finite() && point.0 <= right);
-        let points: Vec<(f64, f64)> = shown.collect();
+        let shown = |found: &FoundCheck| -> Vec<(f64, f64)> {
+            let shown = found.curve.iter().copied();
+            shown.filter(|point| point.1.is_finite() && point.0 <= right).collect()
+        };
+        let lines: Vec<_> = self.checks.iter().map(|found| (found.check, shown(found))).collect();
         // far beyond the demand nothing is to be seen
-        let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
-        let inside = points.into_iter().filter(|point| point.1 <= top).collect();
-        let mut series = vec![Series { name: symbol.clone(), ..Series::stroke(BLUE, 2.0, inside) }];
+        let top =
+            lines.iter().flat_map(|(_, points)| points).map(|point| point.1).fold(1.2, f64::max).min(3.0);
+        let line = |(index, (check, points)): (usize, (&'static str, Points))| {
+            let inside = points.into_iter().filter(|point| point.1 <= top).collect();
+            let stroke = Series::stroke(COLORS[index % COLORS.len()], 2.0, inside);
+            Series { name: format!("{symbol}, {check}"), ..stroke }
+        };
+        let mut series: Vec<_> = lines.into_iter().enumerate().map(line).collect();
         if let Some(value) = self.value {
-            let line = Series::stroke(RED, 1.3, vec![(value, 0.0), (value, top)]);
+            let line = Series::stroke(DARK_GREY, 1.3, vec![(value, 0.0), (value, top)]);
             let name = format!("{name} = {value:.4} {unit}");
             series.push(Series { look: Look::Dashed, name, ..line });
         }
@@ -149,7 +238,14 @@ impl Found {
     }
 }
 
-/// Finds the smallest value, or the largest height, with which a wall passes its check.
+/// Points (value, capacity over demand) of a line.
+type Points = Vec<(f64, f64)>;
+
+/// Name, capacity over demand, whether it passes, and whether it decides.
+type Outcome = (&'static str, f64, bool, bool);
+
+/// Finds the smallest value, or the largest height, from which on a wall passes each of its checks;
+/// `progress` is told how many values have been tried, of how many.
 ///
 /// ```
 /// use check::{CheckFile, Sought, Subject, find, read};
@@ -163,8 +259,8 @@ impl Found {
 /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
 /// "#;
 /// let code = read(&CheckFile::parse("scene.toml", text)?)?;
-/// let wall = Subject { parameters: &Parameters::default(), floors: None };
-/// let found = find(&*code, wall, Sought::Thickness)?;
+/// let parameters = Parameters::default();
+/// let found = find(&*code, Subject::new(&parameters), Sought::Thickness, &mut |_, _| {})?;
 /// assert!((0.4..0.6).contains(&found.value.unwrap()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -172,51 +268,132 @@ impl Found {
 /// # Errors
 /// [`CheckError`] of the wall as it is, so that a statement that is missing is named; and of a tie that is
 /// sought for a wall without one.
-pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Found, CheckError> {
-    let Subject { parameters, floors } = subject;
-    let has_tie =
-        parameters.tie_height > 0.0 && (parameters.tie_stiffness > 0.0 || sought == Sought::TieStiffness);
-    if sought.is_of_tie() && !has_tie {
-        let name = sought.name();
-        let message = format!("{name} is sought, but the wall has no tie; set tie_height and tie_stiffness");
-        return Err(CheckError::wall(message));
-    }
+pub fn find(
+    code: &dyn Code,
+    subject: Subject<'_>,
+    sought: Sought,
+    progress: &mut dyn FnMut(u32, u32),
+) -> Result<Found, CheckError> {
+    let Subject { floors, assumed, .. } = subject;
+    let parameters = &code.prepared(subject.parameters)?;
+    check_tie(parameters, sought)?;
     let deciding = code.deciding();
     let code = deciding.as_deref().unwrap_or(code);
     let tried = if code.takes_runs() { TRIED_UNDER_RECORDS } else { TRIED };
-    let zeta = |value: f64| {
-        let parameters = sought.applied(parameters, value);
-        let verdict = code.check(Subject { parameters: &parameters, floors });
-        verdict.map_or((f64::NAN, false), |verdict| (verdict.zeta, verdict.passed))
+    let with = |value: f64| -> Result<Vec<Outcome>, CheckError> {
+        let parameters = sought.applied(parameters, value)?;
+        Ok(outcomes(&code.check(Subject { parameters: &parameters, floors, assumed })?))
     };
     let range = sought.range(parameters);
-    let at = |index: u32| range[0] * libm::pow(range[1] / range[0], f64::from(index) / f64::from(tried - 1));
-    let mut tries: Vec<(f64, (f64, bool))> = (0..tried).map(|index| (at(index), zeta(at(index)))).collect();
-    if tries.iter().all(|(_, (zeta, _))| zeta.is_nan()) {
-        // whatever is wrong is wrong with the wall as it is
-        code.check(subject)?;
+    let at = |index: u32| match index {
+        0 => range[0],
+        _ if index == tried - 1 => range[1],
+        _ => range[0] * libm::pow(range[1] / range[0], f64::from(index) / f64::from(tried - 1)),
+    };
+    let mut tries = Vec::new();
+    for index in 0..tried {
+        tries.push((at(index), with(at(index))));
+        progress(index + 1, tried);
     }
-    let curve = tries.iter().map(|&(value, (zeta, _))| (value, zeta)).collect();
-    // of heights the largest is sought
+    let mut checks: Vec<(&'static str, bool)> = Vec::new();
+    for (check, .., decides) in tries.iter().filter_map(|(_, tried)| tried.as_ref().ok()).flatten() {
+        if !checks.iter().any(|(name, _)| name == check) {
+            checks.push((*check, *decides));
+        }
+    }
+    if checks.is_empty() {
+        // whatever is wrong is wrong with the wall as it is
+        code.check(Subject { parameters, floors, assumed })?;
+    }
+    // of heights the largest is sought: the end that passes is the first
     if sought == Sought::Height {
         tries.reverse();
     }
-    let none = Found {
-        sought,
-        value: None,
-        range,
-        everywhere: false,
-        fails_beyond: false,
-        curve,
-        symbol: code.entry().symbol,
-    };
-    let Some(first) = tries.iter().position(|(_, (_, passed))| *passed) else { return Ok(none) };
-    let fails_beyond = tries[first..].iter().any(|(_, (zeta, passed))| zeta.is_finite() && !passed);
-    let Some(before) = first.checked_sub(1) else {
-        let value = Some(tries[0].0);
-        return Ok(Found { value, everywhere: !fails_beyond, fails_beyond, ..none });
-    };
-    let bracket = [tries[before].0, tries[first].0];
-    let value = first_true(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
-    Ok(Found { value: Some(value), fails_beyond, ..none })
+    let mut found = Vec::new();
+    for (check, decides) in checks {
+        let passes = |value: f64| Ok(with(value).is_ok_and(|all| of(&all, check).is_some_and(|one| one.2)));
+        found.push(one_check(&tries, (check, decides), passes)?);
+    }
+    let (best, _) = &tries[tries.len() - 1];
+    let last = sought.applied(parameters, *best)?;
+    let last = Subject { parameters: &last, floors, assumed };
+    for one in found.iter_mut().filter(|one| one.value.is_none()) {
+        one.reason = code.blocks(last, one.check, sought);
+    }
+    let values = || found.iter().filter(|one| one.decides).map(|one| one.value);
+    let all = values().all(|value| value.is_some()) && values().next().is_some();
+    let extreme = if sought == Sought::Height { f64::min } else { f64::max };
+    let value = values().flatten().reduce(extreme).filter(|_| all);
+    let strength = value.filter(|_| sought.is_of_tie() && sought != Sought::TieStiffness);
+    let strength = strength.map(|value| sought.applied(parameters, value)).transpose()?;
+    let force_ratio = strength.map(|tied| tied.tie_strength / load(&tied));
+    Ok(Found { sought, value, range, checks: found, force_ratio, symbol: code.entry().symbol })
+}
+
+fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> {
+    let has_tie =
+        parameters.tie_height > 0.0 && (parameters.tie_stiffness > 0.0 || sought == Sought::TieStiffness);
+    let name = sought.name();
+    if sought == Sought::BarDiameter && parameters.bar.is_none() {
+        let message = format!("{name} is sought, but the tie has no bar; give bar in [check.tie] or [tie]");
+        return Err(CheckError::wall(message));
+    }
+    if sought.is_of_tie() && !has_tie {
+        let message = format!("{name} is sought, but the wall has no tie; set tie_height and tie_stiffness");
+        return Err(CheckError::wall(message));
+    }
+    Ok(())
+}
+
+/// The checks of a verdict: the least capacity over demand of all sides.
+fn outcomes(verdict: &crate::code::Verdict<'_>) -> Vec<Outcome> {
+    let mut all: Vec<Outcome> = Vec::new();
+    for row in &verdict.rows {
+        match all.iter_mut().find(|one| one.0 == row.check) {
+            Some(one) => (one.1, one.2) = (one.1.min(row.zeta), one.2 && row.passed),
+            None => all.push((row.check, row.zeta, row.passed, row.decides)),
+        }
+    }
+    all
+}
+
+fn of<'a>(all: &'a [Outcome], check: &str) -> Option<&'a Outcome> {
+    all.iter().find(|one| one.0 == check)
+}
+
+/// Finds from which value on the last tries pass a check, and the other intervals that do.
+fn one_check(
+    tries: &[(f64, Result<Vec<Outcome>, CheckError>)],
+    (check, decides): (&'static str, bool),
+    mut passes: impl FnMut(f64) -> Result<bool, CheckError>,
+) -> Result<FoundCheck, CheckError> {
+    let one = |index: usize| tries[index].1.as_ref().ok().and_then(|all| of(all, check));
+    let passed: Vec<bool> = (0..tries.len()).map(|index| one(index).is_some_and(|one| one.2)).collect();
+    let zeta = |index: usize| one(index).map_or(f64::NAN, |one| one.1);
+    let mut curve: Vec<_> = (0..tries.len()).map(|index| (tries[index].0, zeta(index))).collect();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut edge =
+        |fails: usize, holds: usize| first_true([tries[fails].0, tries[holds].0], HALVINGS, &mut passes);
+    // runs of tries that pass: first and last
+    let (mut intervals, mut value) = (Vec::new(), None);
+    let mut index = 0;
+    while index < passed.len() {
+        if !passed[index] {
+            index += 1;
+            continue;
+        }
+        let first = index;
+        while index < passed.len() && passed[index] {
+            index += 1;
+        }
+        let begins = if first == 0 { tries[0].0 } else { edge(first - 1, first)? };
+        if index == passed.len() {
+            value = Some(begins);
+        } else {
+            let ends = edge(index, index - 1)?;
+            intervals.push([begins.min(ends), begins.max(ends)]);
+        }
+    }
+    let everywhere = passed.iter().all(|passed| *passed);
+    Ok(FoundCheck { check, decides, value, everywhere, intervals, reason: None, curve })
 }

@@ -12,8 +12,8 @@ mod walls;
 
 pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read, schema};
 pub use error::CheckError;
-pub use file::CheckFile;
-pub use find::{Found, Sought, find};
+pub use file::{CheckFile, with_assignments};
+pub use find::{Found, FoundCheck, Sought, find};
 pub use report::{Figure, Origin, page};
 pub use site::Records;
-pub use walls::{WallVerdicts, check_walls};
+pub use walls::{WallCodes, WallVerdicts, check_walls};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::wall::Wall;
+use rocking_wall::wall::Body;
 use run::records::NamedRecord;
 
 use crate::error::CheckError;
@@ -24,12 +24,12 @@ pub struct Records {
 impl Records {
     /// Returns the motion that acts on a wall under each record: the record itself, or the motion of its
     /// floors, those of a strip wall by their weights.
-    pub(crate) fn felt(&self, floors: Option<&Floors>, wall: &Wall) -> Result<Vec<GroundMotion>, CheckError> {
+    pub(crate) fn felt(&self, floors: Option<&Floors>, body: &Body) -> Result<Vec<GroundMotion>, CheckError> {
         let one = |NamedRecord { motion, .. }: &NamedRecord| {
             let Some(floors) = floors else { return Ok(motion.clone()) };
             let end = motion.duration() + DEFAULT_TAIL;
-            let at = floors.motion(wall.body().mechanism, &Excitation::new(motion.clone(), None), end)?;
-            Ok(at.effective(wall.body())?)
+            let at = floors.motion(body.mechanism, &Excitation::new(motion.clone(), None), end)?;
+            Ok(at.effective(body)?)
         };
         self.named.iter().map(one).collect()
     }

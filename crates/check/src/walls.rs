@@ -1,15 +1,18 @@
 //! The check of many walls.
 
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 use report::page::Page;
 use report::table::{Cell, Column, Digits, Table};
+use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{Code, Entry, Subject, Verdict};
+use crate::code::{Code, Entry, Subject, Verdict, read};
 use crate::error::CheckError;
+use crate::file::CheckFile;
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {
@@ -18,11 +21,49 @@ pub struct WallVerdicts<'a> {
     pub walls: Vec<(&'a str, Result<Verdict<'a>, CheckError>)>,
 }
 
+/// Codes of the walls of a file: that of the file, and those of walls that state something alone.
+pub struct WallCodes {
+    shared: Box<dyn Code>,
+    /// By the places of walls in the file.
+    own: BTreeMap<usize, Box<dyn Code>>,
+}
+
+impl WallCodes {
+    /// Reads the table `[check]` of a file for each of its walls.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the first value that cannot be used, and of a key that a wall cannot state alone.
+    pub fn read(file: &CheckFile<'_>, walls: &[NamedWall]) -> Result<Self, SceneError> {
+        let shared = read(file).map_err(|error| file.located(error))?;
+        let mut own = BTreeMap::new();
+        for wall in walls {
+            if own.contains_key(&wall.entry) {
+                continue;
+            }
+            if let Some(file) = file.of_wall(wall.entry, shared.entry().of_wall)? {
+                own.insert(wall.entry, read(&file).map_err(|error| file.located(error))?);
+            }
+        }
+        Ok(Self { shared, own })
+    }
+
+    /// The code of the file.
+    pub fn shared(&self) -> &dyn Code {
+        &*self.shared
+    }
+
+    fn of(&self, wall: &NamedWall) -> &dyn Code {
+        self.own.get(&wall.entry).map_or(&*self.shared, |own| &**own)
+    }
+}
+
 /// Checks every wall on some threads; walls that are alike stay in their order.
-pub fn check_walls<'a>(code: &'a dyn Code, walls: &'a [NamedWall], threads: usize) -> WallVerdicts<'a> {
+pub fn check_walls<'a>(codes: &'a WallCodes, walls: &'a [NamedWall], threads: usize) -> WallVerdicts<'a> {
+    let code = codes.shared();
     let one = |index: usize| {
-        let NamedWall { name, parameters, floors } = &walls[index];
-        let verdict = code.check(Subject { parameters, floors: floors.as_ref() });
+        let NamedWall { name, parameters, floors, assumed, .. } = &walls[index];
+        let subject = Subject { parameters, floors: floors.as_ref(), assumed };
+        let verdict = codes.of(&walls[index]).check(subject);
         Ok::<_, Infallible>((name.as_str(), verdict))
     };
     let Ok(mut walls) = parallel::map(walls.len(), threads, one);

@@ -58,7 +58,7 @@ pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> V
 
 fn outcome(text: &str, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {
     let code = read(&CheckFile::parse(NO_FIELD, text)?)?;
-    let verdict = code.check(Subject { parameters, floors: None })?;
+    let verdict = code.check(Subject::new(parameters))?;
     let figure = verdict.details.figure()?;
     let plot = Plot { size: [width, (0.5 * width).clamp(200.0, 270.0)], ..figure.plot };
     let mut outcome = verdict.summary();

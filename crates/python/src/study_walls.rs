@@ -26,7 +26,7 @@ pub(crate) fn named_walls(
                 unused.push((name, names));
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
-            walls.push(NamedWall { name: name.clone(), parameters, floors });
+            walls.push(NamedWall { floors, ..NamedWall::new(name.clone(), parameters) });
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }

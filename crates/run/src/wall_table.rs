@@ -7,7 +7,7 @@ use ground_motion::columns::{Columns, Fault, Name, Numbers, Row, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
-use crate::walls::{NamedWall, wall_parameters};
+use crate::walls::{NamedWall, assumed, wall_parameters};
 
 /// Largest table that is read.
 const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -64,7 +64,12 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             let message = "the wall has a name and no value; write one in a column, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         }
-        walls.push(NamedWall::new(wall, scene.parameters.clone()));
+        let cells: Vec<bool> = row.cells().map(|cell| !cell.is_empty()).collect();
+        let is_stated = |_: &str, name: &str| {
+            names.iter().position(|column| *column == name).is_some_and(|at| cells.get(at) == Some(&true))
+        };
+        let assumed = assumed(is_stated);
+        walls.push(NamedWall { assumed, ..NamedWall::new(wall, scene.parameters.clone()) });
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;

@@ -25,12 +25,30 @@ pub struct NamedWall {
     pub parameters: Parameters,
     /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
     pub floors: Option<Floors>,
+    /// Those of [`DECIDING`] that nobody stated.
+    pub assumed: Vec<&'static str>,
+    /// The place of its table in the list of walls that was read.
+    pub entry: usize,
+}
+
+/// Parameters without which a wall is not checked, with their groups: no default decides a verdict.
+pub const DECIDING: [(&str, &str); 5] = [
+    ("geometry", "height"),
+    ("geometry", "thickness"),
+    ("geometry", "density"),
+    ("geometry", "hinge_ratio"),
+    ("force_law", "a1"),
+];
+
+/// Returns those of [`DECIDING`] that are not stated.
+pub fn assumed(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
+    DECIDING.into_iter().filter(|(group, name)| !is_stated(group, name)).map(|(_, name)| name).collect()
 }
 
 impl NamedWall {
     /// Makes a wall on the ground.
     pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        Self { name: name.into(), parameters, floors: None }
+        Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), entry: 0 }
     }
 }
 
@@ -48,8 +66,8 @@ pub struct WallEntry {
 /// Source of a wall.
 #[derive(Clone, Debug)]
 pub enum WallSource {
-    /// Parameters in the study file itself.
-    Inline(Box<Parameters>),
+    /// Parameters in the study file itself, and those of [`DECIDING`] that it does not state.
+    Inline(Box<Parameters>, Vec<&'static str>),
     /// A scene file, relative to the study file, and the line that names it.
     Scene(PathBuf, usize),
     /// A table of many walls (CSV), relative to the study file, and the line that names it.
@@ -68,6 +86,9 @@ tables! {
         table: Option<PathBuf>,
         /// The floors that support the wall.
         supports: Option<Spanned<SupportsTable>>,
+        /// What a check states of this wall alone, over the file's `[check]`.
+        #[serde(default)]
+        check: Option<IgnoredAny>,
         /// Shape, mass and loads.
         #[serde(default)]
         geometry: Group,
@@ -166,6 +187,8 @@ pub fn entries(
 
 fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, SceneError> {
     let spec = table.get_ref();
+    // crates/check reads it
+    let _ = spec.check;
     let [geometry, force_law, impact, tie, solver] = WALL_GROUPS;
     let groups = [
         (geometry, &spec.geometry),
@@ -198,7 +221,11 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
     for (name, group) in groups {
         apply_group(&mut parameters, name, group, place)?;
     }
-    let source = WallSource::Inline(Box::new(parameters));
+    let is_stated = |group: &str, name: &str| {
+        let keys = groups.iter().find(|(own, _)| *own == group).map(|(_, keys)| *keys);
+        keys.is_some_and(|keys| keys.keys().any(|key| key.get_ref() == name))
+    };
+    let source = WallSource::Inline(Box::new(parameters), assumed(is_stated));
     Ok(WallEntry { name: spec.name.clone(), source, floors: None })
 }
 
@@ -243,7 +270,7 @@ pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
         apply_group(&mut parameters, group, &entries, place)?;
     }
     let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
-    Ok(NamedWall { name, parameters, floors })
+    Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })
 }
 
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
@@ -261,9 +288,10 @@ pub fn read_walls(
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut walls = Vec::new();
     inputs.push(path.to_owned());
-    for entry in walls_of(&name, text)? {
+    for (place, entry) in walls_of(&name, text)?.into_iter().enumerate() {
         // a check uses neither the motion nor the damping of a scene
-        walls.extend(self::walls(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?);
+        let found = self::walls(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?;
+        walls.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
     }
     check_unique("walls", walls.iter().map(|wall| &wall.name))
         .map_err(|reason| SceneError::File { file: name, reason })?;
@@ -292,9 +320,9 @@ pub fn walls(
         message: format!("{what}: {error}"),
     };
     match entry.source {
-        WallSource::Inline(parameters) => {
+        WallSource::Inline(parameters, assumed) => {
             let name = entry.name.unwrap_or_default();
-            Ok(vec![NamedWall { name, parameters: *parameters, floors: entry.floors }])
+            Ok(vec![NamedWall { floors: entry.floors, assumed, ..NamedWall::new(name, *parameters) }])
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
@@ -305,9 +333,13 @@ pub fn walls(
             Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
         }
         WallSource::Scene(path, line) => {
-            inputs.push(folder.join(&path));
-            let scene =
-                Scene::read(&folder.join(&path)).map_err(|error| at(line, "a wall's scene", error))?;
+            let file = folder.join(&path);
+            inputs.push(file.clone());
+            let scene = Scene::read(&file).map_err(|error| at(line, "a wall's scene", error))?;
+            let text = std::fs::read_to_string(&file).unwrap_or_default();
+            let document: toml::Table = text.parse().unwrap_or_default();
+            let is_stated =
+                |group: &str, name: &str| document.get(group).and_then(|group| group.get(name)).is_some();
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
@@ -320,7 +352,8 @@ pub fn walls(
                 ignored.push((name.clone(), warning));
             }
             let floors = entry.floors.or(scene.floors);
-            Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
+            let assumed = assumed(is_stated);
+            Ok(vec![NamedWall { floors, assumed, ..NamedWall::new(name, scene.parameters) }])
         }
     }
 }

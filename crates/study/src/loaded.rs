@@ -154,7 +154,7 @@ fn warn(
     (models, measure): (&[Model], &IntensityMeasure),
     warnings: &mut Vec<String>,
 ) {
-    for NamedWall { name, parameters, floors } in walls {
+    for NamedWall { name, parameters, floors, .. } in walls {
         let made = Wall::new(parameters).ok();
         let about_work =
             made.iter().flat_map(Wall::warnings).filter(|warning| warning.is_about_work()).cloned();

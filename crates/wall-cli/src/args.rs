@@ -100,14 +100,19 @@ impl SceneArguments {
 
     /// Applies `--set`, after a motion may have changed the start.
     pub(crate) fn apply(&self, scene: &mut Scene) -> Result<()> {
-        for assignment in &self.set {
-            let Some((name, value)) = assignment.split_once('=') else {
-                bail!("--set {assignment}: expected NAME=VALUE, such as --set xi=0.03");
-            };
-            scene.set(name.trim(), value).with_context(|| format!("--set {assignment}"))?;
-        }
-        Ok(())
+        apply_set(&self.set, scene)
     }
+}
+
+/// Applies assignments to a scene.
+pub(crate) fn apply_set(set: &[String], scene: &mut Scene) -> Result<()> {
+    for assignment in set {
+        let Some((name, value)) = assignment.split_once('=') else {
+            bail!("--set {assignment}: expected NAME=VALUE, such as --set xi=0.03");
+        };
+        scene.set(name.trim(), value).with_context(|| format!("--set {assignment}"))?;
+    }
+    Ok(())
 }
 
 /// Replaces what Rust says of a text that is no number.

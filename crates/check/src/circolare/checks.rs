@@ -1,21 +1,21 @@
-//! The static checks of a wall, side by side, and what governs.
+//! The static checks of a side, and what governs a wall.
 
 use rocking_wall::scene::Floors;
-use rocking_wall::wall::{Parameters, Wall, Warning};
+use rocking_wall::wall::{Body, Warning};
 
+use super::case::{Case, Demands};
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
 use super::floor::Mode;
-use super::statement::{Source, StateStatement, Statement};
-use super::table::{Method, UseClass};
-use super::verdict::{
-    ActivationCheck, Checked, Deciding, DisplacementCheck, DynamicCheck, Governs, Outcome, Side, SideVerdict,
-    SideVerdicts, TieBreak,
-};
+use super::side_verdict::{ActivationCheck, DisplacementCheck, TieBreak};
+use super::statement::Statement;
+use super::states::StateStatement;
+use super::table::{AtActivation, Method, UseClass};
+use super::tie::TieAtLimit;
+use super::verdict::{Checked, Deciding, DynamicCheck, Governs, Outcome, Side, SideVerdicts};
 use super::{ENTRY, LimitState};
 use crate::code::Subject;
 use crate::error::CheckError;
-use crate::site::Records;
 
 /// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
 fn period_factor(state: LimitState) -> f64 {
@@ -24,6 +24,12 @@ fn period_factor(state: LimitState) -> f64 {
         LimitState::Slc => 1.56,
     }
 }
+
+/// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
+/// C8.7.1.2.1.6 \[-\].
+pub const LARGEST_LOSS: f64 = 0.5;
+/// Largest `u_y`/`u_0` of a tie that acts at the activation \[-\].
+const SOFTEST: f64 = 0.10;
 
 impl Statement {
     /// Checks a wall.
@@ -42,7 +48,7 @@ impl Statement {
     /// "#;
     /// let statement = Statement::read(&CheckFile::parse("scene.toml", text)?)?;
     /// let parameters = Parameters::default();
-    /// let checked = statement.checked(Subject { parameters: &parameters, floors: None })?;
+    /// let checked = statement.checked(Subject::new(&parameters))?;
     /// assert!(!checked.outcome.passed && (checked.outcome.governs.zeta - 0.855812).abs() < 5e-7);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -52,79 +58,71 @@ impl Statement {
     /// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they
     /// may be the cause.
     pub fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
-        let Subject { parameters, floors } = subject;
-        self.check_wall(parameters, floors).map_err(|error| {
-            let of_wall = Warning::unusual(parameters);
-            error.with_doubts(of_wall.chain(super::warnings::improbable(self, floors)).collect())
+        self.check_wall(subject).map_err(|error| {
+            let of_wall = Warning::unusual(subject.parameters);
+            error.with_doubts(of_wall.chain(super::warnings::improbable(self, subject.floors)).collect())
         })
     }
 
-    fn check_wall<'a>(
-        &'a self,
-        parameters: &'a Parameters,
-        floors: Option<&'a Floors>,
-    ) -> Result<Checked<'a>, CheckError> {
-        let wall = Wall::new(parameters)?;
-        let mut warnings = super::warnings::of_statement(self, parameters, floors, &wall);
-        let mut demands = [const { None }; 3];
-        for given in self.states.iter().flatten() {
-            let demand = demand(given, floors, &wall, &self.records)?;
-            warnings.extend(super::warnings::of_demand(given.state, &demand));
-            demands[given.state as usize] = Some(demand);
+    fn check_wall<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
+        let case = Case::new(self, subject)?;
+        let mut sides = SideVerdicts { positive: None, negative: None };
+        let mut warnings = Vec::new();
+        for sign in case.sides().take(if case.alike { 1 } else { 2 }) {
+            let (verdict, found) = super::sides::side(&case, sign)?;
+            warnings.extend(found);
+            *sides.of_mut(Side::of(sign)) = Some(verdict);
         }
-        let mut sides = [None, None];
-        for sign in wall.sides() {
-            let curve = Curve::new(&wall, parameters, self, sign)?;
-            sides[Side::of(sign) as usize] = Some(side(&curve, self, &demands)?);
-            warnings.extend(super::warnings::of_side(&curve, self, &demands));
+        if case.alike {
+            sides.negative.clone_from(&sides.positive);
         }
-        let [positive, negative] = sides;
-        let sides = SideVerdicts { positive, negative };
-        warnings.extend(super::warnings::of_periods(&sides));
-        let dynamic = super::dynamic::check(parameters, floors, self, &sides)?;
-        warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(parameters, self)));
-        let mut seen = std::collections::BTreeSet::new();
-        warnings.retain(|warning| seen.insert(warning.clone()));
+        let floors = subject.floors;
+        let dynamic = super::dynamic::check(subject.parameters, &case, &sides)?;
         let governs = governing(self, &sides, dynamic.as_ref())?;
         let passed = governs.zeta >= 1.0
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
-        let alike = wall.has_equal_sides();
+        // the wall as it is drawn: with the hinge of the side that governs
+        let mut parameters = case.parameters.clone();
+        let hinge = sides.of(governs.side).or(sides.iter().next().map(|(_, side)| side));
+        parameters.hinge_ratio = hinge.and_then(|side| side.hinge).unwrap_or(parameters.hinge_ratio);
+        let wall = super::sides::drawn(&parameters)?;
+        let demands = case.demands_at(wall.body())?;
+        let of_statement = super::warnings::of_statement(self, &parameters, floors, &wall);
+        let of_demands = super::warnings::of_demands(self, &demands);
+        warnings.splice(0..0, of_statement.into_iter().chain(of_demands));
+        let of_sides = sides.iter().flat_map(|(_, side)| super::warnings::of_side(side, self, &demands));
+        warnings.extend(of_sides.collect::<Vec<_>>());
+        warnings.extend(super::warnings::of_periods(&sides));
+        warnings.extend(super::warnings::of_verdict(&case, &sides, passed));
+        warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(&case)));
+        let mut seen = std::collections::BTreeSet::new();
+        warnings.retain(|warning| seen.insert(warning.clone()));
+        let alike = case.alike;
         let outcome = Outcome { code: ENTRY.name, passed, governs, alike, sides, dynamic, warnings };
-        Ok(Checked { statement: self, parameters, floors, wall, demands, outcome })
+        Ok(Checked { statement: self, parameters, floors, wall, rule: case.rule, demands, outcome })
     }
-}
 
-/// Makes the demand of a limit state.
-fn demand(
-    given: &StateStatement,
-    floors: Option<&Floors>,
-    wall: &Wall,
-    records: &Records,
-) -> Result<Demand, CheckError> {
-    match &given.source {
-        Source::Code(ground) => {
-            let modes = if given.modes.is_empty() {
-                modes_of_storeys(given, floors, wall)?
-            } else {
-                given.modes.clone()
-            };
-            Ok(given.floor(*ground, modes)?.map_or(Demand::Ground(*ground), Demand::Floor))
+    /// Returns whether a static check decides. The runs of the dynamic method take the hinge of the checks by
+    /// displacement.
+    pub(super) fn decides(&self, check: Deciding) -> bool {
+        match check {
+            Deciding::Sld => self.table.use_class == Some(UseClass::IV),
+            Deciding::SlvWithQ => self.table.method == Method::Linear,
+            Deciding::Slv | Deciding::Slc => self.table.method != Method::Linear,
         }
-        Source::Points(points, damping) => Ok(Demand::Points(points.clone(), *damping)),
-        Source::Records => Ok(Demand::Records(records.felt(floors, wall)?)),
     }
 }
 
 /// The modes of the storeys of a scene, `γ_k` `ψ_k` by the weights of the wall's supports. Their periods are
 /// in proportion where the limit state has its own T₁.
-fn modes_of_storeys(
+pub(super) fn modes_of_storeys(
     given: &StateStatement,
     floors: Option<&Floors>,
-    wall: &Wall,
+    body: &Body,
 ) -> Result<Vec<Mode>, CheckError> {
     let Some(floors) = floors else { return Ok(Vec::new()) };
-    let (bottom, top) = floors.supports(wall.body().mechanism)?;
-    let [at_bottom, at_top] = wall.body().support_weights;
+    let (bottom, top) = floors.supports(body.mechanism)?;
+    let [at_bottom, at_top] = body.support_weights;
     let chain = floors.storeys();
     let shape = |floor: usize, mode: usize| if floor == 0 { 0.0 } else { chain.participation(mode, floor) };
     let periods = chain.periods();
@@ -138,76 +136,131 @@ fn modes_of_storeys(
     Ok(if modes.iter().all(|mode| mode.participation == 0.0) { Vec::new() } else { modes })
 }
 
-fn side(
-    curve: &Curve<'_>,
-    statement: &Statement,
-    demands: &[Option<Demand>; 3],
-) -> Result<SideVerdict, CheckError> {
-    let of = |state: LimitState| statement.state(state).zip(demands[state as usize].as_ref());
-    let sld = of(LimitState::Sld)
-        .map(|(given, demand)| activation(curve, statement, given, demand, given.damping, 1.0))
-        .transpose()?;
-    let q = statement.behaviour_factor;
-    // a spectrum of another damping than that of the activation leaves this check out
-    let slv_q = of(LimitState::Slv)
-        .filter(|(given, demand)| {
-            statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
-        })
-        .map(|(given, demand)| activation(curve, statement, given, demand, given.activation_damping, q))
-        .transpose()?;
-    let floor = sld.map(|sld| sld.ag);
-    let by_displacement = |state: LimitState| {
-        of(state).map(|(given, demand)| displacement(curve, given, demand, floor)).transpose()
-    };
-    let (slv, slc) = (by_displacement(LimitState::Slv)?, by_displacement(LimitState::Slc)?);
-    if let (Some(slv), Some(slc)) = (slv, slc)
-        && slc.d < slv.d
-    {
-        let message = format!("SLC comes before SLV: d_SLC = {} m is below d_SLV = {} m", slc.d, slv.d);
-        return Err(CheckError::value(&["SLC", "displacement"], message));
-    }
-    Ok(SideVerdict {
-        alpha0: curve.alpha0,
-        e_star: 1.0,
-        mass: curve.mass,
-        a0: curve.a0(),
-        d0: curve.d0(),
-        t0: curve.elastic.period,
-        dy: curve.elastic.displacement,
-        ay: curve.elastic.acceleration,
-        d_per_u: curve.stretch,
-        sld,
-        slv_q,
-        slv,
-        slc,
-        acting_force: curve.acting,
-        pushed_weight: curve.pushed_weight,
-        tie_break: curve.tie_break(),
-        corners: curve.corners(),
-    })
+/// The checks of a side; `None` for one that is not made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Checks {
+    pub(super) sld: Option<ActivationCheck>,
+    pub(super) slv_q: Option<ActivationCheck>,
+    pub(super) slv: Option<DisplacementCheck>,
+    pub(super) slc: Option<DisplacementCheck>,
 }
 
-/// C8.7.1.2.1.5 with the capacity times `factor`: `a_0` of a wall that is held, or `a_y`, over FC.
+impl Checks {
+    pub(super) fn new(curve: &Curve, statement: &Statement, demands: &Demands) -> Result<Self, CheckError> {
+        let of = |state: LimitState| statement.state(state).zip(demands[state as usize].as_ref());
+        let sld = of(LimitState::Sld)
+            .map(|(given, demand)| activation(curve, statement, (given, demand), given.damping, 1.0))
+            .transpose()?;
+        let q = statement.behaviour_factor;
+        // a spectrum of another damping than that of the activation leaves this check out
+        let slv_q = of(LimitState::Slv)
+            .filter(|(given, demand)| {
+                statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
+            })
+            .map(|(given, demand)| activation(curve, statement, (given, demand), given.activation_damping, q))
+            .transpose()?;
+        let floor = sld.map(|sld| sld.ag);
+        let by_displacement = |state: LimitState| {
+            of(state).map(|(given, demand)| displacement(curve, given, demand, floor)).transpose()
+        };
+        let (slv, slc) = (by_displacement(LimitState::Slv)?, by_displacement(LimitState::Slc)?);
+        if let (Some(slv), Some(slc)) = (slv, slc)
+            && slc.d < slv.d
+        {
+            let message = format!("SLC comes before SLV: d_SLC = {} m is below d_SLV = {} m", slc.d, slv.d);
+            return Err(CheckError::value(&["SLC", "displacement"], message));
+        }
+        Ok(Self { sld, slv_q, slv, slc })
+    }
+
+    /// `ζ_E` of the checks, in the order of [`Deciding::ALL`]; infinite for one that is not made.
+    pub(super) fn zetas(&self) -> [f64; 4] {
+        let of = |zeta: Option<f64>| zeta.unwrap_or(f64::INFINITY);
+        [
+            of(self.sld.map(|check| check.ratio)),
+            of(self.slv_q.map(|check| check.ratio)),
+            of(self.slv.map(|check| check.zeta)),
+            of(self.slc.map(|check| check.zeta)),
+        ]
+    }
+
+    /// The check that governs this side, and its `ζ_E`; infinite where none decides.
+    pub(super) fn governing(&self, statement: &Statement) -> (Deciding, f64) {
+        let all = Deciding::ALL.into_iter().zip(self.zetas());
+        let deciding = all.filter(|(check, _)| statement.decides(*check));
+        deciding.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((Deciding::Slv, f64::INFINITY))
+    }
+}
+
+/// C8.7.1.2.1.5 with the capacity times `factor`: `a_0` of a wall that is held, or `a_y`, over FC, with the
+/// tie at its strength where it counts at the activation.
 fn activation(
-    curve: &Curve<'_>,
+    curve: &Curve,
     statement: &Statement,
-    given: &StateStatement,
-    demand: &Demand,
+    (given, demand): (&StateStatement, &Demand),
     xi: f64,
     factor: f64,
 ) -> Result<ActivationCheck, CheckError> {
-    let capacity = factor * curve.elastic.acceleration / statement.confidence_factor;
-    let demand = demand.acceleration(given.state, curve.elastic.period, xi)?;
+    let pull = tie_at_activation(curve, statement)?;
+    let own = curve.elastic.acceleration;
+    let t0 = if pull > 0.0 { curve.tied_period() } else { curve.elastic.period };
+    let acceleration = own + curve.of_force(pull);
+    let capacity = factor * acceleration / statement.confidence_factor;
+    let required = match curve.tie() {
+        // N = max(0, [FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
+        Some(tie) if tie.slack == 0.0 => {
+            let demand = demand.acceleration(given.state, curve.tied_period(), xi)?;
+            let lacking = statement.confidence_factor * demand / factor - own;
+            Some((lacking / curve.of_force(tie.lever)).max(0.0))
+        }
+        _ => None,
+    };
+    let demand = demand.acceleration(given.state, t0, xi)?;
     let ratio = capacity / demand;
-    Ok(ActivationCheck { capacity, demand, ratio, ag: ratio * given.ag })
+    Ok(ActivationCheck {
+        hinge: curve.hinge,
+        capacity,
+        demand,
+        ratio,
+        ag: ratio * given.ag,
+        required,
+        acceleration,
+        t0,
+    })
 }
 
-/// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
-/// C8.7.1.2.1.6 \[-\].
-pub const LARGEST_LOSS: f64 = 0.5;
+/// A `N_y`, the force of the tie at the place of F at the activation; 0 where it does not count \[N\].
+///
+/// # Errors
+/// [`CheckError`] of a tie that does not act there.
+pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckError> {
+    if statement.at_activation() == AtActivation::None {
+        return Ok(0.0);
+    }
+    let Some(tie) = curve.tie() else { return Ok(0.0) };
+    let refused = |message: String| Err(CheckError::value(&["tie", "at_activation"], message));
+    let Some(strength) = tie.strength else {
+        return refused("at_activation = \"yield\" needs tie_strength, N_y in N, or a bar".into());
+    };
+    if tie.slack > 0.0 {
+        return refused(format!(
+            "at_activation = \"yield\": with tie_slack = {} m the wall rocks before the tie pulls; state \
+             \"none\", or a tight tie",
+            tie.slack
+        ));
+    }
+    let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
+    if yields > limit {
+        return refused(format!(
+            "at_activation = \"yield\": the tie reaches its strength at u_y = {yields} m, beyond {SOFTEST} \
+             u_0 = {limit} m; a tie so soft does not act at the activation"
+        ));
+    }
+    Ok(tie.lever * strength)
+}
 
 /// Returns the displacement u of a limit state, and whether the tie breaks there, C8.7.1.2.1.6 \[m\].
-fn limit(curve: &Curve<'_>, given: &StateStatement) -> Result<(f64, bool), CheckError> {
+fn limit(curve: &Curve, given: &StateStatement) -> Result<(f64, bool), CheckError> {
     if given.state == LimitState::Slc {
         let of_curve = 0.60 * curve.zero;
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
@@ -226,7 +279,7 @@ fn limit(curve: &Curve<'_>, given: &StateStatement) -> Result<(f64, bool), Check
 }
 
 fn displacement(
-    curve: &Curve<'_>,
+    curve: &Curve,
     given: &StateStatement,
     demand: &Demand,
     floor: Option<f64>,
@@ -237,15 +290,16 @@ fn displacement(
     if a <= 0.0 {
         return Err(CheckError::wall(format!("{state}: a is not positive at d = {d} m")));
     }
-    let period = Curve::period(period_factor(state), d, a);
-    let t0 = curve.elastic.period;
-    let elastic = curve.elastic.displacement;
-    if elastic >= d || t0 >= period {
+    let share = if state == LimitState::Slc { 0.60 } else { 0.40 };
+    let (elastic, end) = (curve.elastic.displacement, share * curve.d0());
+    if end <= elastic {
         return Err(CheckError::wall(format!(
-            "the elastic branch reaches d_{state}: the wall does not rock before {state} (it ends at d_y = \
-             {elastic} m with T0 = {t0} s; d_{state} = {d} m with T = {period} s)"
+            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {share:.2} d_0 = {end} m: lower \
+             a1 or raise E"
         )));
     }
+    let period = Curve::period(period_factor(state), d, a);
+    let t0 = curve.tied_period().min(period);
     let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
         demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
@@ -253,7 +307,9 @@ fn displacement(
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch]));
     Ok(DisplacementCheck {
+        hinge: curve.hinge,
         d,
         a,
         period,
@@ -265,6 +321,8 @@ fn displacement(
         zeta,
         limited_by_tie,
         raised,
+        tie,
+        d0: curve.d0(),
     })
 }
 
@@ -274,24 +332,17 @@ fn governing(
     sides: &SideVerdicts,
     dynamic: Option<&DynamicCheck>,
 ) -> Result<Governs, CheckError> {
+    let is_dynamic = statement.table.method == Method::Dynamic;
     let mut all = Vec::new();
     for (side, verdict) in sides.iter() {
-        let mut add = |limit_state, zeta: Option<f64>| {
-            all.extend(zeta.map(|zeta| Governs { side, limit_state, zeta }));
-        };
-        if statement.table.use_class == Some(UseClass::IV) {
-            add(Deciding::Sld, verdict.sld.map(|check| check.ratio));
-        }
-        match statement.table.method {
-            Method::Nonlinear => {
-                add(Deciding::Slv, verdict.slv.map(|check| check.zeta));
-                add(Deciding::Slc, verdict.slc.map(|check| check.zeta));
+        for (limit_state, zeta) in Deciding::ALL.into_iter().zip(verdict.checks().zetas()) {
+            let by_runs = is_dynamic && limit_state != Deciding::Sld;
+            if statement.decides(limit_state) && !by_runs && zeta.is_finite() {
+                all.push(Governs { side, limit_state, zeta });
             }
-            Method::Linear => add(Deciding::SlvWithQ, verdict.slv_q.map(|check| check.ratio)),
-            Method::Dynamic => {}
         }
     }
-    if statement.table.method == Method::Dynamic {
+    if is_dynamic {
         let Some(dynamic) = dynamic else {
             let message = "method = \"dynamic\" needs records; add [check.records] with files";
             return Err(CheckError::value(&["method"], message));

@@ -16,11 +16,13 @@
 use std::f64::consts::{PI, TAU};
 
 use rocking_wall::variables::{ForceLaw, Mechanism};
-use rocking_wall::wall::{Kinematics, Parameters, Tie, Wall};
+use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
 
-use super::statement::Statement;
+use super::case::Case;
+use super::set_back::SetBack;
+use super::side_verdict::TieBreak;
 use super::table::Activation;
-use super::verdict::TieBreak;
+use super::tie;
 use crate::error::CheckError;
 
 /// κ of [C8.7.1.7] for a cantilever and for vertical bending \[-\].
@@ -38,12 +40,20 @@ pub(super) struct Elastic {
     pub(super) acceleration: f64,
 }
 
-/// The curve of one side.
-pub(super) struct Curve<'a> {
-    wall: &'a Wall,
+/// The curve of one side, with the hinge of a strip in one place.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    statics: Statics,
     sign: f64,
     activation: Activation,
     confidence_factor: f64,
+    /// Whether the tie counts.
+    tied: bool,
+    /// Where the hinge of a strip is, of h \[-\].
+    pub(super) hinge: Option<f64>,
+    /// Set-backs of the hinges, and F0'/F0.
+    pub(super) set_back: SetBack,
+    pub(super) a3: f64,
     /// Σ (P + Q) δ over the work of F per unit of u \[N\].
     pub(super) pushed_weight: f64,
     gravity: f64,
@@ -60,21 +70,33 @@ pub(super) struct Curve<'a> {
     pub(super) elastic: Elastic,
 }
 
-impl<'a> Curve<'a> {
-    /// Makes the curve of the side of `sign`.
+impl Curve {
+    /// Makes the curve of the side of `sign` with the hinge of a strip at `hinge` h; `tied` says whether the
+    /// tie counts.
     ///
     /// # Errors
-    /// [`CheckError`] of a wall that the code does not cover, or of a statement that is missing.
+    /// [`CheckError`] of a wall without strength, or of one whose force does not vanish.
     pub(super) fn new(
-        wall: &'a Wall,
-        parameters: &Parameters,
-        statement: &Statement,
+        case: &Case<'_>,
         sign: f64,
+        hinge: Option<f64>,
+        tied: bool,
     ) -> Result<Self, CheckError> {
-        let activation = activation(wall, parameters, statement)?;
-        let moved = moved_overburden(parameters, statement)?;
-        let body = wall.body();
+        let mut parameters = case.parameters.clone();
+        if let Some(hinge) = hinge {
+            parameters.hinge_ratio = hinge;
+        }
+        let mut statics = Statics::new(&parameters)?;
+        let (mut set_back, mut a3) = (SetBack::default(), 1.0);
+        if let Some(strength) = case.statement.masonry {
+            let (found, force) = SetBack::new(statics.body(), &parameters, strength, sign)?;
+            (set_back, a3) = (found, force / statics.body().strength.of(sign));
+            parameters.a3_of_sides = Some(Sides { positive: a3, negative: a3 });
+            statics = Statics::new(&parameters)?;
+        }
+        let body = statics.body();
         let gravity = body.weight / body.mass;
+        let moved = case.moved;
         let (pushed_weight, stretch) = match body.mechanism {
             Mechanism::Parapet => {
                 let pushed = body.weight + 2.0 * moved;
@@ -82,31 +104,37 @@ impl<'a> Curve<'a> {
             }
             Mechanism::VerticalSpanning => (body.weight, 0.5),
         };
-        let zero = wall.force_end().of(sign);
+        let zero = statics.force_end().of(sign);
         if !(zero > 0.0 && zero.is_finite()) {
             let message = "the restoring force never falls to zero, so d_0 does not exist";
             return Err(CheckError::wall(message));
         }
         // F_act: the softening line at u = 0, at most F0; a law with a plateau has its largest force
-        let acting = match activation {
-            _ if has_plateau(parameters) => wall.largest_own_force(sign),
-            _ => wall.softening_force(sign, 0.0).min(body.strength.of(sign)),
+        let acting = if has_plateau(&parameters) {
+            statics.largest_own_force(sign)
+        } else {
+            statics.softening_force(sign, 0.0).min(body.strength.of(sign))
         };
+        let mass = (body.weight + moved) / gravity;
         let mut curve = Self {
-            wall,
+            statics,
             sign,
-            activation,
-            confidence_factor: statement.confidence_factor,
+            activation: case.activation,
+            confidence_factor: case.statement.confidence_factor,
+            tied,
+            hinge,
+            set_back,
+            a3,
             pushed_weight,
             gravity,
             acting,
             stretch,
-            mass: (body.weight + moved) / gravity,
+            mass,
             alpha0: acting / pushed_weight,
             zero,
             elastic: Elastic { period: 0.0, displacement: 0.0, acceleration: 0.0 },
         };
-        curve.elastic = curve.elastic_branch(parameters, statement.table.young_modulus);
+        curve.elastic = curve.elastic_branch(&parameters, case.young_modulus);
         Ok(curve)
     }
 
@@ -120,60 +148,101 @@ impl<'a> Curve<'a> {
         self.stretch * self.zero
     }
 
+    /// Whether the wall is held before it rocks.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.activation == Activation::Rigid
+    }
+
+    /// The body, with the hinge where it is.
+    pub(super) fn body(&self) -> &Body {
+        self.statics.body()
+    }
+
     /// The tie that holds this side.
-    pub(super) fn tie(&self) -> Option<&'a Tie> {
-        self.wall.tie().filter(|tie| tie.holds(self.sign))
+    pub(super) fn tie(&self) -> Option<&Tie> {
+        self.statics.tie().filter(|tie| self.tied && tie.holds(self.sign))
+    }
+
+    /// The acceleration of a force at the place of F, without FC: g F/(s1 e*) \[m/s²\].
+    pub(super) fn of_force(&self, force: f64) -> f64 {
+        self.gravity * force / self.pushed_weight
+    }
+
+    /// T0 of the wall beside a tie that is tight from the start \[s\].
+    pub(super) fn tied_period(&self) -> f64 {
+        let own = self.elastic.period;
+        let Some(tie) = self.tie().filter(|tie| tie.slack == 0.0 && !self.is_rigid()) else { return own };
+        let stiffness = self.of_force(tie.slope()) / self.stretch;
+        TAU / ((TAU / own).powi(2) + stiffness).sqrt()
     }
 
     /// a at u of the wall without its tie, with FC [C8.7.1.3] \[m/s²\].
     pub(super) fn own(&self, u: f64) -> f64 {
-        self.over_weight(self.own_force(u))
+        self.of_force(self.own_force(u)) / self.confidence_factor
     }
 
-    /// a at u with the tie up to where it breaks, with FC \[m/s²\].
+    /// a at u with the tie up to and including where it breaks, with FC \[m/s²\].
     pub(super) fn tied(&self, u: f64) -> f64 {
-        let holds = |tie: &&Tie| tie.strength_displacement().is_none_or(|breaks| u <= breaks);
-        let tie = self.tie().filter(holds).map_or(0.0, |tie| tie.lever * tie.force(u.copysign(self.sign)));
-        self.over_weight(self.own_force(u) + tie)
+        let pull = self.tie().map_or(0.0, |tie| tie.lever * tie::force(tie, u));
+        self.of_force(self.own_force(u) + pull) / self.confidence_factor
+    }
+
+    /// |u| up to `u_0` at which the curve may have a corner, in order \[m\].
+    fn places(&self) -> Vec<f64> {
+        let mut at = vec![0.0, self.elastic.displacement / self.stretch, self.zero];
+        if self.activation == Activation::Law {
+            at.extend(self.statics.own_corners(self.sign));
+        }
+        if let Some(tie) = self.tie() {
+            at.push(tie.onset());
+            at.extend(tie.strength_displacement());
+            at.extend(tie.fracture_displacement());
+        }
+        at.retain(|u| *u <= self.zero);
+        at.sort_by(f64::total_cmp);
+        at.dedup();
+        at
     }
 
     /// Corners (d, a) of the curve up to `d_0`, with FC, to draw \[m, m/s²\].
     pub(super) fn corners(&self) -> Vec<(f64, f64)> {
-        let first = self.elastic.displacement / self.stretch;
-        let mut at: Vec<f64> = match self.activation {
-            Activation::Rigid | Activation::Beam => vec![0.0, first],
-            Activation::Law => {
-                self.wall.capacity_corners(self.sign).iter().map(|corner| corner.displacement).collect()
+        let breaks = self.tie().and_then(Tie::fracture_displacement);
+        let mut corners = Vec::new();
+        for u in self.places() {
+            corners.push((self.stretch * u, self.tied(u)));
+            if breaks == Some(u) {
+                corners.push((self.stretch * u, self.own(u)));
             }
-        };
-        at.extend(self.tie().map(Tie::onset));
-        let breaks = self.tie().and_then(Tie::strength_displacement);
-        at.extend(breaks.into_iter().flat_map(|u| [u, u * (1.0 + 1e-12)]));
-        at.push(self.zero);
-        at.retain(|u| *u <= self.zero);
-        at.sort_by(f64::total_cmp);
-        at.dedup();
-        at.into_iter().map(|u| (self.stretch * u, self.tied(u))).collect()
+        }
+        corners
     }
 
-    /// Returns what the curve loses where its tie breaks, over its largest a from the end of the elastic
-    /// branch to there; `None` without a tie that breaks.
+    /// Returns what the curve loses for good where its tie breaks, over its largest a; `None` without a tie
+    /// that breaks.
     pub(super) fn tie_break(&self) -> Option<TieBreak> {
-        let tie = self.tie()?;
-        let breaks = tie.strength_displacement()?;
-        // a tie that breaks on the elastic branch leaves that displacement alone
-        let from = (self.elastic.displacement / self.stretch).min(breaks);
-        let corners = self.wall.capacity_corners(self.sign).into_iter().map(|corner| corner.displacement);
-        let reached = corners.chain([from, tie.onset(), breaks]).filter(|u| (from..=breaks).contains(u));
-        let largest = reached.map(|u| self.tied(u)).fold(0.0, f64::max);
-        let [before, after] = [self.tied(breaks), self.own(breaks)];
-        Some(TieBreak { u: breaks, before, after, largest, loss: (before - after) / largest })
+        let u = self.tie()?.fracture_displacement()?;
+        let before = self.tied(u);
+        let after = self.largest_own_from(u);
+        let reached = self.places().into_iter().filter(|place| *place <= u).map(|place| self.tied(place));
+        let largest = reached.fold(before.max(after), f64::max);
+        Some(TieBreak { u, before, after, largest, loss: ((before - after) / largest).max(0.0) })
+    }
+
+    /// The largest a of the wall without its tie from u on, with FC \[m/s²\].
+    fn largest_own_from(&self, u: f64) -> f64 {
+        let force = match self.activation {
+            Activation::Law => self.statics.largest_own_force_from(self.sign, u),
+            Activation::Rigid | Activation::Beam => {
+                self.softening(u.max(self.elastic.displacement / self.stretch))
+            }
+        };
+        self.of_force(force) / self.confidence_factor
     }
 
     fn own_force(&self, u: f64) -> f64 {
         let elastic = self.elastic.displacement / self.stretch;
         match self.activation {
-            Activation::Law => self.wall.own_force(self.sign, u),
+            Activation::Law => self.statics.own_force(self.sign, u),
             Activation::Beam if u < elastic => self.softening(elastic) * (u / elastic),
             Activation::Rigid | Activation::Beam => self.softening(u),
         }
@@ -181,26 +250,20 @@ impl<'a> Curve<'a> {
 
     /// The line from `a_0` at u = 0 to 0 at `u_0` \[N\].
     fn softening(&self, u: f64) -> f64 {
-        self.wall.softening_force(self.sign, u).min(self.wall.body().strength.of(self.sign))
-    }
-
-    fn over_weight(&self, force: f64) -> f64 {
-        self.gravity * force / (self.pushed_weight * self.confidence_factor)
+        self.statics.softening_force(self.sign, u).min(self.statics.body().strength.of(self.sign))
     }
 
     fn elastic_branch(&self, parameters: &Parameters, young_modulus: Option<f64>) -> Elastic {
         match (self.activation, young_modulus) {
             (Activation::Law, _) => {
-                let u1 = self.wall.elastic_end(self.sign);
-                let acceleration = |force: f64| self.gravity * force / self.pushed_weight;
-                let (d1, a1) = (self.stretch * u1, acceleration(self.wall.own_force(self.sign, u1)));
-                let largest = acceleration(self.wall.largest_own_force(self.sign));
+                let u1 = self.statics.elastic_end(self.sign);
+                let (d1, a1) = (self.stretch * u1, self.of_force(self.statics.own_force(self.sign, u1)));
+                let largest = self.of_force(self.statics.largest_own_force(self.sign));
                 // [C8.7.1.6]: a = 4π²/T0² d
                 Elastic { period: TAU * (d1 / a1).sqrt(), displacement: d1, acceleration: largest }
             }
             (Activation::Beam, Some(young_modulus)) => {
-                let body = self.wall.body();
-                let factor = match body.mechanism {
+                let factor = match self.statics.body().mechanism {
                     Mechanism::Parapet => CANTILEVER,
                     Mechanism::VerticalSpanning => BENDING,
                 };
@@ -224,45 +287,6 @@ impl<'a> Curve<'a> {
 }
 
 /// Returns whether the law has a plateau or points of its own, not only a line from `a_0`.
-fn has_plateau(parameters: &Parameters) -> bool {
+pub(super) fn has_plateau(parameters: &Parameters) -> bool {
     parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear
-}
-
-fn activation(wall: &Wall, parameters: &Parameters, statement: &Statement) -> Result<Activation, CheckError> {
-    if parameters.kinematics == Kinematics::Trigonometric {
-        let message = "the curve of the code has small rotations; set kinematics = \"linear\"";
-        return Err(CheckError::wall(message));
-    }
-    let refused = |message: &str| Err(CheckError::value(&["before_activation"], message));
-    match statement.table.before_activation {
-        // transverse walls hold it
-        None if wall.free_side().is_some() && !has_plateau(parameters) => Ok(Activation::Rigid),
-        None => refused(
-            "before_activation is missing: state \"rigid\" (held by transverse walls), \"law\" or \"beam\"",
-        ),
-        Some(Activation::Law) if wall.is_rigid() => {
-            refused("law: force_law = rigid_linear has no elastic branch; state \"rigid\" or \"beam\"")
-        }
-        Some(Activation::Rigid | Activation::Beam) if has_plateau(parameters) => {
-            refused("a trilinear or multilinear law has its own elastic branch; state \"law\"")
-        }
-        Some(activation) => Ok(activation),
-    }
-}
-
-/// r O \[N\].
-fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f64, CheckError> {
-    let refused = |message: &str| Err(CheckError::value(&["overburden_mass"], message));
-    match (parameters.mechanism, statement.table.overburden_mass) {
-        (Mechanism::VerticalSpanning, Some(r)) if r > 0.0 => refused(
-            "overburden_mass: the top of a strip wall is held, its overburden does not move; leave it out",
-        ),
-        (Mechanism::VerticalSpanning, _) => Ok(0.0),
-        (Mechanism::Parapet, None) if parameters.overburden > 0.0 => refused(
-            "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia \
-             goes elsewhere) to 1 (it moves with the wall), more for a mass that only \
-             pushes the wall",
-        ),
-        (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
-    }
 }

@@ -1,19 +1,23 @@
-//! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
+//! The dynamic check, C8.7.1.2.1.9: runs of the wall under records, with both signs.
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
-//! and the strength of a tie are divided by FC, masses stay. The result of a record is the larger of
-//! |d|/threshold on the two sides. The tie of the model does not break: a run that reaches its strength
-//! fails, and so does one that reaches `u_ins`.
+//! and the strength of a tie are divided by FC, masses stay. The result of a record is the largest of
+//! |d|/threshold on the two sides under its two signs. A tie without `tie_ultimate` does not break: a run
+//! that reaches its strength fails. One that has it yields and breaks as in every run.
 
 use record::RecordSolver;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::solver::Motion;
-use rocking_wall::wall::{Parameters, Tie, Wall};
+use rocking_wall::wall::{Parameters, Sides, Tie, Wall};
 
+use super::case::Case;
+use super::compatibility::{Compatibility, Ratios};
+use super::curve::Curve;
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::statement::{Source, StateStatement, Statement};
-use super::table::{Method, RecordScale};
-use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
+use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::states::{Source, StateStatement};
+use super::table::{Method, Polarities, RecordScale};
+use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts};
 use super::{G, LimitState};
 use crate::error::CheckError;
 use crate::site::Records;
@@ -30,27 +34,33 @@ const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
 const HALVINGS: u32 = 10;
 
+/// Shortest period at which records are held against the spectrum \[s\].
+const SHORTEST: f64 = 0.15;
+
 /// Thresholds of both sides; infinite on one to which the wall cannot rock \[m\].
 #[derive(Clone, Copy, Debug)]
 struct Thresholds {
     limit: [f64; 2],
     /// Overturning: `d_0`, or `u_ins` if the model ends earlier.
     end: [f64; 2],
+    /// Where the tie has its strength.
+    strength: [f64; 2],
+    /// Whether a run that reaches the strength of the tie fails.
+    tie_is_end: bool,
 }
 
-/// The judgement of the maxima of some runs.
+/// The maxima of |d| of a run, on both sides \[m\].
+type Maxima = [f64; 2];
+
+/// The judgement of the maxima of some records, each with its signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Judged {
     d: f64,
     ratio: f64,
     beyond_d0: usize,
+    at_strength: usize,
     side: Side,
-}
-
-impl Judged {
-    fn passed(self) -> bool {
-        self.beyond_d0 == 0 && self.ratio >= 1.0
-    }
+    passed: bool,
 }
 
 impl Thresholds {
@@ -60,32 +70,56 @@ impl Thresholds {
                 .map(|(sign, side)| side.as_ref().and_then(|side| value(sign, side)).unwrap_or(f64::INFINITY))
         };
         let end = |sign: f64, side: &SideVerdict| {
-            let tie = wall.tie().filter(|tie| tie.holds(sign)).and_then(Tie::strength_displacement);
-            let u = tie.unwrap_or(f64::INFINITY).min(wall.body().instability.of(sign));
-            Some(side.d0.min(side.d_per_u * u))
+            Some(side.d0.min(side.d_per_u * wall.body().instability.of(sign)))
         };
-        Self { limit: each(&|_, side| limit(side)), end: each(&end) }
+        let strength = |sign: f64, side: &SideVerdict| {
+            let tie = wall.tie().filter(|tie| tie.holds(sign))?;
+            Some(side.d_per_u * tie.strength_displacement()?)
+        };
+        Self {
+            limit: each(&|_, side| limit(side)),
+            end: each(&end),
+            strength: each(&strength),
+            tie_is_end: wall.tie().and_then(Tie::fracture_displacement).is_none(),
+        }
     }
 
-    /// Judges the maxima of |d| of some runs, both sides of each.
-    fn judge(&self, maxima: &[[f64; 2]]) -> Judged {
-        let share = |d: &[f64; 2], side: usize| d[side] / self.limit[side];
-        let used = maxima.iter().map(|d| share(d, 0).max(share(d, 1))).collect();
-        let largest = |side: usize| maxima.iter().map(|d| share(d, side)).fold(0.0, f64::max);
-        let beyond = |d: &&[f64; 2]| d[0] > self.end[0] || d[1] > self.end[1];
+    fn is_beyond(&self, [positive, negative]: Maxima) -> bool {
+        positive > self.end[0] || negative > self.end[1]
+    }
+
+    fn is_at_strength(&self, [positive, negative]: Maxima) -> bool {
+        positive >= self.strength[0] || negative >= self.strength[1]
+    }
+
+    /// Judges the maxima of |d| of some records, each with its signs.
+    fn judge(&self, records: &[Vec<Maxima>]) -> Judged {
+        let share = |d: &Maxima, side: usize| d[side] / self.limit[side];
+        let worst = |runs: &Vec<Maxima>, of: &dyn Fn(&Maxima) -> f64| runs.iter().map(of).fold(0.0, f64::max);
+        let shares = records.iter().map(|runs| worst(runs, &|d| share(d, 0).max(share(d, 1))));
+        let largest =
+            |side: usize| records.iter().map(|runs| worst(runs, &|d| share(d, side))).fold(0.0, f64::max);
+        let count = |such: &dyn Fn(Maxima) -> bool| records.iter().flatten().filter(|d| such(**d)).count();
+        let ratio = 1.0 / combined(shares.collect());
+        let beyond_d0 = count(&|d| self.is_beyond(d));
+        let at_strength = count(&|d| self.is_at_strength(d));
+        let failed = beyond_d0 + if self.tie_is_end { at_strength } else { 0 };
         Judged {
-            d: combined(maxima.iter().map(|d| d[0].max(d[1])).collect()),
-            ratio: 1.0 / combined(used),
-            beyond_d0: maxima.iter().filter(beyond).count(),
+            d: combined(records.iter().map(|runs| worst(runs, &|d| d[0].max(d[1]))).collect()),
+            ratio,
+            beyond_d0,
+            at_strength,
             side: if largest(1) > largest(0) { Side::Negative } else { Side::Positive },
+            passed: failed == 0 && ratio >= 1.0,
         }
     }
 }
 
 impl DynamicCheck {
-    pub(super) fn warnings(&self, parameters: &Parameters, statement: &Statement) -> Vec<String> {
+    pub(super) fn warnings(&self, case: &Case<'_>) -> Vec<String> {
+        let (statement, parameters) = (case.statement, &case.parameters);
         let mut warnings = Vec::new();
-        let count = self.states().next().map_or(0, |(_, state)| state.runs.len());
+        let count = statement.records.named.len();
         if count <= MEAN_COUNTS_FROM {
             let what =
                 if count < MEAN_COUNTS_FROM { "the least favourable one counts" } else { "the mean counts" };
@@ -99,31 +133,78 @@ impl DynamicCheck {
                 "the dynamic model has no mass on top: the overburden loads the wall without inertia".into(),
             );
         }
-        if parameters.tie_stiffness > 0.0 && parameters.tie_strength > 0.0 {
+        if self.tie_is_end {
             warnings.push(
                 "the tie of the dynamic model does not break: a run that reaches its strength fails".into(),
             );
         }
-        for (name, state) in self.states().filter(|(_, state)| state.passed && state.zeta < 1.0) {
-            warnings.push(format!(
-                "{}: the wall passes under the records, and fails under {:.3} of them: the response is not \
-                 monotonic",
-                name.name(),
-                state.zeta
-            ));
+        for (name, state) in self.states() {
+            if state.passed && state.zeta < 1.0 {
+                warnings.push(format!(
+                    "{}: the wall passes under the records, and fails under {:.3} of them: the response is \
+                     not monotonic",
+                    name.name(),
+                    state.zeta
+                ));
+            }
+            let factors = state.runs.iter().map(|run| run.factor);
+            warnings.extend(
+                state.compatibility.iter().flat_map(|own| own.warnings(name.name(), factors.clone())),
+            );
+            let stated = case.floors.into_iter().flat_map(Floors::stated_damping);
+            let xi = statement.state(name.state()).and_then(|given| given.building_damping);
+            if let Some((xi, stated)) = xi.zip(stated.into_iter().find(|stated| Some(*stated) != xi)) {
+                warnings.push(format!(
+                    "{}: the runs have building_damping = {xi} for every mode, not damping_ratio = {stated} \
+                     of [[storeys]]",
+                    name.name()
+                ));
+            }
         }
         warnings
     }
+}
+
+/// The wall of the runs: that of the scene with the tie of the check, its hinge where SLV (or SLC) by
+/// displacement has the smallest `ζ_E`, set back, and its forces over FC. Returns that hinge, too.
+fn divided(
+    parameters: &Parameters,
+    case: &Case<'_>,
+    sides: &SideVerdicts,
+) -> Result<(Parameters, Option<f64>), CheckError> {
+    let mut parameters = case.statement.with_bar(parameters)?;
+    let least = |check: fn(&SideVerdict) -> Option<DisplacementCheck>| {
+        let found = sides.iter().filter_map(|(_, side)| check(side));
+        found.min_by(|a, b| a.zeta.total_cmp(&b.zeta)).map(|check| check.hinge)
+    };
+    let hinge = least(|side| side.slv).or_else(|| least(|side| side.slc)).flatten();
+    parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
+    if case.statement.masonry.is_some() {
+        let a3 = |sign: f64| {
+            let rocks = case.sides().any(|own| own == sign);
+            if rocks { Curve::new(case, sign, hinge, true).map(|curve| curve.a3) } else { Ok(1.0) }
+        };
+        parameters.a3_of_sides = Some(Sides { positive: a3(1.0)?, negative: a3(-1.0)? });
+    }
+    let factor = case.statement.confidence_factor;
+    parameters.gravity /= factor;
+    parameters.overburden /= factor;
+    parameters.tie_stiffness /= factor;
+    parameters.tie_strength /= factor;
+    // these are the tie's own numbers, no longer those of its bar
+    parameters.bar = None;
+    (parameters.u_start, parameters.u_dot_start) = (0.0, 0.0);
+    Ok((parameters, hinge))
 }
 
 /// Runs the dynamic check; `None` without records. Where this check does not decide, a limit state whose site
 /// gives no S is left out.
 pub(super) fn check(
     parameters: &Parameters,
-    floors: Option<&Floors>,
-    statement: &Statement,
+    case: &Case<'_>,
     sides: &SideVerdicts,
 ) -> Result<Option<DynamicCheck>, CheckError> {
+    let (statement, floors) = (case.statement, case.floors);
     let records = &statement.records;
     if records.named.is_empty() {
         return Ok(None);
@@ -132,55 +213,80 @@ pub(super) fn check(
         let message = "the records move the ground: give [[storeys]] in place of [check.building]";
         return Err(CheckError::value(&["building"], message));
     }
-    let factor = statement.confidence_factor;
-    let divided = Parameters {
-        gravity: parameters.gravity / factor,
-        overburden: parameters.overburden / factor,
-        tie_stiffness: parameters.tie_stiffness / factor,
-        tie_strength: parameters.tie_strength / factor,
-        u_start: 0.0,
-        u_dot_start: 0.0,
-        ..parameters.clone()
-    };
+    let (divided, hinge) = divided(parameters, case, sides)?;
     let motion = Motion::of(&divided, divided.tolerance)?;
-    let felt = records.felt(floors, motion.wall())?;
     let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
-    let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
-    let shake = |(record, solver)| Shaking::new(&motion, solver, record, DEFAULT_TAIL);
-    let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch };
-    let state = |state: LimitState, limit: fn(&SideVerdict) -> Option<f64>| {
-        let Some(given) = statement.state(state) else { return Ok(None) };
-        let factors = match factors(statement, given, records) {
-            Err(_) if statement.table.method != Method::Dynamic => return Ok(None),
-            factors => factors?,
+    let decides = statement.table.method == Method::Dynamic;
+    // a wall that is alike on both sides has mirrored runs
+    let is_alike = motion.wall().has_equal_sides();
+    let both = statement.table.polarities == Polarities::Both && !is_alike;
+    let signs: &[f64] = if both { &[1.0, -1.0] } else { &[1.0] };
+    let tie_is_end = motion
+        .wall()
+        .tie()
+        .is_some_and(|tie| tie.strength.is_some() && tie.fracture_displacement().is_none());
+    let state = |state: LimitState, of: fn(&SideVerdict) -> Option<(f64, f64)>| {
+        let Some(given) = statement.state(state) else { return Ok::<_, CheckError>(None) };
+        let longest = sides.iter().filter_map(|(_, side)| Some(of(side)?.1)).fold(0.0, f64::max);
+        let (factors, compatibility) = match scaled(case, given, longest) {
+            Err(_) if !decides => return Ok(None),
+            found => found?,
         };
-        runs.check(&Thresholds::of(motion.wall(), sides, limit), &factors, records).map(Some)
+        // the building of this limit state, as its spectra have it
+        let floors = floors.map(|floors| floors.in_state(given.building_damping, given.building_period));
+        let felt = records.felt(floors.transpose()?.as_ref(), motion.wall().body())?;
+        let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
+        let shake = |(record, solver)| Shaking::new(&motion, solver, record, DEFAULT_TAIL);
+        let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch, signs };
+        let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(of(side)?.0));
+        Ok(Some(DynamicState { compatibility, ..runs.check(&thresholds, &factors, records)? }))
     };
-    let slv = state(LimitState::Slv, |side| side.slv.map(|check| check.d))?;
-    let slc = state(LimitState::Slc, |side| side.slc.map(|check| check.d))?;
-    Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { slv, slc }))
+    let slv = state(LimitState::Slv, |side| side.slv.map(|check| (check.d, check.period)))?;
+    let slc = state(LimitState::Slc, |side| side.slc.map(|check| (check.d, check.period)))?;
+    Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { hinge, tie_is_end, slv, slc }))
 }
 
-/// The factors that bring the peaks of the records to `a_g` S, or 1.
-fn factors(statement: &Statement, given: &StateStatement, records: &Records) -> Result<Vec<f64>, CheckError> {
-    let records = records.named.iter();
-    match (statement.table.record_scale, &given.source) {
-        (RecordScale::None, _) => Ok(records.map(|_| 1.0).collect()),
-        (RecordScale::Ag, Source::Code(ground)) => {
+/// The factors of the records, and their mean spectrum beside that of the ground; `longest` is `T_SLV` or
+/// `T_SLC` \[s\].
+fn scaled(
+    case: &Case<'_>,
+    given: &StateStatement,
+    longest: f64,
+) -> Result<(Vec<f64>, Option<Compatibility>), CheckError> {
+    let statement = case.statement;
+    let (records, scale) = (&statement.records, statement.table.record_scale);
+    let Source::Code(ground) = &given.source else {
+        if scale == RecordScale::None {
+            return Ok((vec![1.0; records.named.len()], None));
+        }
+        let name = if scale == RecordScale::Ag { "ag" } else { "spectrum" };
+        let message =
+            format!("record_scale = {name:?} needs S of F0 and TC; give them, or record_scale = \"none\"");
+        return Err(CheckError::value(&["record_scale"], message));
+    };
+    let first = case.floors.map(|floors| given.building_period.unwrap_or(floors.storeys().periods()[0]));
+    let range = statement.table.record_range;
+    let range = range
+        .unwrap_or([SHORTEST, [2.0, 2.0 * first.unwrap_or(0.0), longest].into_iter().fold(0.0, f64::max)]);
+    let ratios = Ratios::new(records, ground, range)?;
+    let factors: Vec<f64> = match scale {
+        RecordScale::None => vec![1.0; records.named.len()],
+        RecordScale::Ag => {
             let peak = given.ag * G * ground.s;
-            Ok(records.map(|record| peak / record.motion.peak()).collect())
+            records.named.iter().map(|record| peak / record.motion.peak()).collect()
         }
-        (RecordScale::Ag, _) => {
-            let message = "record_scale = \"ag\" needs S of F0 and TC; give them, or record_scale = \"none\"";
-            Err(CheckError::value(&["record_scale"], message))
-        }
-    }
+        RecordScale::Spectrum => ratios.factors(),
+    };
+    let compatibility = ratios.judged(&factors);
+    Ok((factors, Some(compatibility)))
 }
 
 /// Runs of one wall under what it feels of each record.
 struct Runs<'a> {
     records: Vec<Shaking<'a>>,
     stretch: f64,
+    /// Signs with which each record acts.
+    signs: &'a [f64],
 }
 
 impl Runs<'_> {
@@ -191,20 +297,28 @@ impl Runs<'_> {
         records: &Records,
     ) -> Result<DynamicState, CheckError> {
         let maxima = self.maxima(factors, &[1.0])?.remove(0);
-        let judged = thresholds.judge(&maxima);
-        let runs = records.named.iter().zip(factors).zip(&maxima).map(|((record, factor), d)| DynamicRun {
-            record: record.name.clone(),
-            factor: *factor,
-            d: *d,
-            beyond_d0: thresholds.judge(&[*d]).beyond_d0 > 0,
-        });
+        let Judged { d, ratio, beyond_d0, at_strength, side, passed } = thresholds.judge(&maxima);
+        let of_record = |((record, factor), runs): ((&run::records::NamedRecord, &f64), &Vec<Maxima>)| {
+            let run = |(sign, d): (&f64, &Maxima)| DynamicRun {
+                record: record.name.clone(),
+                factor: *factor,
+                sign: *sign,
+                d: *d,
+                beyond_d0: thresholds.is_beyond(*d),
+                at_strength: thresholds.is_at_strength(*d),
+            };
+            self.signs.iter().zip(runs).map(run).collect::<Vec<_>>()
+        };
+        let runs = records.named.iter().zip(factors).zip(&maxima).flat_map(of_record);
         Ok(DynamicState {
-            passed: judged.passed(),
-            d: judged.d,
-            ratio: judged.ratio,
-            beyond_d0: judged.beyond_d0,
+            passed,
+            d,
+            ratio,
+            beyond_d0,
+            at_strength,
             zeta: self.lowest_failure(thresholds, factors)?,
-            side: judged.side,
+            side,
+            compatibility: None,
             runs: runs.collect(),
         })
     }
@@ -214,14 +328,14 @@ impl Runs<'_> {
     fn lowest_failure(&self, thresholds: &Thresholds, factors: &[f64]) -> Result<f64, CheckError> {
         let fails = |factor: f64| {
             let maxima = self.maxima(factors, &[factor])?.remove(0);
-            Ok(!thresholds.judge(&maxima).passed())
+            Ok(!thresholds.judge(&maxima).passed)
         };
         let powers: Vec<i32> = POWERS.collect();
         let mut below = RATIO.powi(powers[0]);
         for powers in powers.chunks(AT_ONCE) {
             let levels: Vec<f64> = powers.iter().map(|power| RATIO.powi(*power)).collect();
             for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
-                if !thresholds.judge(&maxima).passed() {
+                if !thresholds.judge(&maxima).passed {
                     return first_true([below, *level], HALVINGS, fails);
                 }
                 below = *level;
@@ -230,16 +344,20 @@ impl Runs<'_> {
         Ok(below)
     }
 
-    /// Returns the maxima of |d| on both sides: for each level, of each record.
-    fn maxima(&self, factors: &[f64], levels: &[f64]) -> Result<Vec<Vec<[f64; 2]>>, CheckError> {
+    /// Returns the maxima of |d| on both sides: for each level, of each record, with each sign.
+    fn maxima(&self, factors: &[f64], levels: &[f64]) -> Result<Vec<Vec<Vec<Maxima>>>, CheckError> {
         let mut maxima = vec![Vec::with_capacity(self.records.len()); levels.len()];
         for (record, factor) in self.records.iter().zip(factors) {
-            let scaled: Vec<f64> = levels.iter().map(|level| level * factor).collect();
+            let signed = levels.iter().flat_map(|level| self.signs.iter().map(move |sign| sign * level));
+            let scaled: Vec<f64> = signed.map(|signed| signed * factor).collect();
             let outcomes =
                 record.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
-            for (at_level, outcome) in maxima.iter_mut().zip(outcomes) {
-                let peaks = outcome.state.peaks;
-                at_level.push([self.stretch * peaks.positive, self.stretch * peaks.negative]);
+            for (at_level, outcomes) in maxima.iter_mut().zip(outcomes.chunks(self.signs.len())) {
+                let peaks = |outcome: &record::Outcome| {
+                    let peaks = outcome.state.peaks;
+                    [self.stretch * peaks.positive, self.stretch * peaks.negative]
+                };
+                at_level.push(outcomes.iter().map(peaks).collect());
             }
         }
         Ok(maxima)
@@ -253,16 +371,25 @@ mod tests {
     /// Example (e) of the worked examples: eight maxima of a parapet with `d_SLV` = 0.08 m and `d_0` = 0.2 m.
     #[test]
     fn maxima_of_eight_records() {
-        let thresholds = Thresholds { limit: [0.08; 2], end: [0.2; 2] };
+        let none = [f64::INFINITY; 2];
+        let thresholds = Thresholds { limit: [0.08; 2], end: [0.2; 2], strength: none, tie_is_end: true };
         let maxima = [0.031, 0.052, 0.066, 0.048, 0.090, 0.075, 0.058, 0.101];
-        let judged = thresholds.judge(&maxima.map(|d| [0.5 * d, d]));
+        let runs = maxima.map(|d| vec![[0.5 * d, d]]);
+        let judged = thresholds.judge(&runs);
         assert!((judged.d - 0.065_125).abs() < 1e-15 && (judged.ratio - 1.228_41).abs() < 5e-6);
-        assert!(judged.passed() && judged.side == Side::Negative);
+        assert!(judged.passed && judged.side == Side::Negative);
         // one run beyond d_0 fails, whatever the mean
-        let beyond = Thresholds { end: [0.2, 0.1], ..thresholds }.judge(&maxima.map(|d| [0.5 * d, d]));
-        assert!(!beyond.passed() && beyond.beyond_d0 == 1);
+        let beyond = Thresholds { end: [0.2, 0.1], ..thresholds }.judge(&runs);
+        assert!(!beyond.passed && beyond.beyond_d0 == 1);
+        // so does one at the strength of a tie, unless the tie yields
+        let strong = Thresholds { strength: [1.0, 0.09], ..thresholds };
+        assert!(!strong.judge(&runs).passed && strong.judge(&runs).at_strength == 2);
+        assert!(Thresholds { tie_is_end: false, ..strong }.judge(&runs).passed);
         // each side by its own threshold
-        let sides = Thresholds { limit: [0.04, 0.12], end: [0.2; 2] }.judge(&[[0.06, 0.06]; 7]);
+        let sides = Thresholds { limit: [0.04, 0.12], ..thresholds }.judge(&vec![vec![[0.06, 0.06]]; 7]);
         assert!((sides.ratio - 0.04 / 0.06).abs() < 1e-15 && sides.side == Side::Positive);
+        // of both signs of a record the worse counts
+        let signs = thresholds.judge(&vec![vec![[0.01, 0.02], [0.04, 0.03]]; 7]);
+        assert!((signs.ratio - 2.0).abs() < 1e-15 && (signs.d - 0.04).abs() < 1e-15);
     }
 }

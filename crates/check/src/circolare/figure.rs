@@ -6,8 +6,9 @@ use ::report::points::{simplified, within};
 
 use super::LimitState;
 use super::demand::Demand;
-use super::statement::{StateStatement, Statement};
-use super::verdict::{DisplacementCheck, SideVerdict};
+use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::statement::Statement;
+use super::states::StateStatement;
 use crate::error::CheckError;
 
 /// Size of spectra and of capacity over demand \[px\].

@@ -45,6 +45,10 @@ pub struct FloorSpectrum {
     ground: GroundSpectrum,
     modes: Vec<Mode>,
     xi: f64,
+    /// `a_Z`,k of the modes \[m/s²\].
+    accelerations: Vec<f64>,
+    /// The least acceleration up to T₁ \[m/s²\].
+    least: f64,
 }
 
 impl FloorSpectrum {
@@ -54,7 +58,19 @@ impl FloorSpectrum {
     /// Without a mode.
     pub fn new(ground: GroundSpectrum, modes: Vec<Mode>, xi: f64) -> Self {
         assert!(!modes.is_empty(), "a building has a mode");
-        Self { ground, modes, xi }
+        let of_mode = |mode: &Mode| {
+            // [C7.2.7], with 0.0004 ξ%² = 4 ξ²
+            ground.acceleration(mode.period, xi) * mode.participation.abs() * (1.0 + 4.0 * xi * xi).sqrt()
+        };
+        let accelerations = modes.iter().map(of_mode).collect();
+        Self { ground, modes, xi, accelerations, least: 0.0 }
+    }
+
+    /// Bounds accelerations up to T₁ by that of the ground, `a_g` S: the foot of the building moves with it,
+    /// which its modes leave out.
+    #[must_use]
+    pub fn not_below_ground(self) -> Self {
+        Self { least: self.ground.acceleration(0.0, self.xi), ..self }
     }
 
     /// The spectrum of the ground.
@@ -82,9 +98,14 @@ impl FloorSpectrum {
         1.1 / self.xi.sqrt() * damping_factor(xi)
     }
 
-    /// `a_Z` of [C7.2.8], the largest acceleration of the place \[m/s²\].
+    /// `a_Z` of [C7.2.8], as printed \[m/s²\].
+    pub fn printed_peak(&self) -> f64 {
+        root_of_squares(self.accelerations.iter().copied())
+    }
+
+    /// The largest acceleration of the place: `a_Z`, or `a_g` S if that bounds it \[m/s²\].
     pub fn peak_acceleration(&self) -> f64 {
-        root_of_squares(self.modes.iter().map(|mode| self.mode_acceleration(mode)))
+        self.printed_peak().max(self.least)
     }
 
     /// `S_eZ`(T, ξ, z) of [C7.2.5] \[m/s²\].
@@ -93,7 +114,7 @@ impl FloorSpectrum {
         if period > self.first_period() {
             amplified.max(self.ground.pseudo_acceleration(period, xi))
         } else {
-            amplified
+            amplified.max(self.least)
         }
     }
 
@@ -105,12 +126,9 @@ impl FloorSpectrum {
         (at(period, period), (period > B * first).then(|| at(first, B * first)))
     }
 
-    /// `a_Z`,k of a mode, [C7.2.7] \[m/s²\].
-    pub fn mode_acceleration(&self, mode: &Mode) -> f64 {
-        // 0.0004 ξ%² = 4 ξ²
-        self.ground.acceleration(mode.period, self.xi)
-            * mode.participation.abs()
-            * (1.0 + 4.0 * self.xi * self.xi).sqrt()
+    /// `a_Z`,k of the modes, [C7.2.7] \[m/s²\].
+    pub fn mode_accelerations(&self) -> &[f64] {
+        &self.accelerations
     }
 
     /// The root of the squares of `S_eZ`,k of [C7.2.6] \[m/s²\].
@@ -127,7 +145,7 @@ impl FloorSpectrum {
             };
             most / (1.0 + (most - 1.0) * beside)
         };
-        root_of_squares(self.modes.iter().map(|mode| shape(mode) * self.mode_acceleration(mode)))
+        root_of_squares(self.modes.iter().zip(&self.accelerations).map(|(mode, a_z)| shape(mode) * a_z))
     }
 }
 

@@ -6,49 +6,71 @@
 //! | file | holds |
 //! |---|---|
 //! | `table` | the table `[check]` as it is written |
-//! | `statement` | the table `[check]`, validated |
+//! | `statement`, `states` | the table `[check]`, validated |
 //! | `ground`, `floor` | spectra on the ground and at a height |
-//! | `curve` | a(d) of one side of a wall |
+//! | `case` | a wall as the check takes it, and its checks with the hinge in one place |
+//! | `curve`, `set_back`, `tie` | a(d) of one side of a wall, its hinges and its tie |
+//! | `hinge` | the search of the hinge |
+//! | `sides` | a side by the rule on its hinge |
 //! | `demand` | what a limit state demands |
 //! | `checks` | the static checks and what governs |
-//! | `verdict` | the outcome |
-//! | `dynamic` | runs under records |
+//! | `verdict`, `side_verdict` | the outcome |
+//! | `dynamic`, `compatibility` | runs under records, and their spectra |
+//! | `blocks` | why no tie of a search passes |
 //! | `warnings` | what the engineer should know |
 //! | `rows` | the outcome as the verdict that every code has |
 //! | `figure`, `report` | spectra, curves, and the sections of the report |
 
+mod blocks;
+mod case;
 mod checks;
+mod compatibility;
 mod curve;
 mod demand;
 mod dynamic;
 mod figure;
 mod floor;
 mod ground;
+mod hinge;
 mod report;
 mod rows;
+mod set_back;
+mod side_verdict;
+mod sides;
 mod statement;
+mod states;
 mod table;
+mod tie;
 mod verdict;
 mod warnings;
 
 use rocking_wall::scene::Described;
+use rocking_wall::wall::Parameters;
 
 use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
+use crate::find::Sought;
 use crate::site::Records;
 
 pub use checks::LARGEST_LOSS;
+pub use compatibility::Compatibility;
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
-pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
-pub use table::{
-    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
-    UseClass,
+pub use set_back::SetBack;
+pub use side_verdict::{
+    ActivationCheck, AtActivationNumbers, DisplacementCheck, LeastAlpha0, Sensitivity, SideVerdict, TieBreak,
+    TieNumbers, Untied,
 };
+pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
+pub use states::{Source, StateStatement};
+pub use table::{
+    Activation, AtActivation, BarTable, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
+    LimitStateTable, Method, Polarities, RecordScale, Rocks, TieTable, Topography, UseClass,
+};
+pub use tie::{TieAtLimit, TieState};
 pub use verdict::{
-    ActivationCheck, Checked, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs,
-    Outcome, Side, SideVerdict, SideVerdicts, TieBreak,
+    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Outcome, Side, SideVerdicts,
 };
 
 /// Fewest records, NTC 7.3.5.
@@ -64,6 +86,23 @@ pub const ENTRY: Entry = Entry {
     checks: &["SLD", "SLV with q", "SLV", "SLC"],
     example: "check = { code = \"circolare-2019\", before_activation = \"rigid\", soil = \"B\", \
               SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }",
+    of_wall: &[
+        "building.height_ratio",
+        "before_activation",
+        "young_modulus",
+        "overburden_mass",
+        "hinge",
+        "hinge_range",
+        "masonry_strength",
+        "masonry_gamma",
+        "masonry_over_fc",
+        "stress_block",
+        "confidence_factor|knowledge_level",
+        "compression_considered",
+        "rocking",
+        "tie",
+        "SLC.displacement",
+    ],
     describe: CheckTable::describe,
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
@@ -79,6 +118,14 @@ impl Code for Statement {
 
     fn records(&self) -> &Records {
         &self.records
+    }
+
+    fn prepared(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
+        self.with_bar(parameters)
+    }
+
+    fn blocks(&self, subject: Subject<'_>, check: &str, sought: Sought) -> Option<String> {
+        blocks::reason(self, subject, check, sought)
     }
 
     fn takes_runs(&self) -> bool {

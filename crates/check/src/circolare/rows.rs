@@ -1,13 +1,17 @@
 //! The verdict on a wall as every code has it: rows, numbers and notes.
 
+use std::fmt::Write;
+
 use ::report::number;
-use ::report::table::{Cell, Table, significant};
-use rocking_wall::wall::{Parameters, Wall};
+use ::report::table::{Cell, Digits, Table, significant};
+use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
+use super::demand::Demand;
+use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
 use super::table::{Method, UseClass};
-use super::verdict::{Checked, Deciding, DisplacementCheck, DynamicCheck, DynamicState, SideVerdict};
+use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState};
 use super::{ENTRY, LimitState};
 use crate::code::{Details, Ends, Row, Verdict, numbers};
 use crate::error::CheckError;
@@ -23,6 +27,7 @@ impl<'a> Checked<'a> {
             governs: governs.limit_state.name(),
             side: (!self.outcome.alike).then(|| governs.side.name()),
             zeta: governs.zeta,
+            raised: self.raised(),
             rows: self.rows(),
             notes: self.notes(),
             warnings: self.outcome.warnings.clone(),
@@ -56,6 +61,7 @@ impl<'a> Checked<'a> {
                     ground: Some([found.ag, site(state)]),
                     ends: Ends::Accelerations([found.capacity, found.demand]),
                     clause,
+                    remark: String::new(),
                 }));
             }
             let displacements = [(LimitState::Slv, verdict.slv), (LimitState::Slc, verdict.slc)];
@@ -69,6 +75,7 @@ impl<'a> Checked<'a> {
                     ground: Some([found.ag, site(state)]),
                     ends: Ends::Displacements([found.d, found.demand]),
                     clause: "C8.7.1.2.1.8",
+                    remark: remark(state, &found),
                 },
             ));
         }
@@ -83,9 +90,19 @@ impl<'a> Checked<'a> {
                 ground: Some([found.zeta * site(state), site(state)]),
                 ends: Ends::Displacements([found.ratio * found.d, found.d]),
                 clause: "C8.7.1.2.1.9",
+                remark: String::new(),
             });
         }
         rows
+    }
+
+    /// The least ratio by displacement that decides, where only the raise by SLD lets the wall pass.
+    fn raised(&self) -> Option<f64> {
+        let of_side = |(_, side): (_, &SideVerdict)| [side.slv, side.slc];
+        let found = self.outcome.sides.iter().flat_map(of_side).flatten().map(|check| check.ratio);
+        let by_displacement = self.statement.table.method == Method::Nonlinear;
+        let least = found.fold(f64::INFINITY, f64::min);
+        (by_displacement && self.outcome.passed && least < 1.0).then_some(least)
     }
 
     /// The limit states of the dynamic check.
@@ -110,21 +127,101 @@ impl<'a> Checked<'a> {
             format!("{} decide; the other checks are for information.", deciding(self.statement)),
         ];
         for (name, _, side) in self.sides() {
-            for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-                let Some(check) = check else { continue };
-                if check.limited_by_tie {
-                    notes.push(format!("{name}: the tie breaks at d_{state}."));
-                }
-                if check.raised {
-                    notes.push(format!("{name}: a_g of SLD is larger than that of {state} and replaces it."));
-                }
+            notes.extend(self.of_side(side).into_iter().map(|note| format!("{name}: {note}")));
+        }
+        for given in self.statement.states.iter().flatten() {
+            let Some(Demand::Floor(floor)) = &self.demands[given.state as usize] else { continue };
+            if floor.peak_acceleration() > floor.printed_peak() {
+                notes.push(format!(
+                    "{}: a_g S = {} m/s² of the ground governs at the height, above a_Z = {} m/s² [C7.2.8].",
+                    given.state,
+                    number(floor.peak_acceleration(), 4),
+                    number(floor.printed_peak(), 4)
+                ));
             }
+        }
+        if let Some(part) = self.parameters.weaker_part() {
+            let part = if part == TiePart::Anchor { "the anchor" } else { "the bar" };
+            notes.push(format!("The tie: {part} gives way first."));
         }
         for (state, found) in self.dynamic() {
             notes.extend(of_runs(state, found));
         }
         notes
     }
+}
+
+impl Checked<'_> {
+    /// What is to be said of a side: its hinge, its tie, what raises it, and what a₁ or E changes.
+    fn of_side(&self, side: &SideVerdict) -> Vec<String> {
+        let mut notes = Vec::new();
+        let three = |zeta: Option<f64>| zeta.map_or_else(|| "–".to_owned(), |zeta| format!("{zeta:.3}"));
+        if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
+            let mut note = format!(
+                "hinge = \"{}\"; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
+                rule.name(),
+                number(found.alpha0, 4),
+                found.hinge,
+                three(found.zeta)
+            );
+            if let Some(x) = found.worst_hinge {
+                let _ = write!(note, "; least favourable is {x:.4} h: zeta_E = {}", three(found.worst));
+            }
+            notes.push(note + ".");
+        }
+        for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
+            let Some(check) = check else { continue };
+            if check.limited_by_tie {
+                notes.push(format!("the tie breaks at d_{state}."));
+            }
+            if check.raised {
+                notes.push(format!(
+                    "{}.",
+                    remark(if state == "SLV" { LimitState::Slv } else { LimitState::Slc }, &check)
+                ));
+            }
+            if let Some(tie) = check.tie {
+                notes.push(format!(
+                    "the tie has {} kN at d_{state} ({}), {} kN at the demand ({}).",
+                    number(1e-3 * tie.force, 4),
+                    tie.state.name(),
+                    number(1e-3 * tie.force_at_demand, 4),
+                    tie.state_at_demand.name()
+                ));
+            }
+        }
+        if let Some(untied) = side.untied {
+            notes.push(format!("untied, SLV {}, SLC {}.", three(untied.slv), three(untied.slc)));
+        }
+        for varied in &side.sensitivity {
+            let passed = match varied.passed {
+                Some(true) => "passed",
+                Some(false) => "not passed",
+                None => "no check is possible",
+            };
+            let value = number(varied.value, 4);
+            notes.push(format!(
+                "with {} = {value} zeta_E = {}, {passed}.",
+                varied.parameter,
+                three(varied.zeta)
+            ));
+        }
+        notes
+    }
+}
+
+/// What the raise by SLD makes of a check by displacement; empty without it.
+fn remark(state: LimitState, check: &DisplacementCheck) -> String {
+    if !check.raised {
+        return String::new();
+    }
+    let exceeded = if check.ratio < 1.0 {
+        "; demand exceeds capacity; the a_g of activation replaces it (C8.7.1.2.1.8)"
+    } else {
+        ""
+    };
+    let DisplacementCheck { ratio, zeta, ag, .. } = *check;
+    format!("{state} {ratio:.3}, raised to {zeta:.3} by SLD (a_g {ag:.3} g){exceeded}")
 }
 
 /// Names the checks that decide.
@@ -140,53 +237,96 @@ fn deciding(statement: &Statement) -> String {
 
 /// The dynamic check of a limit state, and its runs.
 fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
+    let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
     let mut notes = vec![format!(
-        "{state} under {} records: {}; d = {} m, threshold over it {:.3}, zeta_E = {:.3}",
+        "{state} under {} records in {} runs: {}; d = {} m, threshold over it {:.3}, zeta_E = {:.3}; {} runs \
+         beyond d0, {} at the strength of the tie",
+        records.len(),
         check.runs.len(),
         if check.passed { "passed" } else { "not passed" },
         significant(check.d, 6),
         check.ratio,
-        check.zeta
+        check.zeta,
+        check.beyond_d0,
+        check.at_strength
     )];
+    if let Some(found) = &check.compatibility {
+        notes.push(format!(
+            "{state}: the mean spectrum of the records is {:.3} (T = {:.3} s) to {:.3} (T = {:.3} s) of that \
+             of the ground: {} (NTC 3.2.3.6)",
+            found.least,
+            found.least_at,
+            found.largest,
+            found.largest_at,
+            if found.compatible { "compatible" } else { "not compatible" }
+        ));
+    }
     notes.extend(check.runs.iter().map(|run| {
         let [positive, negative] = [run.d[0], -run.d[1]].map(|d| significant(d, 6));
         let beyond = if run.beyond_d0 { "  beyond d0" } else { "" };
-        format!("  {:<30} x {:<8.4} d = {positive} / {negative} m{beyond}", run.record, run.factor)
+        let beyond =
+            if run.at_strength { beyond.to_owned() + "  tie at its strength" } else { beyond.into() };
+        format!("  {:<30} x {:<8.4} d = {positive} / {negative} m{beyond}", run.record, run.sign * run.factor)
     }));
     notes
 }
 
-/// A name, its unit, and the number of a side, if it has one.
-type Line = (&'static str, &'static str, fn(&SideVerdict) -> Option<f64>);
+/// A name, its unit, the number in that unit of a number in SI units, and that number of a side.
+type Line = (&'static str, &'static str, f64, fn(&SideVerdict) -> Option<f64>);
 
-const SIDE: [Line; 15] = [
-    ("alpha0", "-", |side| Some(side.alpha0)),
-    ("e*", "-", |side| Some(side.e_star)),
-    ("M*", "kg", |side| Some(side.mass)),
-    ("a0", "m/s2", |side| Some(side.a0)),
-    ("d0", "m", |side| Some(side.d0)),
-    ("T0", "s", |side| Some(side.t0)),
-    ("d_y", "m", |side| Some(side.dy)),
-    ("a_y", "m/s2", |side| Some(side.ay)),
-    ("SLD capacity", "m/s2", |side| side.sld.map(|check| check.capacity)),
-    ("SLD demand", "m/s2", |side| side.sld.map(|check| check.demand)),
-    ("SLD zeta_E", "-", |side| side.sld.map(|check| check.ratio)),
-    ("SLD a_g", "g", |side| side.sld.map(|check| check.ag)),
-    ("SLV with q, demand", "m/s2", |side| side.slv_q.map(|check| check.demand)),
-    ("SLV with q, zeta_E", "-", |side| side.slv_q.map(|check| check.ratio)),
-    ("SLV with q, a_g", "g", |side| side.slv_q.map(|check| check.ag)),
+const SIDE: [Line; 32] = [
+    ("hinge_ratio", "-", 1.0, |side| side.hinge),
+    ("least alpha0", "-", 1.0, |side| Some(side.least_alpha0?.alpha0)),
+    ("its hinge_ratio", "-", 1.0, |side| Some(side.least_alpha0?.hinge)),
+    ("its zeta_E", "-", 1.0, |side| side.least_alpha0?.zeta),
+    ("least favourable hinge_ratio", "-", 1.0, |side| side.least_alpha0?.worst_hinge),
+    ("its zeta_E, least favourable", "-", 1.0, |side| side.least_alpha0?.worst),
+    ("set-back at the base", "mm", 1e3, |side| set_back(side, side.set_back.base)),
+    ("set-back in the middle", "mm", 1e3, |side| set_back(side, side.set_back.middle)),
+    ("set-back at the top", "mm", 1e3, |side| set_back(side, side.set_back.top)),
+    ("alpha0 (without FC)", "-", 1.0, |side| Some(side.alpha0)),
+    ("e*", "-", 1.0, |side| Some(side.e_star)),
+    ("M*", "kg", 1.0, |side| Some(side.mass)),
+    ("a0 (without FC)", "m/s2", 1.0, |side| Some(side.a0)),
+    ("d0", "mm", 1e3, |side| Some(side.d0)),
+    ("T0", "s", 1.0, |side| Some(side.t0)),
+    ("d_y", "mm", 1e3, |side| Some(side.dy)),
+    ("a_y (without FC)", "m/s2", 1.0, |side| Some(side.ay)),
+    ("tie engaged at u", "mm", 1e3, |side| Some(side.tie?.engaged)),
+    ("tie at its strength at u", "mm", 1e3, |side| side.tie?.yields),
+    ("tie broken at u", "mm", 1e3, |side| side.tie?.breaks),
+    ("alpha0 with the tie", "-", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.alpha0)),
+    ("T0 with the tie", "s", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.t0)),
+    ("SLD capacity", "m/s2", 1.0, |side| Some(side.sld?.capacity)),
+    ("SLD demand", "m/s2", 1.0, |side| Some(side.sld?.demand)),
+    ("SLD zeta_E", "-", 1.0, |side| Some(side.sld?.ratio)),
+    ("SLD a_g", "g", 1.0, |side| Some(side.sld?.ag)),
+    ("SLD, tie needs", "kN", 1e-3, |side| side.sld?.required),
+    ("SLV with q, hinge_ratio", "-", 1.0, |side| side.slv_q?.hinge),
+    ("SLV with q, demand", "m/s2", 1.0, |side| Some(side.slv_q?.demand)),
+    ("SLV with q, zeta_E", "-", 1.0, |side| Some(side.slv_q?.ratio)),
+    ("SLV with q, a_g", "g", 1.0, |side| Some(side.slv_q?.ag)),
+    ("SLV with q, tie needs", "kN", 1e-3, |side| side.slv_q?.required),
 ];
 
-/// A name, its unit, and the number of a check by displacement.
-type DisplacementLine = (&'static str, &'static str, fn(&DisplacementCheck) -> f64);
+fn set_back(side: &SideVerdict, depth: f64) -> Option<f64> {
+    (side.set_back.base > 0.0).then_some(depth)
+}
 
-const DISPLACEMENT: [DisplacementLine; 6] = [
-    ("d", "m", |check| check.d),
-    ("a", "m/s2", |check| check.a),
-    ("T", "s", |check| check.period),
-    ("demand S_d", "m", |check| check.demand),
-    ("zeta_E", "-", |check| check.zeta),
-    ("a_g", "g", |check| check.ag),
+/// The same of a check by displacement.
+type DisplacementLine = (&'static str, &'static str, f64, fn(&DisplacementCheck) -> Option<f64>);
+
+const DISPLACEMENT: [DisplacementLine; 10] = [
+    ("hinge_ratio", "-", 1.0, |check| check.hinge),
+    ("d", "mm", 1e3, |check| Some(check.d)),
+    ("a (with FC)", "m/s2", 1.0, |check| Some(check.a)),
+    ("T", "s", 1.0, |check| Some(check.period)),
+    ("demand S_d", "mm", 1e3, |check| Some(check.demand)),
+    ("tie force", "kN", 1e-3, |check| Some(check.tie?.force)),
+    ("tie force at the demand", "kN", 1e-3, |check| Some(check.tie?.force_at_demand)),
+    ("by displacement", "-", 1.0, |check| Some(check.ratio)),
+    ("zeta_E", "-", 1.0, |check| Some(check.zeta)),
+    ("a_g", "g", 1.0, |check| Some(check.ag)),
 ];
 
 impl Details for Checked<'_> {
@@ -195,7 +335,7 @@ impl Details for Checked<'_> {
     }
 
     fn parameters(&self) -> &Parameters {
-        self.parameters
+        &self.parameters
     }
 
     fn json(&self, _: &Verdict<'_>) -> Value {
@@ -204,21 +344,21 @@ impl Details for Checked<'_> {
 
     fn numbers(&self) -> Table {
         let shown: Vec<_> = self.sides().map(|(name, _, side)| (name, side)).collect();
-        let mut table = numbers(shown.iter().map(|(name, _)| *name));
-        let mut row = |name: String, unit: &'static str, values: Vec<Option<f64>>| {
+        let mut table = numbers(shown.iter().map(|(name, _)| *name), Digits::Significant(4));
+        let mut row = |name: String, unit: &'static str, factor: f64, values: Vec<Option<f64>>| {
             if values.iter().any(Option::is_some) {
-                let values = values.into_iter().map(Cell::from);
+                let values = values.into_iter().map(|value| Cell::from(value.map(|value| factor * value)));
                 table.row([name.into(), unit.into()].into_iter().chain(values));
             }
         };
-        for (name, unit, value) in SIDE {
-            row(name.to_owned(), unit, shown.iter().map(|(_, side)| value(side)).collect());
+        for (name, unit, factor, value) in SIDE {
+            row(name.to_owned(), unit, factor, shown.iter().map(|(_, side)| value(side)).collect());
         }
         let states: [(_, fn(&SideVerdict) -> _); 2] = [("SLV", |side| side.slv), ("SLC", |side| side.slc)];
         for (state, pick) in states {
-            for (name, unit, value) in DISPLACEMENT {
-                let values = shown.iter().map(|(_, side)| pick(side).as_ref().map(value)).collect();
-                row(format!("{state} {name}"), unit, values);
+            for (name, unit, factor, value) in DISPLACEMENT {
+                let values = shown.iter().map(|(_, side)| pick(side).as_ref().and_then(value)).collect();
+                row(format!("{state} {name}"), unit, factor, values);
             }
         }
         table

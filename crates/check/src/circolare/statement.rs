@@ -1,14 +1,15 @@
 //! The table `[check]`, validated.
 
+use rocking_wall::wall::{ParameterError, Parameters};
+
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
 
-use super::floor::{FloorSpectrum, Mode};
-use super::ground::{GroundSpectrum, Hazard, Soil};
+use super::states::{StateStatement, limit_state};
 use super::table::{
-    Activation, BuildingTable, CATEGORIES, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale,
-    Topography,
+    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, LEAST_STRENGTH,
+    Method, STRESS_BLOCK,
 };
 use super::{FEWEST_RECORDS, LimitState};
 
@@ -28,40 +29,10 @@ pub struct Statement {
     pub states: [Option<StateStatement>; 3],
     /// Records of the dynamic check, and of limit states without F0 and TC.
     pub records: Records,
-}
-
-/// What is stated of a limit state.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StateStatement {
-    /// Which.
-    pub state: LimitState,
-    /// `a_g` \[g\].
-    pub ag: f64,
-    /// ξ of the mechanism \[-\].
-    pub damping: f64,
-    /// ξ of the activation, that of SLD \[-\].
-    pub activation_damping: f64,
-    /// Where the demand comes from.
-    pub source: Source,
-    /// `ξ_k` of the building \[-\].
-    pub building_damping: Option<f64>,
-    /// T₁ of the building in this limit state \[s\].
-    pub building_period: Option<f64>,
-    /// Modes of the table `[check.building]`, with the period of this limit state; none on the ground.
-    pub modes: Vec<Mode>,
-    /// u of a local instability \[m\].
-    pub displacement: Option<f64>,
-}
-
-/// Where a demand comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Source {
-    /// The spectrum of the code.
-    Code(GroundSpectrum),
-    /// Points (T, `S_a`) at the wall's place, of one damping \[s, m/s², -\].
-    Points(Vec<(f64, f64)>, f64),
-    /// The records of the check.
-    Records,
+    /// κ `f_d` of the masonry, for which hinges are set back \[Pa\].
+    pub(super) masonry: Option<f64>,
+    /// Range in which the hinge of a strip is searched, of h \[-\].
+    pub(super) hinge_range: [f64; 2],
 }
 
 impl Statement {
@@ -71,6 +42,11 @@ impl Statement {
     /// [`CheckError`] of the first value that cannot be used, or of a record.
     pub fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
         let mut statement = Self::new(file.table()?)?;
+        let bar = statement.table.tie.as_ref().and_then(|tie| tie.bar.as_ref());
+        if bar.is_some() && file.states(&["tie", "bar"]) {
+            let message = "the bar of the tie is stated in [tie] and in [check.tie]; leave one out";
+            return Err(CheckError::value(&["tie", "bar"], message));
+        }
         statement.records = file.records(statement.table.records.as_ref())?;
         let count = statement.records.named.len();
         if (1..FEWEST_RECORDS).contains(&count) {
@@ -90,8 +66,11 @@ impl Statement {
         if let Some(r) = table.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
             return refused("overburden_mass", format!("overburden_mass = {r} must be at least 0"));
         }
-        if let Some(e) = table.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
-            return refused("young_modulus", format!("young_modulus = {e} Pa must be above 0"));
+        if let Some(e) = table.young_modulus.filter(|e| !(*e >= SOFTEST && e.is_finite())) {
+            let doubt = super::warnings::YOUNG_MODULUS.warning(e).map(|doubt| format!("{doubt}; "));
+            let doubt = doubt.unwrap_or_default();
+            let message = format!("{doubt}no masonry has E below {SOFTEST:e} Pa; give young_modulus in Pa");
+            return refused("young_modulus", message);
         }
         match (table.before_activation, table.young_modulus) {
             (Some(Activation::Beam), None) => {
@@ -118,8 +97,60 @@ impl Statement {
             return Err(CheckError::value(&["SLV", "ag"], message));
         }
         let confidence_factor = confidence_factor(&table)?;
+        let masonry = masonry(&table, confidence_factor)?;
+        let hinge_range = table.hinge_range.unwrap_or(HINGE_RANGE);
+        let [from, to] = hinge_range;
+        if !(from >= 0.01 && to <= 0.99 && from < to) {
+            let message = format!("hinge_range = [{from}, {to}] must rise, within 0.01 to 0.99");
+            return refused("hinge_range", message);
+        }
+        if let Some(bar) = table.tie.as_ref().and_then(|tie| tie.bar.as_ref()) {
+            let named = |error: ParameterError| CheckError::value(&["tie", "bar"], error.to_string());
+            bar.bar().tie(1.0).map_err(named)?;
+        }
+        if let Some([from, to]) =
+            table.record_range.filter(|[from, to]| !(*from > 0.0 && from < to && to.is_finite()))
+        {
+            let message = format!("record_range = [{from}, {to}] s must rise from above 0");
+            return refused("record_range", message);
+        }
         let records = Records::default();
-        Ok(Self { table, confidence_factor, behaviour_factor: q, states, records })
+        let behaviour_factor = q;
+        Ok(Self { table, confidence_factor, behaviour_factor, states, records, masonry, hinge_range })
+    }
+
+    /// Returns where the hinge of a strip is; `assumed` names the parameters that nobody stated.
+    pub(super) fn hinge_of(&self, assumed: &[&str]) -> Result<Hinge, CheckError> {
+        let is_given = !assumed.contains(&"hinge_ratio");
+        match self.table.hinge {
+            Some(Hinge::Given) if !is_given => {
+                let message = "hinge = \"given\" needs hinge_ratio in [geometry]";
+                Err(CheckError::value(&["hinge"], message))
+            }
+            Some(hinge) => Ok(hinge),
+            None => Ok(if is_given { Hinge::Given } else { Hinge::LeastAlpha0 }),
+        }
+    }
+
+    /// Returns what the tie does at the activation.
+    pub(super) fn at_activation(&self) -> AtActivation {
+        self.table.tie.as_ref().map_or(AtActivation::None, |tie| tie.at_activation)
+    }
+
+    /// Returns the parameters of a wall with the bar of the check, where it has none of its own.
+    pub(super) fn with_bar(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
+        let mut parameters = parameters.clone();
+        let bar = self.table.tie.as_ref().and_then(|tie| tie.bar.as_ref());
+        if let (Some(bar), None) = (bar, &parameters.bar) {
+            parameters.bar = Some(bar.bar());
+            parameters.apply_bar()?;
+        }
+        Ok(parameters)
+    }
+
+    /// Returns whether accelerations at a height are bounded by that of the ground.
+    pub(super) fn bounds_heights(&self) -> bool {
+        self.table.height_demand == HeightDemand::NotBelowGround
     }
 
     /// Returns the statements about a limit state; `None` where its check is not made.
@@ -127,6 +158,42 @@ impl Statement {
         self.states[state as usize].as_ref()
     }
 }
+
+/// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].
+fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, CheckError> {
+    let refused = |key, message: String| Err(CheckError::value(&[key], message));
+    let Some(strength) = table.masonry_strength else {
+        let others = [
+            ("masonry_gamma", table.masonry_gamma.is_some()),
+            ("stress_block", table.stress_block.is_some()),
+            ("masonry_over_fc", table.masonry_over_fc.is_some()),
+        ];
+        return match others.into_iter().find(|(_, given)| *given) {
+            Some((key, _)) => refused(key, format!("{key} counts only with masonry_strength, f_m in Pa")),
+            None => Ok(None),
+        };
+    };
+    if !(strength >= LEAST_STRENGTH && strength.is_finite()) {
+        let message = format!(
+            "masonry_strength = {strength} Pa is below {LEAST_STRENGTH} Pa: is it in MPa? give f_m in Pa, \
+             such as 1.5e6"
+        );
+        return refused("masonry_strength", message);
+    }
+    let gamma = table.masonry_gamma.unwrap_or(1.0);
+    if !(gamma >= 1.0 && gamma.is_finite()) {
+        return refused("masonry_gamma", format!("masonry_gamma = {gamma} must be at least 1"));
+    }
+    let block = table.stress_block.unwrap_or(STRESS_BLOCK);
+    if !(block > 0.0 && block <= 1.0) {
+        return refused("stress_block", format!("stress_block = {block} must be above 0 and at most 1"));
+    }
+    let over = if table.masonry_over_fc.unwrap_or(true) { confidence_factor } else { 1.0 };
+    Ok(Some(block * strength / (gamma * over)))
+}
+
+/// The softest masonry, E; less is in another unit \[Pa\].
+const SOFTEST: f64 = 1e7;
 
 fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
     let (key, factor) = match (table.confidence_factor, table.knowledge_level) {
@@ -143,216 +210,14 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
         let message = format!("confidence_factor = {factor} must be at least 1");
         return Err(CheckError::value(&[key], message));
     }
-    if factor < LARGEST_CONFIDENCE_FACTOR && !table.compression_considered {
+    let is_considered = table.compression_considered || table.masonry_strength.is_some();
+    if factor < LARGEST_CONFIDENCE_FACTOR && !is_considered {
         let message = format!(
             "FC = {factor}: FC of LC1, 1.35, applies where compression is neglected (C8.7.1.2.1.3); set the \
-             hinges back ([force_law] a3 < 1, or a smaller thickness) and state compression_considered = true"
+             hinges back: give masonry_strength, or a3 < 1 or a smaller thickness and state \
+             compression_considered = true"
         );
         return Err(CheckError::value(&[key], message));
     }
     Ok(factor)
-}
-
-fn limit_state(
-    state: LimitState,
-    given: &LimitStateTable,
-    table: &CheckTable,
-) -> Result<StateStatement, CheckError> {
-    let name = state.key();
-    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
-    let ag = given.ag;
-    if !(ag > 0.0 && ag <= 1.0) {
-        return Err(refused("ag", format!("a_g = {ag} must be above 0 and at most 1 g; give it in g")));
-    }
-    let ratio = |key, value: f64| {
-        if value > 0.0 && value <= 0.5 {
-            return Ok(value);
-        }
-        Err(refused(key, format!("{key} = {value} is a ratio, such as 0.08; above 0 and at most 0.5")))
-    };
-    let damping = ratio("damping", given.damping.unwrap_or(state.damping()))?;
-    let of_sld = table.sld.as_ref().and_then(|sld| sld.damping);
-    let building_damping = given.building_damping.map(|xi| ratio("building_damping", xi)).transpose()?;
-    if let Some(period) = given.building_period.filter(|period| !(*period > 0.0 && period.is_finite())) {
-        return Err(refused("building_period", format!("building_period = {period} s must be above 0")));
-    }
-    if given.displacement.is_some() && state != LimitState::Slc {
-        let message = "a displacement of local instability belongs to SLC (C8.7.1.2.1.6)";
-        return Err(refused("displacement", message.into()));
-    }
-    let source = source(state, given, table)?;
-    let mut modes = table.building.as_ref().map(modes).transpose()?.unwrap_or_default();
-    if let (Some(first), Some(period)) = (modes.first().copied(), given.building_period) {
-        for mode in &mut modes {
-            mode.period *= period / first.period;
-        }
-    }
-    if !matches!(source, Source::Code(_)) && table.building.is_some() {
-        let message = "a spectrum and records are those of the wall's own place; leave [check.building] out, \
-                       or give F0 and TC";
-        return Err(refused("ag", message.into()));
-    }
-    Ok(StateStatement {
-        state,
-        ag,
-        damping,
-        activation_damping: of_sld.unwrap_or(LimitState::Sld.damping()),
-        source,
-        building_damping,
-        building_period: given.building_period,
-        modes,
-        displacement: given.displacement,
-    })
-}
-
-fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Result<Source, CheckError> {
-    let name = state.key();
-    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
-    match (given.f0, given.tc, &given.spectrum) {
-        (Some(_), Some(_), None) if given.spectrum_damping.is_some() => {
-            Err(refused("spectrum_damping", "spectrum_damping is that of a spectrum; leave it out".into()))
-        }
-        (Some(f0), Some(tc), None) => {
-            if !(f0 >= 2.2 && f0.is_finite()) {
-                return Err(refused("F0", format!("F0 = {f0} is below 2.2 (NTC 3.2.3.2.1)")));
-            }
-            if !(tc > 0.0 && tc.is_finite()) {
-                return Err(refused("TC", format!("T_C* = {tc} s must be above 0")));
-            }
-            let hazard = Hazard { ag: given.ag, f0, tc };
-            Ok(Source::Code(GroundSpectrum::new(hazard, soil(table)?, topography(table)?)))
-        }
-        (None, None, Some(points)) => {
-            let Some(damping) = given.spectrum_damping else {
-                return Err(refused("spectrum", "state spectrum_damping, the ratio of that spectrum".into()));
-            };
-            let rises = points.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-            let begins = points.first().is_some_and(|point| point[0] == 0.0);
-            let positive = points.iter().all(|point| point[0].is_finite() && point[1] > 0.0);
-            if !(rises && begins && positive && points.len() > 1 && points.iter().all(|p| p[1].is_finite())) {
-                let message = "expected points [T, Sa] in s and g: T from 0 on that rises, Sa above 0";
-                return Err(refused("spectrum", message.into()));
-            }
-            let points = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
-            Ok(Source::Points(points, damping))
-        }
-        (None, None, None) if table.records.is_some() && table.record_scale == RecordScale::None => {
-            Ok(Source::Records)
-        }
-        (None, None, None) if table.records.is_some() => Err(refused(
-            "ag",
-            "a demand from the records takes them as they are: state record_scale = \"none\", or F0 and TC"
-                .into(),
-        )),
-        (None, None, None) => Err(refused(
-            "ag",
-            format!("needs its site: [check.{state}] with ag, F0 and TC, or a spectrum or records"),
-        )),
-        (Some(_), _, Some(_)) | (_, Some(_), Some(_)) => {
-            Err(refused("spectrum", "give F0 and TC, or a spectrum, not both".into()))
-        }
-        _ => Err(refused("ag", "F0 and TC go together; give both".into())),
-    }
-}
-
-fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
-    let Some(given) = &table.soil else {
-        return Err(CheckError::value(&["soil"], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
-    };
-    Soil::ALL.into_iter().find(|soil| soil.name() == given).ok_or_else(|| {
-        let letter = given.to_uppercase();
-        let message = match Soil::ALL.iter().find(|soil| soil.name() == letter) {
-            Some(soil) => format!("soil {given:?}: did you mean {:?}?", soil.name()),
-            None => format!(
-                "soil {given:?}: NTC 3.2.2 has formulas for A to E; give a spectrum of a local analysis"
-            ),
-        };
-        CheckError::value(&["soil"], message)
-    })
-}
-
-fn topography(table: &CheckTable) -> Result<f64, CheckError> {
-    let (factor, given) = match &table.topography {
-        None => return Ok(1.0),
-        Some(Topography::Factor(factor)) => {
-            (Some(*factor).filter(|factor| (1.0..=1.4).contains(factor)), factor.to_string())
-        }
-        Some(Topography::Category(name)) => {
-            let mut categories = CATEGORIES.into_iter();
-            (categories.find(|(category, _)| category == name).map(|(_, factor)| factor), format!("{name:?}"))
-        }
-    };
-    factor.ok_or_else(|| {
-        let message = format!("topography = {given} must be \"T1\" to \"T4\", or S_T from 1 to 1.4");
-        CheckError::value(&["topography"], message)
-    })
-}
-
-fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
-    let refused =
-        |key, message: String| Err(CheckError::value(&["building", key], format!("building: {message}")));
-    match (building.storeys, building.period, building.height_ratio, &building.modes) {
-        (Some(storeys), Some(period), Some(height_ratio), None) => {
-            if storeys < 1 {
-                return refused("storeys", format!("storeys = {storeys} must be at least 1"));
-            }
-            if !(period > 0.0 && period.is_finite()) {
-                return refused("period", format!("period = {period} s must be above 0"));
-            }
-            if !(0.0..=1.0).contains(&height_ratio) {
-                let message = format!("height_ratio = {height_ratio} is z/H, from 0 to 1");
-                return refused("height_ratio", message);
-            }
-            Ok(vec![Mode::of_storeys(storeys, period, height_ratio)])
-        }
-        (None, None, None, Some(modes)) => {
-            let usable =
-                |mode: &Mode| mode.period > 0.0 && mode.period.is_finite() && mode.participation.is_finite();
-            if modes.is_empty() || !modes.iter().all(usable) {
-                return refused("modes", "each mode needs a period above 0 s and a participation".into());
-            }
-            Ok(modes.clone())
-        }
-        _ => refused(
-            "modes",
-            "give storeys, period and height_ratio, or modes = [{ period, participation }]".into(),
-        ),
-    }
-}
-
-impl StateStatement {
-    /// Makes the spectrum of the code at the place of the wall, with these modes of the building; of the
-    /// ground where there is none.
-    ///
-    /// # Errors
-    /// [`CheckError::Value`] without a damping of the building, or of one that leaves no amplification.
-    pub(super) fn floor(
-        &self,
-        ground: GroundSpectrum,
-        modes: Vec<Mode>,
-    ) -> Result<Option<FloorSpectrum>, CheckError> {
-        if modes.is_empty() {
-            return Ok(None);
-        }
-        let name = self.state.key();
-        let Some(xi) = self.building_damping else {
-            let message = format!(
-                "{name}: state building_damping, the damping of the building in this limit state \
-                 (C8.7.1.2.1.4)"
-            );
-            return Err(CheckError::value(&[name, "building_damping"], message));
-        };
-        let floor = FloorSpectrum::new(ground, modes, xi);
-        if floor.peak_acceleration() <= 0.0 {
-            let message =
-                format!("{name}: a_Z = 0: the wall stands on the ground; leave [check.building] out");
-            return Err(CheckError::value(&["building"], message));
-        }
-        let largest = self.damping.max(self.activation_damping);
-        if floor.amplification(largest) <= 1.0 {
-            let message = format!("{name}: xi_k = {xi} leaves no amplification: [C7.2.6] does not hold");
-            return Err(CheckError::value(&[name, "building_damping"], message));
-        }
-        Ok(Some(floor))
-    }
 }

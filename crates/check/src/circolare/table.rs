@@ -35,6 +35,28 @@ tables! {
         /// Share r of the overburden whose mass moves with a parapet (-).
         #[key(minimum = 0)]
         pub overburden_mass: Option<f64>,
+        /// Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or as
+        /// given; by default at the least α0 where the scene has no `hinge_ratio`.
+        pub hinge: Option<Hinge>,
+        /// Range of `hinge_ratio` in which the hinge is searched (-).
+        #[key(default = HINGE_RANGE.to_vec())]
+        pub hinge_range: Option<[f64; 2]>,
+        /// Mean compressive strength `f_m` of the masonry \[Pa\], for which hinges are set back.
+        #[key(minimum = LEAST_STRENGTH)]
+        pub masonry_strength: Option<f64>,
+        /// γ that divides it (-).
+        #[key(minimum = 1, default = 1)]
+        pub masonry_gamma: Option<f64>,
+        /// κ of the rectangular stress block (-).
+        #[key(exclusiveMinimum = 0, maximum = 1, default = STRESS_BLOCK)]
+        pub stress_block: Option<f64>,
+        /// Whether FC divides it, too.
+        #[key(default = true)]
+        pub masonry_over_fc: Option<bool>,
+        /// Sides to which the wall rocks in the static checks, in place of `rocking` of `[impact]`.
+        pub rocking: Option<Rocks>,
+        /// The tie in the check.
+        pub tie: Option<TieTable>,
         /// q of the linear check (-).
         #[key(minimum = 1, default = 2)]
         pub behaviour_factor: Option<f64>,
@@ -59,14 +81,62 @@ tables! {
         /// Limit state of collapse.
         #[serde(rename = "SLC")]
         pub slc: Option<LimitStateTable>,
+        /// Whether accelerations at a height up to T₁ are at least `a_g` S.
+        #[serde(default)]
+        #[key(default = "not_below_ground")]
+        pub height_demand: HeightDemand,
         /// The building; none on the ground.
         pub building: Option<BuildingTable>,
         /// Records of the dynamic check, and of limit states without F0 and TC.
         pub records: Option<Spanned<RecordsTable>>,
-        /// What the peaks of the records become in the dynamic check: `a_g` S, or as they are.
+        /// What records become in the dynamic check: their peaks `a_g` S, as they are, or scaled to the
+        /// spectrum of the ground.
         #[serde(default)]
         #[key(default = "ag")]
         pub record_scale: RecordScale,
+        /// Periods between which records are held against the spectrum \[s\].
+        pub record_range: Option<[f64; 2]>,
+        /// Signs with which each record acts.
+        #[serde(default)]
+        #[key(default = "both")]
+        pub polarities: Polarities,
+    }
+
+    /// A tie in the check.
+    #[derive(Clone, Debug, Default)]
+    pub struct TieTable {
+        /// What the tie does at the activation: nothing, or it pulls with its strength.
+        #[serde(default)]
+        #[key(default = "none")]
+        pub at_activation: AtActivation,
+        /// The bar, in place of `tie_stiffness`, `tie_strength` and `tie_ultimate`.
+        pub bar: Option<BarTable>,
+    }
+
+    /// A steel bar with its anchor.
+    #[derive(Clone, Copy, Debug)]
+    pub struct BarTable {
+        /// Diameter φ \[m\].
+        #[key(exclusiveMinimum = 0)]
+        pub diameter: f64,
+        /// Length \[m\].
+        #[key(exclusiveMinimum = 0)]
+        pub length: f64,
+        /// E of the bar \[Pa\].
+        #[key(exclusiveMinimum = 0, default = STEEL)]
+        pub young_modulus: Option<f64>,
+        /// Design value of the yield stress \[Pa\].
+        #[key(exclusiveMinimum = 0)]
+        pub yield_stress: f64,
+        /// Strain at fracture (-); brittle unless given.
+        #[key(exclusiveMinimum = 0)]
+        pub ultimate_strain: Option<f64>,
+        /// What the anchor bears \[N\].
+        #[key(exclusiveMinimum = 0)]
+        pub anchor_capacity: Option<f64>,
+        /// Distance of the bars along the wall \[m\]; one bar for the width unless given.
+        #[key(exclusiveMinimum = 0)]
+        pub spacing: Option<f64>,
     }
 
     /// A limit state: its hazard, or the spectrum at the wall's place.
@@ -120,7 +190,27 @@ tables! {
     }
 }
 
-choices!(Activation, KnowledgeLevel, UseClass, Method, RecordScale);
+choices!(
+    Activation,
+    KnowledgeLevel,
+    UseClass,
+    Method,
+    RecordScale,
+    Hinge,
+    Rocks,
+    HeightDemand,
+    AtActivation,
+    Polarities
+);
+
+/// `hinge_range` unless given \[-\].
+pub(super) const HINGE_RANGE: [f64; 2] = [0.1, 0.9];
+/// κ unless given, NTC 7.8.2.2.3 \[-\].
+pub(super) const STRESS_BLOCK: f64 = 0.85;
+/// The least `f_m`; less is in another unit \[Pa\].
+pub(super) const LEAST_STRENGTH: f64 = 1e5;
+/// E of steel unless given \[Pa\].
+pub(super) const STEEL: f64 = 210e9;
 
 impl Described for Topography {
     fn describe(key: &str, tables: &mut Schema) -> Schema {
@@ -128,6 +218,59 @@ impl Described for Topography {
         let categories = one_of(CATEGORIES.map(|(name, _)| name));
         with(Schema::new(), "anyOf", vec![categories, factor])
     }
+}
+
+/// Where the hinge of a strip is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hinge {
+    /// At the least α0 of each side, C8.7.1.2.1.1.
+    LeastAlpha0,
+    /// Where each check of each side has its least `ζ_E`.
+    Worst,
+    /// `hinge_ratio` of the scene.
+    Given,
+}
+
+impl Hinge {
+    /// Returns the value of the key.
+    pub fn name(self) -> &'static str {
+        ["least_alpha0", "worst", "given"][self as usize]
+    }
+}
+
+/// Sides to which a wall rocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rocks {
+    /// Both.
+    TwoSided,
+    /// u > 0.
+    OneSidedPositive,
+    /// u < 0.
+    OneSidedNegative,
+}
+
+/// What bounds accelerations at a height up to T₁.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HeightDemand {
+    /// `a_g` S: the foot of a building moves with the ground.
+    #[default]
+    NotBelowGround,
+    /// Nothing, as the code prints it.
+    Printed,
+}
+
+/// What a tie does at the activation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtActivation {
+    /// It does no work.
+    #[default]
+    None,
+    /// It pulls with its strength.
+    Yield,
 }
 
 /// The wall before it rocks.
@@ -198,4 +341,17 @@ pub enum RecordScale {
     Ag,
     /// The peaks stay as they are.
     None,
+    /// Scaled so that their mean spectrum keeps within the band of NTC 3.2.3.6.
+    Spectrum,
+}
+
+/// Signs with which each record acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Polarities {
+    /// Both; the worse counts.
+    #[default]
+    Both,
+    /// That of the record.
+    AsRecorded,
 }

@@ -5,18 +5,24 @@ use rocking_wall::wall::{Parameters, Wall};
 use serde::Serialize;
 
 use super::LimitState;
-use super::demand::Demand;
+use super::case::Demands;
+use super::compatibility::Compatibility;
+use super::side_verdict::SideVerdict;
 use super::statement::Statement;
+use super::table::Hinge;
 
 /// A wall that was checked, with what it was checked by.
 #[derive(Debug)]
 pub struct Checked<'a> {
     pub(super) statement: &'a Statement,
-    pub(super) parameters: &'a Parameters,
+    /// Its parameters as the check takes them, with the hinge of the side that governs.
+    pub(super) parameters: Parameters,
     pub(super) floors: Option<&'a Floors>,
     pub(super) wall: Wall,
+    /// Where the hinge of a strip is.
+    pub(super) rule: Option<Hinge>,
     /// Of SLD, SLV and SLC; `None` for one that is not stated.
-    pub(super) demands: [Option<Demand>; 3],
+    pub(super) demands: Demands,
     /// The outcome.
     pub outcome: Outcome,
 }
@@ -116,6 +122,9 @@ pub enum Deciding {
 }
 
 impl Deciding {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Sld, Self::SlvWithQ, Self::Slv, Self::Slc];
+
     /// Returns the name of the check.
     pub fn name(self) -> &'static str {
         match self {
@@ -148,6 +157,18 @@ pub struct SideVerdicts {
 }
 
 impl SideVerdicts {
+    /// The verdict of a side.
+    pub(super) fn of(&self, side: Side) -> Option<&SideVerdict> {
+        self.iter().find(|(own, _)| *own == side).map(|(_, verdict)| verdict)
+    }
+
+    pub(super) fn of_mut(&mut self, side: Side) -> &mut Option<SideVerdict> {
+        match side {
+            Side::Positive => &mut self.positive,
+            Side::Negative => &mut self.negative,
+        }
+    }
+
     /// The sides there are.
     pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
         let sides = [(Side::Positive, &self.positive), (Side::Negative, &self.negative)];
@@ -155,117 +176,15 @@ impl SideVerdicts {
     }
 }
 
-/// The outcome of one side.
-#[derive(Clone, Debug, Serialize)]
-pub struct SideVerdict {
-    /// α0 [C8.7.1.1] \[-\].
-    pub alpha0: f64,
-    /// e* [C8.7.1.5] \[-\].
-    pub e_star: f64,
-    /// M* = e* Σ(P + Q)/g \[kg\].
-    #[serde(rename = "M_star")]
-    pub mass: f64,
-    /// `a_0` = α0 g/e*, without FC \[m/s²\].
-    pub a0: f64,
-    /// `d_0` \[m\].
-    pub d0: f64,
-    /// T0 of the elastic branch; 0 where the wall is rigid \[s\].
-    #[serde(rename = "T0")]
-    pub t0: f64,
-    /// `d_y`, the end of the elastic branch \[m\].
-    pub dy: f64,
-    /// `a_y`, without FC \[m/s²\].
-    pub ay: f64,
-    /// d/u \[-\].
-    pub d_per_u: f64,
-    /// SLD, activation.
-    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
-    pub sld: Option<ActivationCheck>,
-    /// SLV with q.
-    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
-    pub slv_q: Option<ActivationCheck>,
-    /// SLV by displacement.
-    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
-    pub slv: Option<DisplacementCheck>,
-    /// SLC by displacement.
-    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
-    pub slc: Option<DisplacementCheck>,
-    /// `F_act`, the force that α0 takes \[N\].
-    #[serde(skip)]
-    pub acting_force: f64,
-    /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
-    #[serde(skip)]
-    pub pushed_weight: f64,
-    /// Where the tie breaks, if it does.
-    #[serde(skip)]
-    pub tie_break: Option<TieBreak>,
-    /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
-    #[serde(skip)]
-    pub corners: Vec<(f64, f64)>,
-}
-
-/// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TieBreak {
-    /// u there \[m\].
-    pub u: f64,
-    /// a with the tie there \[m/s²\].
-    pub before: f64,
-    /// a without it \[m/s²\].
-    pub after: f64,
-    /// The largest a from the end of the elastic branch to there \[m/s²\].
-    pub largest: f64,
-    /// What is lost over the largest \[-\].
-    pub loss: f64,
-}
-
-/// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ActivationCheck {
-    /// Capacity, with FC and, in the linear check, times q \[m/s²\].
-    pub capacity: f64,
-    /// Demand \[m/s²\].
-    pub demand: f64,
-    /// `ζ_E` = capacity/demand \[-\].
-    pub ratio: f64,
-    /// `a_g` that just brings the wall there \[g\].
-    pub ag: f64,
-}
-
-/// A check of displacements, C8.7.1.2.1.8.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct DisplacementCheck {
-    /// `d_SLV` or `d_SLC` \[m\].
-    pub d: f64,
-    /// a there, with FC \[m/s²\].
-    pub a: f64,
-    /// `T_SLV` or `T_SLC` \[s\].
-    #[serde(rename = "T")]
-    pub period: f64,
-    /// `S_e` or `S_eZ` at that period \[m/s²\].
-    #[serde(rename = "S_e")]
-    pub acceleration: f64,
-    /// `S_d` \[m\].
-    pub demand: f64,
-    /// Both terms of [C8.7.1.12]; the second only behind b T₁ \[m\].
-    pub demand_terms: [Option<f64>; 2],
-    /// d/`S_d` \[-\].
-    pub ratio: f64,
-    /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
-    pub ag: f64,
-    /// `ζ_E` \[-\].
-    #[serde(rename = "zeta_E")]
-    pub zeta: f64,
-    /// Whether the tie breaks there.
-    pub limited_by_tie: bool,
-    /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
-    #[serde(rename = "raised_to_SLD")]
-    pub raised: bool,
-}
-
 /// The dynamic check of a wall.
 #[derive(Clone, Debug, Serialize)]
 pub struct DynamicCheck {
+    /// Where the hinge of a strip is in the runs, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// Whether a run that reaches the strength of the tie fails.
+    #[serde(skip)]
+    pub tie_is_end: bool,
     /// SLV.
     #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
     pub slv: Option<DynamicState>,
@@ -277,20 +196,26 @@ pub struct DynamicCheck {
 /// The dynamic check of a limit state.
 #[derive(Clone, Debug, Serialize)]
 pub struct DynamicState {
-    /// Whether no run exceeds `d_0` and the mean of the maxima is within the threshold.
+    /// Whether no run exceeds `d_0` or fails by its tie, and the mean of the shares of the threshold is at
+    /// most 1.
     pub passed: bool,
-    /// Mean of the maxima of |d|, or of fewer than 7 records the largest \[m\].
+    /// Mean of the maxima of |d|, or of fewer than 7 records the largest; of both signs the worse \[m\].
     pub d: f64,
     /// Threshold over it, each side by its own \[-\].
     pub ratio: f64,
     /// How many runs exceed `d_0`.
     pub beyond_d0: usize,
+    /// How many runs reach the strength of the tie.
+    pub at_strength: usize,
     /// The lowest factor on all records that fails \[-\].
     #[serde(rename = "zeta_E")]
     pub zeta: f64,
     /// The side of the largest |d| over its threshold.
     pub side: Side,
-    /// The runs.
+    /// The records beside the spectrum of the ground, where the site has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compatibility: Option<Compatibility>,
+    /// The runs: of each record, with each sign.
     pub runs: Vec<DynamicRun>,
 }
 
@@ -301,11 +226,14 @@ pub struct DynamicRun {
     pub record: String,
     /// Factor on the record \[-\].
     pub factor: f64,
+    /// Sign with which it acts, 1 or −1.
+    pub sign: f64,
     /// Largest d on the sides u > 0 and u < 0 \[m\].
     pub d: [f64; 2],
-    /// Whether one of them exceeds `d_0`, or the displacement at which the model ends before: that of the
-    /// strength of the tie, or `u_ins`.
+    /// Whether one of them exceeds `d_0`, or `u_ins` where the model ends before.
     pub beyond_d0: bool,
+    /// Whether the tie reaches its strength.
+    pub at_strength: bool,
 }
 
 impl DynamicCheck {

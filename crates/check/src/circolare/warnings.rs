@@ -5,11 +5,14 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 
 use super::LimitState;
+use super::case::{Case, Demands};
 use super::curve::Curve;
 use super::demand::Demand;
-use super::statement::{LARGEST_CONFIDENCE_FACTOR, Source, Statement};
-use super::table::UseClass;
-use super::verdict::SideVerdicts;
+use super::side_verdict::SideVerdict;
+use super::statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
+use super::states::Source;
+use super::table::{AtActivation, UseClass};
+use super::verdict::{Deciding, Side, SideVerdicts};
 
 /// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
 const LONGEST_PERIOD: f64 = 4.0;
@@ -44,7 +47,8 @@ pub(super) fn of_statement(
     {
         warnings.push("overburden_mass has no effect: it is for a parapet with overburden".into());
     }
-    if statement.table.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
+    let is_at_edges = parameters.a3 == 1.0 && parameters.multilinear.is_none() && statement.masonry.is_none();
+    if statement.table.compression_considered && is_at_edges {
         warnings.push(
             "compression_considered with a3 = 1 puts the hinges at the edges: give the reduced thickness"
                 .into(),
@@ -70,7 +74,7 @@ pub(super) fn of_statement(
 }
 
 /// Usual E of masonry: 1e8 to 5e10 Pa. NTC Tab. C8.5.I has 0.69e9 to 3.36e9 Pa.
-const YOUNG_MODULUS: Usual = Usual {
+pub(super) const YOUNG_MODULUS: Usual = Usual {
     name: "young_modulus",
     unit: "Pa",
     range: [1e8, 5e10],
@@ -101,33 +105,99 @@ pub(super) fn improbable(statement: &Statement, floors: Option<&Floors>) -> Vec<
     found
 }
 
-pub(super) fn of_demand(state: LimitState, demand: &Demand) -> Option<String> {
-    let Demand::Floor(floor) = demand else { return None };
-    let (place, ground) = (floor.peak_acceleration(), floor.ground().acceleration(0.0, 0.05));
-    (place < ground)
-        .then(|| format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground"))
+/// What the printed `a_Z` lets pass: an acceleration below that of the ground.
+pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String> {
+    let floors = LimitState::ALL.into_iter().zip(demands).filter_map(|(state, demand)| match demand {
+        Some(Demand::Floor(floor)) => Some((state, floor)),
+        _ => None,
+    });
+    let below = floors.filter_map(|(state, floor)| {
+        let (place, ground) = (floor.printed_peak(), floor.ground().acceleration(0.0, 0.05));
+        let is_below = place < ground && !statement.bounds_heights();
+        is_below.then(|| {
+            format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground")
+        })
+    });
+    below.collect()
 }
 
-pub(super) fn of_side(
-    curve: &Curve<'_>,
-    statement: &Statement,
-    demands: &[Option<Demand>; 3],
-) -> Vec<String> {
+/// What the curve of a side leaves to be known.
+pub(super) fn of_curve(curve: &Curve, case: &Case<'_>, sign: f64) -> Vec<String> {
+    let statement = case.statement;
     let mut warnings = Vec::new();
     if curve.tie().is_some_and(|tie| tie.strength_displacement().is_none()) {
         warnings
             .push("the tie has no tie_strength: it never breaks and is counted at d_SLV and d_SLC".into());
     }
-    let t0 = curve.elastic.period;
+    let makes = |state: LimitState| statement.state(state).is_some();
+    if makes(LimitState::Sld) || makes(LimitState::Slv) {
+        warnings.extend(of_tie(case, curve));
+    }
+    let one_tied = case.parameters.tie_stiffness > 0.0 && curve.tie().is_none();
+    if one_tied {
+        warnings.push(format!("{}: no tie holds this side", case.name(Side::of(sign))));
+    }
+    warnings
+}
+
+/// What the tie leaves out at the activation.
+fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<String> {
+    let tie = curve.tie()?;
+    let has_q = case.statement.behaviour_factor > 1.0;
+    match case.statement.at_activation() {
+        AtActivation::None => Some(
+            "SLD and SLV with q do not count the tie; state [check.tie] at_activation = \"yield\" for a \
+             tight tie that acts at the activation"
+                .into(),
+        ),
+        AtActivation::Yield if has_q && tie.ultimate == Some(0.0) => Some(
+            "SLV with q counts a brittle tie (tie_ultimate = 0), and q > 1 asks for one that yields".into(),
+        ),
+        AtActivation::Yield => None,
+    }
+}
+
+/// Where a spectrum at a height is below that of the ground at T0.
+pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<String> {
+    let mut warnings = Vec::new();
     for given in statement.states.iter().flatten() {
         let Some(Demand::Floor(floor)) = &demands[given.state as usize] else { continue };
-        let xi = LimitState::Sld.damping();
+        let (xi, t0) = (LimitState::Sld.damping(), side.t0);
         let (above, ground) = (floor.acceleration(t0, xi), floor.ground().acceleration(t0, xi));
         if t0 > 0.0 && t0 < floor.first_period() && above < ground {
             warnings.push(format!(
                 "{}: S_eZ(T0) = {above:.4} m/s² is below S_e(T0) = {ground:.4} m/s² of the ground",
                 given.state
             ));
+        }
+    }
+    warnings
+}
+
+/// What a verdict owes to the raise by SLD, or lacks without it.
+pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) -> Vec<String> {
+    let (mut warnings, statement) = (Vec::new(), case.statement);
+    for (side, verdict) in sides.iter() {
+        let side = case.name(side);
+        for (check, found) in [(Deciding::Slv, verdict.slv), (Deciding::Slc, verdict.slc)] {
+            let Some(found) = found.filter(|found| found.ratio < 1.0) else { continue };
+            if statement.state(LimitState::Sld).is_none() {
+                warnings.push(format!(
+                    "{side}: {} by displacement is {:.3}; without [check.SLD] no a_g of activation raises it \
+                     (C8.7.1.2.1.8)",
+                    check.name(),
+                    found.ratio
+                ));
+            } else if passed && statement.decides(check) && found.zeta >= 1.0 {
+                warnings.push(format!(
+                    "{side}: the raise by SLD turns the verdict of {}: {:.3} by displacement, raised to \
+                     {:.3}{}",
+                    check.name(),
+                    found.ratio,
+                    found.zeta,
+                    if check == Deciding::Slc { "; the text has the raise for SLV only" } else { "" }
+                ));
+            }
         }
     }
     warnings

@@ -28,7 +28,7 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::report::Figure;
 use crate::site::Records;
-use ::report::table::{Cell, Table, significant};
+use ::report::table::{Cell, Digits, Table, significant};
 use sides::governing;
 
 pub use demand::Demand;
@@ -43,6 +43,7 @@ pub const ENTRY: Entry = Entry {
     symbol: "ratio",
     checks: &["onset", "displacement"],
     example: "check = { code = \"fractions\", spectrum = [[0, 2.0], [0.5, 5.0], [4, 0.6]], unit = \"m/s2\" }",
+    of_wall: &[],
     describe: FractionsTable::describe,
     read: |file| Ok(Box::new(Statement::read(file)?)),
 };
@@ -175,7 +176,7 @@ impl Statement {
     }
 
     fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
-        let Subject { parameters, floors } = subject;
+        let Subject { parameters, floors, .. } = subject;
         let wall = Wall::new(parameters)?;
         let (mut source, mut warnings) = (self.source.clone(), Vec::new());
         let demand = if let Some(spectrum) = &self.spectrum {
@@ -192,7 +193,7 @@ impl Statement {
                 warnings.extend(floors.warnings(&wall));
                 source = [source, floors.note()].join(" ");
             }
-            Demand::of_motions(self.records.felt(floors, &wall)?, self.damping)?
+            Demand::of_motions(self.records.felt(floors, wall.body())?, self.damping)?
         };
         let sides = check(&wall, self.fractions, |period| demand.at(period))?;
         Ok(Checked { statement: self, parameters, wall, demand, source, sides, warnings })
@@ -214,6 +215,7 @@ impl Code for Statement {
             governs: "displacement",
             side: (!checked.wall.has_equal_sides()).then(|| name(&worst)),
             zeta: worst.displacement_ratio,
+            raised: None,
             rows: checked.rows(),
             notes: checked.notes(),
             warnings: std::mem::take(&mut checked.warnings),
@@ -287,6 +289,7 @@ impl Checked<'_> {
                 ground: None,
                 ends,
                 clause,
+                remark: String::new(),
             };
             let onset = Ends::Accelerations(accelerations);
             let displacement = Ends::Displacements(displacements);
@@ -368,7 +371,7 @@ impl Details for Checked<'_> {
     }
 
     fn numbers(&self) -> Table {
-        let mut table = numbers(self.shown().map(|(name, _)| name));
+        let mut table = numbers(self.shown().map(|(name, _)| name), Digits::Significant(6));
         for (name, unit, value) in NUMBERS {
             let values = self.shown().map(|(_, side)| value(side).into());
             table.row([name.into(), Cell::from(unit)].into_iter().chain(values));

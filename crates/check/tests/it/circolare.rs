@@ -9,7 +9,7 @@ use check::circolare::{
     DisplacementCheck, FloorSpectrum, GroundSpectrum, Hazard, Mode, Outcome, SideVerdict, Soil, Statement,
     damping_factor,
 };
-use check::{CheckError, CheckFile};
+use check::{CheckError, CheckFile, Subject};
 use rocking_wall::scene::Scene;
 
 const DIGITS: f64 = 1e-5;
@@ -28,7 +28,9 @@ fn near_each<const N: usize>(found: [f64; N], expected: [f64; N], what: &str) {
 pub(crate) fn checked(text: &str) -> Result<Outcome, String> {
     let scene = Scene::parse("scene.toml", text, Path::new(".")).unwrap();
     let file = CheckFile::parse("scene.toml", text).unwrap();
-    let outcome = || Ok(Statement::read(&file)?.checked((&scene).into())?.outcome);
+    let assumed = file.assumed(&[]);
+    let subject = Subject { assumed: &assumed, ..(&scene).into() };
+    let outcome = || Ok(Statement::read(&file)?.checked(subject)?.outcome);
     outcome().map_err(|error: CheckError| file.located(error).to_string())
 }
 

@@ -1,4 +1,11 @@
 //! The dynamic check of Circolare 7/2019.
+#![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
+
+use check::circolare::{Outcome, Statement};
+use check::{CheckFile, Subject};
+use ground_motion::GroundMotion;
+use rocking_wall::scene::Scene;
+use run::records::NamedRecord;
 
 use crate::circolare::{PARAPET, checked, near};
 
@@ -38,8 +45,8 @@ fn runs_under_records() {
 fn the_confidence_factor_divides_forces() {
     let table = |gravity: f64, factor: &str| {
         format!(
-            "{PARAPET}gravity = {gravity}\n[damping]\ndamping_model = \"constant_coefficient\"\nxi = 0.05\n\
-             [check]\ncode = \"circolare-2019\"\n\
+            "{PARAPET}gravity = {gravity}\n[force_law]\na1 = 0.03\n[damping]\ndamping_model = \
+             \"constant_coefficient\"\nxi = 0.05\n [check]\ncode = \"circolare-2019\"\n\
              before_activation = \"law\"\nsoil = \"B\"\n{factor}\n\
              record_scale = \"none\"\nmethod = \"dynamic\"\n\
              records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
@@ -55,5 +62,101 @@ fn the_confidence_factor_divides_forces() {
         assert_eq!(one.factor, 1.0);
         near(one.d[0], other.d[0], "u > 0");
         near(one.d[1], other.d[1], "u < 0");
+    }
+}
+
+/// A record of example 16.
+fn record(index: u32) -> NamedRecord {
+    let (i, tau) = (f64::from(index), std::f64::consts::TAU);
+    let line = |k: u32| {
+        let k = f64::from(k);
+        let f = 0.25 * 64.0_f64.powf((k - 1.0) / 59.0);
+        let share = f / ((f * f + 4.0) * (1.0 + f * f / 36.0)).sqrt();
+        (f, share, tau * (0.381966 * k * k + 0.137 * i * k).fract())
+    };
+    let lines: Vec<_> = (1..=60).map(line).collect();
+    let at = |sample: u32| {
+        let t = 0.01 * f64::from(sample);
+        let sum: f64 = lines.iter().map(|(f, share, phase)| share * (tau * f * t + phase).sin()).sum();
+        0.2 * (t / 4.0).min((25.0 - t) / 9.0).min(1.0) * sum
+    };
+    let motion = GroundMotion::new(0.01, (0..=2500).map(at).collect()).unwrap();
+    NamedRecord { name: format!("{index}"), motion }
+}
+
+fn under_records(count: u32, scale: &str) -> Outcome {
+    let site = "{ ag = 0.15, F0 = 2.40, TC = 0.32 }";
+    let text = format!(
+        "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n{scale}\n\
+         SLV = {site}\n"
+    );
+    let file = CheckFile::parse("scene.toml", &text).unwrap().with_records((1..=count).map(record).collect());
+    let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
+    Statement::read(&file).unwrap().checked(Subject::from(&scene)).unwrap().outcome
+}
+
+/// Example 16: scaling to the spectrum. T_SLV of this wall, 2.26 s, is beyond the 2 s of the example.
+#[test]
+fn records_are_scaled_to_the_spectrum() {
+    for (index, peak) in [(1, 1.94018), (2, 1.61014), (3, 1.92434)] {
+        near(record(index).motion.peak(), peak, "the records of the example");
+    }
+    let scale = "record_scale = \"spectrum\"\nrecord_range = [0.15, 2.0]";
+    let three = (3, &[0.989732, 0.992722, 1.00170][..], [0.9, 0.438505, 1.22896, 0.210771]);
+    let seven = [0.943535, 0.946386, 0.954941, 0.931674, 0.937953, 0.917056, 0.949403];
+    for (count, factors, [least, least_at, largest, largest_at]) in
+        [three, (7, &seven[..], [0.9, 0.499793, 1.15772, 0.222094])]
+    {
+        let outcome = under_records(count, scale);
+        let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
+        for (run, expected) in state.runs.iter().zip(factors) {
+            near(run.factor, *expected, "factor");
+        }
+        // a symmetric wall runs once
+        assert_eq!(state.runs.len(), factors.len());
+        let found = state.compatibility.as_ref().unwrap();
+        near(found.least, least, "least");
+        near(found.least_at, least_at, "its period");
+        near(found.largest, largest, "largest");
+        near(found.largest_at, largest_at, "its period");
+        assert!(found.compatible);
+    }
+    let outcome = under_records(3, "record_scale = \"none\"");
+    let found = outcome.dynamic.unwrap().slv.unwrap().compatibility.unwrap();
+    assert!(found.largest < 1.3 && found.compatible == (found.least >= 0.9), "{found:?}");
+    let weak = under_records(3, "record_scale = \"spectrum\"").warnings;
+    let strong = under_records(3, "record_scale = \"spectrum\"\nrecord_range = [0.05, 4.0]").warnings;
+    let has = |warnings: &[String]| warnings.iter().any(|warning| warning.contains("not compatible"));
+    assert!(!has(&weak) && has(&strong), "{weak:?} {strong:?}");
+}
+
+/// A wall with a tie on one side runs with both signs of each record; the worse counts, and a run at the
+/// strength of the tie fails.
+#[test]
+fn both_signs_of_a_record_run() {
+    let table = |more: &str| {
+        format!(
+            "{PARAPET}[tie]\ntie_height = 3\ntie_stiffness = 1e6\ntie_strength = 1e3\ntie_side = \
+             \"positive\"\n {more}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \
+             \"B\"\n method = \"dynamic\"\nrecords = {{ synthetic = {{ count = 3 }} }}\n\
+             SLV = {{ ag = 0.1, F0 = 2.45, TC = 0.32 }}\n"
+        )
+    };
+    let state = |text: &str| checked(text).unwrap().dynamic.unwrap().slv.unwrap();
+    let brittle = state(&table(""));
+    assert_eq!(brittle.runs.len(), 6);
+    assert!(!brittle.passed && brittle.at_strength > 0);
+    let signs: Vec<f64> = brittle.runs.iter().map(|run| run.sign).collect();
+    assert_eq!(signs, [1.0, -1.0, 1.0, -1.0, 1.0, -1.0]);
+    let largest = brittle.runs.iter().map(|run| run.d[0].max(run.d[1])).fold(0.0, f64::max);
+    near(brittle.d, largest, "of six runs the worst");
+    // a tie that yields does not fail there
+    let yields = state(&table("tie_ultimate = 0.5\n"));
+    assert!(yields.at_strength > 0 && yields.passed == (yields.ratio >= 1.0 && yields.beyond_d0 == 0));
+    let one = state(&table("").replace("soil =", "polarities = \"as_recorded\"\nsoil ="));
+    assert_eq!(one.runs.len(), 3);
+    let same = brittle.runs.iter().step_by(2).zip(&one.runs);
+    for (both, one) in same {
+        assert_eq!(both, one);
     }
 }

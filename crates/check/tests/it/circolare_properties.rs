@@ -27,8 +27,8 @@ impl Case {
         // on soil A the shape of the spectrum does not depend on a_g, except for T_D
         let site = format!("{{ ag = {}, F0 = 2.45, TC = 0.32{damping} }}", self.ag * factor);
         format!(
-            "[geometry]\nmechanism = {mechanism:?}\nheight = {}\nthickness = {thickness}\nwidth = {width}\n\
-             overburden = {}\noverburden_eccentricity = {}\n\
+            "[geometry]\nmechanism = {mechanism:?}\nhinge_ratio = 0.5\nheight = {}\nthickness = \
+             {thickness}\ndensity = 1800\nwidth = {width}\n overburden = {}\noverburden_eccentricity = {}\n\
              [check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"A\"\n{mass}{floor}\
              SLD = {site}\nSLV = {site}\nSLC = {site}\n",
             self.height,
@@ -85,7 +85,7 @@ proptest! {
     /// A tie that never breaks does not lower ζ of SLV on the ground.
     #[test]
     fn a_lasting_tie_does_not_harm(stiffness in 1e2..1e7_f64, slack in 0.0..0.05, height in 0.5..4.0) {
-        let wall = "[geometry]\nheight = 4\nthickness = 0.4\n";
+        let wall = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
         let tie = format!("[tie]\ntie_height = {height}\ntie_stiffness = {stiffness}\ntie_slack = {slack}\n");
         let table = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
                      SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
@@ -100,7 +100,7 @@ proptest! {
 fn a_stiff_building_is_the_ground() {
     let text = |building: &str, damping: &str| {
         format!(
-            "[geometry]\nheight = 4\nthickness = 0.4\n[check]\ncode = \"circolare-2019\"\n\
+            "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n[check]\ncode = \"circolare-2019\"\n\
              before_activation = \"rigid\"\nsoil = \"B\"\n{building}\n\
              SLD = {{ ag = 0.15, F0 = 2.45, TC = 0.32{damping} }}\n\
              SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32{damping} }}\n"

@@ -1,6 +1,6 @@
 //! What every code has: an entry, its rule in the manual, and a verdict from its example.
 
-use check::{CODES, CheckFile, Ends, Origin, Sought, check_walls, find, page, read};
+use check::{CODES, CheckFile, Ends, Origin, Sought, WallCodes, check_walls, find, page, read};
 use rocking_wall::scene::Scene;
 use run::walls::NamedWall;
 
@@ -61,10 +61,11 @@ fn every_code_gives_all_of_a_verdict() {
         for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {
             assert!(page.contains(part), "{name}: the report lacks {part}");
         }
-        let found = find(&*stated, (&scene).into(), Sought::Thickness).unwrap();
+        let found = find(&*stated, (&scene).into(), Sought::Thickness, &mut |_, _| {}).unwrap();
         assert!(found.plot().svg().starts_with("<svg") && found.text().ends_with('\n'), "{name}");
         let walls = [NamedWall::new("one", scene.parameters.clone())];
-        let table = check_walls(&*stated, &walls, 1).table();
+        let codes = WallCodes::read(&file, &walls).unwrap();
+        let table = check_walls(&codes, &walls, 1).table();
         let shown = table.columns.iter().filter(|column| code.checks.contains(&&*column.heading)).count();
         assert_eq!(shown, code.checks.len(), "{name}");
     }

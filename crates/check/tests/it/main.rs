@@ -10,5 +10,8 @@ mod circolare_cases;
 mod circolare_dynamic;
 mod circolare_properties;
 mod circolare_refusals;
+mod circolare_second;
+mod circolare_second_cases;
+mod circolare_second_messages;
 mod codes;
 mod messages;

@@ -307,7 +307,8 @@ impl Prepared {
         }
         let wall = self.motion.wall();
         let Peaks { positive, negative } = state.peaks;
-        let rocked = positive > wall.elastic_end(1.0) || negative > wall.elastic_end(-1.0);
+        let rocked =
+            positive > wall.statics().elastic_end(1.0) || negative > wall.statics().elastic_end(-1.0);
         let [_, ratio] = state.reported_peak(wall.body().instability, overturning.is_some());
         Ok(Point { ratio, rocked, overturning })
     }

@@ -1,15 +1,19 @@
 //! `wall check`: walls against a building code.
 
 use std::path::PathBuf;
+use std::time::Instant;
 
-use anyhow::{Context, Result, bail};
-use check::{CheckFile, Code, Origin, Sought, check_walls, find, how_to_write, page, read};
+use anyhow::{Context, Result, anyhow, bail};
+use check::{
+    CheckFile, Code, Origin, Sought, Subject, WallCodes, check_walls, find, how_to_write, page, read,
+    with_assignments,
+};
 use clap::Args;
 use rocking_wall::scene::{Scene, read_text};
 use run::parallel;
 use run::walls::read_walls;
 
-use crate::args::{SceneArguments, refuse};
+use crate::args::{SceneArguments, apply_set, refuse};
 use crate::output::{Console, written};
 
 #[derive(Debug, Args)]
@@ -48,22 +52,25 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         bail!("there is no file; give a scene or walls with a table [check]; {}", how_to_write());
     };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
-    let file = CheckFile::parse(&name, &text)?;
+    let (of_check, of_wall): (Vec<String>, Vec<String>) =
+        arguments.scene.set.iter().cloned().partition(|set| set.trim_start().starts_with("check."));
+    let extended = with_assignments(&text, &of_check).map_err(|message| anyhow!("--set {message}"))?;
+    let file = CheckFile::parse_with(&name, &extended, text.len())?;
     let code = || read(&file).map_err(|error| file.located(error));
     if file.has_walls() {
         let one_wall = [
             ("--find", arguments.find.is_some()),
             ("--report", arguments.report.is_some()),
-            ("--set", !arguments.scene.set.is_empty()),
+            ("--set of a parameter", !of_wall.is_empty()),
         ];
         refuse(one_wall, "takes one wall; give a scene").context(name.clone())?;
-        return walls(console, arguments, &file, &*code()?);
+        return walls(console, arguments, &file);
     }
     let many_walls = [("--html", arguments.html.is_some())];
     refuse(many_walls, "lists the walls of a file; --report is the page of one wall")
         .context(name.clone())?;
     let mut scene = Scene::parse(&name, &text, file.folder())?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&of_wall, &mut scene)?;
     let Arguments { plot, csv, report, .. } = arguments;
     let outputs = || plot.iter().chain(csv).chain(report);
     // before records are read, and after
@@ -83,17 +90,20 @@ fn one(
     scene: &Scene,
 ) -> Result<()> {
     let Arguments { plot, csv, report, .. } = arguments;
+    let assumed = file.assumed(&arguments.scene.set);
+    let subject = Subject { assumed: &assumed, ..scene.into() };
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
-        let found = find(code, scene.into(), sought).map_err(|error| file.located(error))?;
+        let found = find(code, subject, sought, &mut progress(console, code.takes_runs()))
+            .map_err(|error| file.located(error))?;
         console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
         if arguments.json {
             return console.json(&found.json());
         }
         return console.print(&(found.text() + &written("written  ", plot)));
     }
-    let verdict = code.check(scene.into()).map_err(|error| file.located(error))?;
+    let verdict = code.check(subject).map_err(|error| file.located(error))?;
     if let Some(path) = report {
         let date = arguments.date.as_deref();
         let origin =
@@ -108,13 +118,28 @@ fn one(
     console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
 }
 
+/// Tells every ten seconds how far a search with runs is, and what is left.
+fn progress<'a>(console: &'a Console<'_>, takes_runs: bool) -> impl FnMut(u32, u32) + 'a {
+    let (begin, mut told) = (Instant::now(), 0.0);
+    move |done, of| {
+        let passed = begin.elapsed().as_secs_f64();
+        if takes_runs && passed >= told + 10.0 {
+            told = passed;
+            let left = passed * f64::from(of - done) / f64::from(done);
+            console.report(&format!("{done} of {of} values tried, about {left:.0} s are left"));
+        }
+    }
+}
+
 /// Checks the walls of a file.
-fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>, code: &dyn Code) -> Result<()> {
+fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> Result<()> {
     let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
     let walls = read_walls(file.text(), file.name().as_ref(), &mut inputs, &mut warnings)?;
+    let codes = WallCodes::read(file, &walls)?;
+    let code = codes.shared();
     let Arguments { csv, html, .. } = arguments;
     console.check_distinct(inputs.iter().chain(&code.records().files), html.iter().chain(csv))?;
-    let verdicts = check_walls(code, &walls, parallel::threads(None).get());
+    let verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
     console.save(csv.as_ref(), || verdicts.table().csv())?;
     console.save(html.as_ref(), || verdicts.page(file.name()))?;
     warnings.iter().chain(&code.records().warnings).for_each(|warning| console.warn(warning));

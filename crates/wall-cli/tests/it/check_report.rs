@@ -6,7 +6,7 @@ use crate::command_line::{assert_has, content, folder, refused, succeed};
 
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.
 const TIED: &str = "title = \"A <b>tied</b> parapet & \\\"its\\\" roof\"\n\
-    [geometry]\nheight = 4\nthickness = 0.4\n[force_law]\na1 = 0.03\n\
+    [geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n[force_law]\na1 = 0.03\n\
     [tie]\ntie_stiffness = 200e3\ntie_height = 3\ntie_slack = 0.03\ntie_strength = 5e3\n\
     [check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n\
     building = { storeys = 3, period = 0.3, height_ratio = 1 }\n\
@@ -15,7 +15,7 @@ const TIED: &str = "title = \"A <b>tied</b> parapet & \\\"its\\\" roof\"\n\
     SLC = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n";
 
 /// A loaded parapet under three records, which decide.
-const SHAKEN: &str = "[geometry]\nheight = 2\nthickness = 0.4\noverburden = 3000\n\
+const SHAKEN: &str = "[geometry]\nheight = 2\nthickness = 0.4\ndensity = 1800\noverburden = 3000\n\
     overburden_eccentricity = 0.05\n\
     [check]\ncode = \"circolare-2019\"\nmethod = \"dynamic\"\nbefore_activation = \"rigid\"\n\
     overburden_mass = 0.5\nsoil = \"C\"\nknowledge_level = \"LC1\"\n\
@@ -131,7 +131,8 @@ fn inputs_have_an_origin_and_a_fingerprint() {
     };
     let page = report(&folder, TIED, &[]);
     assert_eq!(row(&page, "thickness"), "thickness0.4 mscene");
-    assert_eq!(row(&page, "density"), "density1800 kg/m³default");
+    assert_eq!(row(&page, "density"), "density1800 kg/m³scene");
+    assert_eq!(row(&page, "width"), "width1 mdefault");
     assert!(section(&page, "Document").contains("datenot given"));
     let thick = report(&folder, TIED, &["--set", "thickness=0.5"]);
     assert_eq!(row(&thick, "thickness"), "thickness0.5 m--set");
@@ -147,7 +148,7 @@ fn runs_under_records_stand_in_the_report() {
     let page = report(&folder("report_shaken"), SHAKEN, &[]);
     check_whole(&page);
     let runs = section(&page, "Runs under records");
-    assert_has(&runs, &["synthetic 1", "synthetic 2", "synthetic 3", "Largest of the maxima", "of 3"]);
+    assert_has(&runs, &["synthetic 1", "synthetic 2", "synthetic 3", "Largest of the maxima", "of 6"]);
     for (title, words) in [
         ("Statements", "r = 0.5 of the overburden"),
         ("Statements", "FC = 1.35 (level of knowledge LC1)"),
@@ -167,7 +168,7 @@ fn every_kind_of_wall_and_demand_has_its_report() {
     let folder = folder("report_kinds");
     let points = "spectrum = [[0, 0.3], [0.5, 0.6], [6, 0.05]], spectrum_damping";
     let one_sided = format!(
-        "[geometry]\nheight = 3\nthickness = 0.5\n[damping]\ndamping_model = \"none\"\n\
+        "[geometry]\nheight = 3\nthickness = 0.5\ndensity = 1800\n[damping]\ndamping_model = \"none\"\n\
          [impact]\nimpact = \"restitution\"\nrestitution = 0.4\nrocking = \"one_sided_positive\"\n\
          [check]\ncode = \"circolare-2019\"\nuse_class = \"IV\"\n\
          SLD = {{ ag = 0.1, {points} = 0.05 }}\n\
@@ -201,7 +202,7 @@ fn every_kind_of_wall_and_demand_has_its_report() {
     ] {
         assert_has(&section(&page, title), &[words]);
     }
-    let strip = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\n\
+    let strip = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\ndensity = 1800\n\
          overburden = 10e3\nhinge_ratio = 0.6\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n\
          before_activation = \"beam\"\nyoung_modulus = 0.75e9\n\
          SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";

@@ -59,7 +59,7 @@ pub(in crate::circolare) fn figure(
 
 /// The numbers of one side, from the force to the curve.
 fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
-    let parameters = case.parameters;
+    let parameters = &case.parameters;
     let body = case.wall.body();
     let r = case.statement.table.overburden_mass.unwrap_or(0.0);
     let o = body.overburden;
@@ -113,7 +113,7 @@ fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
 
 /// The formula of `F_act` and the numbers put in, where it is F0 of Eq. (1).
 fn force(case: &Checked<'_>, side: Side, acting: f64) -> (&'static str, String) {
-    let parameters = case.parameters;
+    let parameters = &case.parameters;
     let body = case.wall.body();
     let sign = if side == Side::Negative { -1.0 } else { 1.0 };
     let strength = body.strength.of(sign);
@@ -138,7 +138,7 @@ fn force(case: &Checked<'_>, side: Side, acting: f64) -> (&'static str, String) 
 
 /// Adds T0, `d_y` and `a_y`.
 fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
-    let parameters = case.parameters;
+    let parameters = &case.parameters;
     let SideVerdict { t0, dy, ay, a0, d0, .. } = *verdict;
     match case.statement.table.before_activation {
         None | Some(Activation::Rigid) => {
@@ -173,7 +173,7 @@ fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
 
 /// Adds where the tie breaks, and what the curve loses there.
 fn tie(case: &Checked<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
-    let parameters = case.parameters;
+    let parameters = &case.parameters;
     let [n_s, k, g0, h, y] = [
         parameters.tie_strength,
         parameters.tie_stiffness,
@@ -183,11 +183,12 @@ fn tie(case: &Checked<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut
     ]
     .map(n);
     let TieBreak { u, before, after, largest, loss } = *broken;
-    let put = format!("({n_s}/{k} + {g0}) · {h}/(2 · {y})");
-    lines.line(["The tie breaks at", ""], ["u_r = (N_s/K + g_0) h/(2 y)", &put], (u, "m"));
+    let e_p = n(parameters.tie_ultimate);
+    let put = format!("({n_s}/{k} + {g0} + {e_p}) · {h}/(2 · {y})");
+    lines.line(["The tie breaks at", ""], ["u_r = (N_y/K + g_0 + e_p) h/(2 y)", &put], (u, "m"));
     let [before, after, most] = [before, after, largest].map(n);
     let put = format!("({before} − {after})/{most}");
-    let words = "What the curve loses there, over its largest a from the end of the elastic branch";
+    let words = "What the curve loses there for good, over its largest a";
     lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
     let early = verdict.slv.is_some_and(|check| check.limited_by_tie);
     let decides = if early {

@@ -41,11 +41,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     };
     state(method.into(), &["method"]);
     if case.outcome.dynamic.is_some() {
-        let scale = match statement.table.record_scale {
-            RecordScale::Ag => format!("The peak of each record is brought to {}.", formula("a_g S")),
-            RecordScale::None => "The records are taken as they are.".to_owned(),
-        };
-        state(scale, &["record_scale"]);
+        state(scale(statement.table.record_scale), &["record_scale"]);
     }
     for (given, xi) in
         statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
@@ -78,6 +74,16 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         ]);
     }
     table(&["statement", "from"], &rows)
+}
+
+fn scale(scale: RecordScale) -> String {
+    match scale {
+        RecordScale::Ag => format!("The peak of each record is brought to {}.", formula("a_g S")),
+        RecordScale::None => "The records are taken as they are.".to_owned(),
+        RecordScale::Spectrum => {
+            "The records are scaled to the spectrum of the ground (NTC 3.2.3.6).".to_owned()
+        }
+    }
 }
 
 fn activation(case: &Checked<'_>) -> String {

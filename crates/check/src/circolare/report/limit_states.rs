@@ -16,10 +16,10 @@ pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
     let q = case.statement.behaviour_factor;
     let checks: [(&str, LimitState, &Check<'_>); 4] = [
         ("SLD: activation C8.7.1.2.1.5", LimitState::Sld, &|side, given, demand| {
-            Some(activation(case, side, (given, demand, xi), side.sld?, 1.0))
+            Some(activation(case, (given, demand, xi), side.sld?, 1.0))
         }),
         ("SLV with q C8.7.1.2.1.7", LimitState::Slv, &|side, given, demand| {
-            Some(activation(case, side, (given, demand, xi), side.slv_q?, q))
+            Some(activation(case, (given, demand, xi), side.slv_q?, q))
         }),
         ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
             Some(displacement(side, given, demand, side.slv?))
@@ -53,16 +53,15 @@ fn one(case: &Checked<'_>, state: LimitState, check: &Check<'_>) -> String {
 /// A check of accelerations, with a factor q.
 fn activation(
     case: &Checked<'_>,
-    side: &SideVerdict,
     (given, demand, xi): (&StateStatement, &Demand, f64),
     check: ActivationCheck,
     q: f64,
 ) -> String {
-    let held = side.t0 == 0.0;
+    let held = check.t0 == 0.0;
     let mut lines = Calculation::default();
     let factor = n(case.statement.confidence_factor);
     let (symbol, source) = if held { ("a_0", "[C8.7.1.8]") } else { ("a_y", "[C8.7.1.9]") };
-    let value = n(side.ay);
+    let value = n(check.acceleration);
     let (left, put) = if q == 1.0 {
         (format!("{symbol}/FC"), format!("{value}/{factor}"))
     } else {
@@ -70,7 +69,7 @@ fn activation(
     };
     lines.line(["Capacity", source], [&left, &put], (check.capacity, "m/s²"));
     let at_t0 =
-        || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(side.t0), formula("ξ"), n(100.0 * xi));
+        || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(check.t0), formula("ξ"), n(100.0 * xi));
     let (words, source, left, put) = match demand {
         Demand::Ground(ground) if held => {
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
@@ -110,7 +109,7 @@ fn displacement(
         LimitState::Sld | LimitState::Slv => (0.40, "1.68", "[C8.7.1.10]"),
     };
     let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
-    let of_curve = share * side.d0;
+    let of_curve = share * check.d0;
     let of_u = |u: &str| {
         let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
         (format!("{d} = (d/u) {u}"), put)
@@ -120,7 +119,7 @@ fn displacement(
     } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
         ("Capacity, at the local instability stated", of_u("u"))
     } else {
-        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", n(side.d0))))
+        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", n(check.d0))))
     };
     lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (check.d, "m"));
     lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&a, ""], (check.a, "m/s²"));

@@ -28,7 +28,7 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(S
     let one = |heading: &str, markup: String| (heading.to_owned(), markup);
     let mut sections = vec![
         one("Statements of the engineer", inputs::statements(case, origin)),
-        one("The wall", the_wall(&case.wall, case.parameters, origin, &is_used)),
+        one("The wall", the_wall(&case.wall, &case.parameters, origin, &is_used)),
         one("Site and building", site::values(case)),
         one("Spectra", site::figures(case)?),
         one("Capacity curve", capacity::section(case)?),

@@ -89,8 +89,7 @@ const READINGS: [Reading; 13] = [
     (
         |_| true,
         "Scope: {α} is linear in the displacement (small rotations). Friction of transverse walls \
-         [C8.7.1.2], sliding, and the search for the hinge that minimises {α0} are not included; the \
-         height of the wall and of its hinge are the engineer's.",
+         [C8.7.1.2] and sliding are not included; the height of the wall is the engineer's.",
     ),
 ];
 

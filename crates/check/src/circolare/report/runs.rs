@@ -11,9 +11,10 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
     let factor = number(case.statement.confidence_factor);
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
-         record. FC = {factor} divides its forces (gravity, overburden, tie), not its masses. The check is \
-         passed if no run exceeds {} and the mean of the maxima of |{}| (of fewer than {MEAN_COUNTS_FROM} \
-         records the largest, NTC 7.3.5) is within the threshold of its side. {} is the lowest factor on all \
+         record, with both signs unless stated otherwise. FC = {factor} divides its forces (gravity, \
+         overburden, tie), not its masses. The check is passed if no run exceeds {} or fails by its tie, and \
+         the mean of the largest |{}| over the threshold of its side (of fewer than {MEAN_COUNTS_FROM} records \
+         the largest, NTC 7.3.5) is at most 1. {} is the lowest factor on all \
          records that fails, searched upwards.</p>\n",
         formula("d_0"),
         formula("d"),
@@ -42,7 +43,7 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         );
         lines.say(&words, &said);
     }
-    let few = state.runs.len() < MEAN_COUNTS_FROM;
+    let few = case.statement.records.named.len() < MEAN_COUNTS_FROM;
     let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };
     lines.line([words, "NTC 7.3.5"], ["d", ""], (state.d, "m"));
     // with sides of different thresholds the ratio is no quotient of these numbers
@@ -59,6 +60,8 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         "Runs beyond the zero of the curve",
         &format!("<b>{}</b> of {}", state.beyond_d0, state.runs.len()),
     );
+    let said = format!("<b>{}</b> of {}", state.at_strength, state.runs.len());
+    lines.say("Runs at the strength of the tie", &said);
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
     lines.say("Result", result(state.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
@@ -76,5 +79,5 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
 fn row(run: &DynamicRun) -> [String; 5] {
     let [positive, negative] = run.d.map(|d| ::report::number(1000.0 * d, 4));
     let beyond = if run.beyond_d0 { "<span class=\"fails\">yes</span>" } else { "no" };
-    [escaped(&run.record), ::report::number(run.factor, 4), positive, negative, beyond.to_owned()]
+    [escaped(&run.record), ::report::number(run.sign * run.factor, 4), positive, negative, beyond.to_owned()]
 }

@@ -75,16 +75,18 @@ pub(super) fn values(case: &Checked<'_>) -> String {
         some(ground(demand).map(|ground| ground.acceleration(0.0, 0.05)))
     });
     row("ξ", "C8.7.1.2.1.5, .8", "", &|(given, _)| number(given.damping));
-    let modes = |demand: &Demand, value: fn(&FloorSpectrum, &Mode) -> f64| {
-        let Some(floor) = floor(demand) else { return "–".to_owned() };
-        let values = floor.modes().iter().map(|mode| number(value(floor, mode)));
-        values.collect::<Vec<_>>().join("; ")
+    let each = |values: &[f64]| values.iter().copied().map(number).collect::<Vec<_>>().join("; ");
+    let modes = |demand: &Demand, value: fn(&Mode) -> f64| {
+        let values = |floor: &FloorSpectrum| each(&floor.modes().iter().map(value).collect::<Vec<_>>());
+        floor(demand).map_or_else(|| "–".to_owned(), values)
     };
-    row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, |_, mode| mode.period));
-    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| modes(demand, |_, mode| mode.participation));
+    row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, |mode| mode.period));
+    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| modes(demand, |mode| mode.participation));
     row("ξ_k", "C8.7.1.2.1.4", "", &|(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
-    row("a_Z,k", "[C7.2.7]", "m/s²", &|(_, demand)| modes(demand, FloorSpectrum::mode_acceleration));
-    row("a_Z", "[C7.2.8]", "m/s²", &|(_, demand)| some(floor(demand).map(FloorSpectrum::peak_acceleration)));
+    row("a_Z,k", "[C7.2.7]", "m/s²", &|(_, demand)| {
+        floor(demand).map_or_else(|| "–".to_owned(), |floor| each(floor.mode_accelerations()))
+    });
+    row("a_Z", "[C7.2.8]", "m/s²", &|(_, demand)| some(floor(demand).map(FloorSpectrum::printed_peak)));
     row("A_k", "[C7.2.9]", "", &|(given, demand)| {
         some(floor(demand).map(|floor| floor.amplification(given.damping)))
     });

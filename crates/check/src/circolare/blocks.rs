@@ -1,0 +1,64 @@
+//! Why no value of a search brings a check to pass.
+
+use report::number;
+use rocking_wall::wall::TiePart;
+
+use super::Activation;
+use super::case::Case;
+use super::side_verdict::SideVerdict;
+use super::statement::Statement;
+use super::table::AtActivation;
+use super::verdict::Deciding;
+use crate::code::Subject;
+use crate::error::CheckError;
+use crate::find::Sought;
+
+/// Says what blocks a check of a wall that has the last value of a search.
+pub(super) fn reason(
+    statement: &Statement,
+    subject: Subject<'_>,
+    check: &str,
+    sought: Sought,
+) -> Option<String> {
+    let which = Deciding::ALL.into_iter().find(|deciding| deciding.name() == check)?;
+    let checked = match statement.checked(subject) {
+        Ok(checked) => checked,
+        Err(error) => return Some(format!("at the end of the range it is refused: {error}")),
+    };
+    let zeta = |side: &SideVerdict| side.checks().zetas()[which as usize];
+    let sides = &checked.outcome.sides;
+    let (side, verdict) = sides.iter().min_by(|a, b| zeta(a.1).total_cmp(&zeta(b.1)))?;
+    let reached = format!("{:.3} at the end of the range", zeta(verdict));
+    if !sought.is_of_tie() {
+        return Some(reached);
+    }
+    let case = Case::new(statement, subject).ok()?;
+    let untied = || -> Result<f64, CheckError> {
+        let sign = if side == super::Side::Negative { -1.0 } else { 1.0 };
+        Ok(case.at(sign, verdict.hinge, false)?.1.zetas()[which as usize])
+    };
+    let untied = untied().map_or_else(|_| String::new(), |zeta| format!(", untied {zeta:.3}"));
+    let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
+    let broken = verdict.tie_break.filter(|_| !by_acceleration);
+    let share = if which == Deciding::Slc { 0.6 } else { 0.4 };
+    let limit = share * verdict.d0 / verdict.d_per_u;
+    let why = match (verdict.tie, broken) {
+        (None, _) => format!("{}: the side without a tie governs", side.name()),
+        _ if by_acceleration && statement.at_activation() == AtActivation::None => {
+            "at_activation = \"none\": the tie does not count at the activation".into()
+        }
+        (_, Some(broken)) if broken.u < limit => format!(
+            "the tie breaks at u_r = {} mm, before {share} u_0 = {} mm: untied whatever its strength",
+            number(1e3 * broken.u, 4),
+            number(1e3 * limit, 4)
+        ),
+        _ if checked.parameters.weaker_part() == Some(TiePart::Anchor) => {
+            "the anchor gives way before the bar".into()
+        }
+        _ => {
+            let held = if case.activation == Activation::Rigid { "held" } else { "free" };
+            format!("the wall, {held} before it rocks, needs more than the range has")
+        }
+    };
+    Some(format!("{reached}{untied}: {why}"))
+}

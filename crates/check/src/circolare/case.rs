@@ -1,0 +1,290 @@
+//! A wall as the static checks take it, and its checks with the hinge in one place.
+
+use rocking_wall::scene::Floors;
+use rocking_wall::variables::{Mechanism, Rocking, Softening, TieSide};
+use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
+
+use super::checks::{Checks, modes_of_storeys};
+use super::curve::{Curve, has_plateau};
+use super::demand::Demand;
+use super::hinge;
+use super::statement::Statement;
+use super::states::{Source, StateStatement};
+use super::table::{Activation, Hinge, Rocks};
+use super::verdict::Side;
+use crate::code::Subject;
+use crate::error::CheckError;
+
+/// A wall as the static checks take it.
+pub(super) struct Case<'a> {
+    pub(super) statement: &'a Statement,
+    /// Its parameters, with the sides, the bar and the rupture of the tie that the check states.
+    pub(super) parameters: Parameters,
+    pub(super) floors: Option<&'a Floors>,
+    pub(super) activation: Activation,
+    /// r O \[N\].
+    pub(super) moved: f64,
+    /// E of the beam \[Pa\].
+    pub(super) young_modulus: Option<f64>,
+    /// Where the hinge of a strip is; a parapet has none.
+    pub(super) rule: Option<Hinge>,
+    /// Whether both sides are alike.
+    pub(super) alike: bool,
+    /// The demands, where they do not depend on the hinge.
+    shared: Option<Demands>,
+}
+
+/// The demands of SLD, SLV and SLC; `None` for one that is not stated.
+pub(super) type Demands = [Option<Demand>; 3];
+
+impl<'a> Case<'a> {
+    /// # Errors
+    /// [`CheckError`] of statements that are missing or do not fit the wall.
+    pub(super) fn new(statement: &'a Statement, subject: Subject<'a>) -> Result<Self, CheckError> {
+        let mut parameters = statement.with_bar(subject.parameters)?;
+        match statement.table.rocking {
+            None => {}
+            Some(Rocks::TwoSided) => parameters.rocking = Rocking::TwoSided,
+            Some(Rocks::OneSidedPositive) => parameters.rocking = Rocking::OneSidedPositive,
+            Some(Rocks::OneSidedNegative) => parameters.rocking = Rocking::OneSidedNegative,
+        }
+        // in the check a tie without a plastic elongation is brittle
+        if parameters.tie_strength > 0.0 && parameters.tie_ultimate < 0.0 {
+            parameters.tie_ultimate = 0.0;
+        }
+        let activation = activation(&parameters, statement)?;
+        stated(&parameters, activation, subject.assumed)?;
+        possible(&parameters, statement)?;
+        let moved = moved_overburden(&parameters, statement)?;
+        let is_strip = parameters.mechanism == Mechanism::VerticalSpanning;
+        let rule = is_strip.then(|| statement.hinge_of(subject.assumed)).transpose()?;
+        let floors = subject.floors;
+        let young_modulus = statement.table.young_modulus;
+        let body = Statics::new(&Parameters { hinge_ratio: 0.5, ..parameters.clone() })?;
+        let body = body.body();
+        let one_tied = parameters.tie_stiffness > 0.0 && parameters.tie_side != TieSide::Both;
+        let alike = body.strength.positive == body.strength.negative
+            && parameters.rocking == Rocking::TwoSided
+            && !one_tied;
+        let shared = None;
+        let mut case =
+            Self { statement, parameters, floors, activation, moved, young_modulus, rule, alike, shared };
+        let by_hinge = |given: &StateStatement| match &given.source {
+            Source::Code(_) => given.modes.is_empty(),
+            Source::Points(..) => false,
+            Source::Records => true,
+        };
+        if !(is_strip && floors.is_some() && statement.states.iter().flatten().any(by_hinge)) {
+            case.shared = Some(case.demands_at(body)?);
+        }
+        Ok(case)
+    }
+
+    /// The same wall with another a₁, or another E of the beam.
+    pub(super) fn with(&self, factor: f64) -> Self {
+        let Self { statement, floors, activation, moved, rule, alike, .. } = *self;
+        let mut parameters = self.parameters.clone();
+        parameters.a1 *= factor;
+        let young_modulus = self.young_modulus.map(|modulus| factor * modulus);
+        let shared = self.shared.clone();
+        Self { statement, parameters, floors, activation, moved, young_modulus, rule, alike, shared }
+    }
+
+    /// The name of a side in messages.
+    pub(super) fn name(&self, side: Side) -> &'static str {
+        if self.alike { "both sides" } else { side.name() }
+    }
+
+    /// The signs of u to which the wall rocks.
+    pub(super) fn sides(&self) -> impl Iterator<Item = f64> + use<> {
+        let rocking = self.parameters.rocking;
+        [(1.0, Rocking::OneSidedNegative), (-1.0, Rocking::OneSidedPositive)]
+            .into_iter()
+            .filter_map(move |(sign, without)| (rocking != without).then_some(sign))
+    }
+
+    /// The demands at the place of the wall with this body.
+    pub(super) fn demands_at(&self, body: &Body) -> Result<Demands, CheckError> {
+        let mut demands = [const { None }; 3];
+        for given in self.statement.states.iter().flatten() {
+            let demand = match &given.source {
+                Source::Code(ground) => {
+                    let modes = if given.modes.is_empty() {
+                        modes_of_storeys(given, self.floors, body)?
+                    } else {
+                        given.modes.clone()
+                    };
+                    let bounded = self.statement.bounds_heights();
+                    given.floor(*ground, modes, bounded)?.map_or(Demand::Ground(*ground), Demand::Floor)
+                }
+                Source::Points(points, damping) => Demand::Points(points.clone(), *damping),
+                Source::Records => Demand::Records(self.statement.records.felt(self.floors, body)?),
+            };
+            demands[given.state as usize] = Some(demand);
+        }
+        Ok(demands)
+    }
+
+    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h; `tied` says whether the
+    /// tie counts.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a wall or a demand that has no check.
+    pub(super) fn at(
+        &self,
+        sign: f64,
+        hinge: Option<f64>,
+        tied: bool,
+    ) -> Result<(Curve, Checks), CheckError> {
+        let named = |error: CheckError| match hinge {
+            Some(hinge) if self.rule != Some(Hinge::Given) => error.at_hinge(hinge),
+            _ => error,
+        };
+        let found = || {
+            let curve = Curve::new(self, sign, hinge, tied)?;
+            let own;
+            let demands = if let Some(shared) = &self.shared {
+                shared
+            } else {
+                own = self.demands_at(curve.body())?;
+                &own
+            };
+            let checks = Checks::new(&curve, self.statement, demands)?;
+            Ok((curve, checks))
+        };
+        found().map_err(named)
+    }
+
+    /// The place of the least α0 on a side, of h \[-\], C8.7.1.2.1.1.
+    pub(super) fn least_alpha0(&self, sign: f64) -> Result<f64, CheckError> {
+        let alpha0 = |x: f64| {
+            Curve::new(self, sign, Some(x), true).map(|curve| curve.alpha0).map_err(|error| error.at_hinge(x))
+        };
+        let range @ [from, to] = self.statement.hinge_range;
+        // F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r = O (b + 2c)/[2 (W + O) b]
+        if self.statement.masonry.is_none() && !has_plateau(&self.parameters) {
+            let curve = Curve::new(self, sign, Some(0.5 * (from + to)), true)?;
+            let Body { weight, overburden, height, .. } = *curve.body();
+            let first = 2.0 * (weight + overburden) * self.parameters.thickness;
+            let h1 = curve.body().hinge_height;
+            let second = (curve.body().strength.of(sign) - first / h1) * (height - h1);
+            let ratio = second / first;
+            // the ends are walls, too
+            alpha0(from)?;
+            alpha0(to)?;
+            return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
+        }
+        Ok(hinge::least(range, |x| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
+    }
+}
+
+/// Refuses what decides a verdict and was left to a default.
+fn stated(parameters: &Parameters, activation: Activation, assumed: &[&str]) -> Result<(), CheckError> {
+    let is_of_law = activation == Activation::Law && parameters.multilinear.is_none();
+    let needed = ["height", "thickness", "density", "a1"];
+    let missing = needed.iter().filter(|name| assumed.contains(name) && (**name != "a1" || is_of_law));
+    let missing: Vec<_> = missing.copied().collect();
+    match missing[..] {
+        [] => Ok(()),
+        ["a1"] => Err(CheckError::wall(
+            "a1 is not stated: with before_activation = \"law\" it makes T0, T0 makes SLD, and SLD raises \
+             SLV; state a1 in [force_law]",
+        )),
+        _ => Err(CheckError::wall(format!(
+            "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1 in \
+             [force_law] with before_activation = \"law\"",
+            missing.join(", ")
+        ))),
+    }
+}
+
+/// Refuses statements that do not go with the wall, and units that cannot be.
+fn possible(parameters: &Parameters, statement: &Statement) -> Result<(), CheckError> {
+    let Parameters { height, tie_stiffness, tie_strength, .. } = *parameters;
+    if statement.masonry.is_some() {
+        let refused = |message: &str| Err(CheckError::value(&["masonry_strength"], message));
+        if has_plateau(parameters) {
+            return refused(
+                "masonry_strength sets the hinges of a straight law back; a trilinear or multilinear law has \
+                 its own",
+            );
+        }
+        if parameters.a3 < 1.0 || parameters.softening != Softening::Parallel {
+            return refused(
+                "masonry_strength sets the hinges back, parallel: leave out a3 and softening of [force_law]",
+            );
+        }
+    }
+    if tie_stiffness == 0.0 {
+        return Ok(());
+    }
+    let weight = parameters.density * parameters.gravity * height * parameters.thickness * parameters.width;
+    let least = 1e-2 * weight / height;
+    if tie_stiffness < least * (1.0 - 1e-9) {
+        return Err(CheckError::wall(format!(
+            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least:.4} N/m: such a tie is none; \
+             give it in N/m"
+        )));
+    }
+    let least = 1e-3 * weight;
+    if tie_strength > 0.0 && tie_strength < least * (1.0 - 1e-9) {
+        return Err(CheckError::wall(format!(
+            "tie_strength = {tie_strength} N is below W/1000 = {least:.4} N: such a tie is none; give it in N"
+        )));
+    }
+    let is_held = match parameters.rocking {
+        _ if statement.table.rocking.is_none() => true,
+        Rocking::TwoSided => true,
+        Rocking::OneSidedPositive => parameters.tie_side != TieSide::Negative,
+        Rocking::OneSidedNegative => parameters.tie_side != TieSide::Positive,
+    };
+    if is_held {
+        return Ok(());
+    }
+    Err(CheckError::wall(format!(
+        "tie_side = {} does not hold the side to which the wall rocks, rocking = {}; change one of them",
+        parameters.tie_side.name(),
+        parameters.rocking.name()
+    )))
+}
+
+fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activation, CheckError> {
+    if parameters.kinematics == Kinematics::Trigonometric {
+        let message = "the curve of the code has small rotations; set kinematics = \"linear\"";
+        return Err(CheckError::wall(message));
+    }
+    let is_rigid = parameters.multilinear.is_none()
+        && parameters.force_law == rocking_wall::variables::ForceLaw::RigidLinear;
+    let refused = |message: &str| Err(CheckError::value(&["before_activation"], message));
+    match statement.table.before_activation {
+        // transverse walls hold it
+        None if parameters.rocking != Rocking::TwoSided && !has_plateau(parameters) => Ok(Activation::Rigid),
+        None => refused(
+            "before_activation is missing: state \"rigid\" (held by transverse walls), \"law\" or \"beam\"",
+        ),
+        Some(Activation::Law) if is_rigid => {
+            refused("law: force_law = rigid_linear has no elastic branch; state \"rigid\" or \"beam\"")
+        }
+        Some(Activation::Rigid | Activation::Beam) if has_plateau(parameters) => {
+            refused("a trilinear or multilinear law has its own elastic branch; state \"law\"")
+        }
+        Some(activation) => Ok(activation),
+    }
+}
+
+/// r O \[N\].
+fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f64, CheckError> {
+    let refused = |message: &str| Err(CheckError::value(&["overburden_mass"], message));
+    match (parameters.mechanism, statement.table.overburden_mass) {
+        (Mechanism::VerticalSpanning, Some(r)) if r > 0.0 => refused(
+            "overburden_mass: the top of a strip wall is held, its overburden does not move; leave it out",
+        ),
+        (Mechanism::VerticalSpanning, _) => Ok(0.0),
+        (Mechanism::Parapet, None) if parameters.overburden > 0.0 => refused(
+            "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia \
+             goes elsewhere) to 1 (it moves with the wall), more for a mass that only \
+             pushes the wall",
+        ),
+        (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
+    }
+}

@@ -1,0 +1,261 @@
+//! The outcome of one side: its numbers, and its checks.
+
+use serde::Serialize;
+
+use super::checks::Checks;
+use super::set_back::SetBack;
+use super::tie::TieAtLimit;
+use super::verdict::Deciding;
+
+/// The outcome of one side.
+#[derive(Clone, Debug, Serialize)]
+pub struct SideVerdict {
+    /// Where the hinge of a strip is in the check that governs, of h \[-\]; with it are the numbers of the
+    /// side.
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// α0 [C8.7.1.1] \[-\].
+    pub alpha0: f64,
+    /// e* [C8.7.1.5] \[-\].
+    pub e_star: f64,
+    /// M* = e* Σ(P + Q)/g \[kg\].
+    #[serde(rename = "M_star")]
+    pub mass: f64,
+    /// `a_0` = α0 g/e*, without FC \[m/s²\].
+    pub a0: f64,
+    /// `d_0` \[m\].
+    pub d0: f64,
+    /// T0 of the elastic branch; 0 where the wall is rigid \[s\].
+    #[serde(rename = "T0")]
+    pub t0: f64,
+    /// `d_y`, the end of the elastic branch \[m\].
+    pub dy: f64,
+    /// `a_y`, without FC \[m/s²\].
+    pub ay: f64,
+    /// d/u \[-\].
+    pub d_per_u: f64,
+    /// What the hinge of the least α0 gives, and the least favourable one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_alpha0: Option<LeastAlpha0>,
+    /// Set-backs of the hinges; 0 without a compressive strength.
+    pub set_back: SetBack,
+    /// The wall at its activation, with the tie where it counts there.
+    pub activation: AtActivationNumbers,
+    /// The tie, on a side that it holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tie: Option<TieNumbers>,
+    /// `ζ_E` without the tie.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub untied: Option<Untied>,
+    /// `ζ_E` with half and twice a₁ or E.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<Sensitivity>,
+    /// SLD, activation.
+    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
+    pub sld: Option<ActivationCheck>,
+    /// SLV with q.
+    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
+    pub slv_q: Option<ActivationCheck>,
+    /// SLV by displacement.
+    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
+    pub slv: Option<DisplacementCheck>,
+    /// SLC by displacement.
+    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
+    pub slc: Option<DisplacementCheck>,
+    /// `F_act`, the force that α0 takes \[N\].
+    #[serde(skip)]
+    pub acting_force: f64,
+    /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
+    #[serde(skip)]
+    pub pushed_weight: f64,
+    /// F0'/F0 of hinges that are set back \[-\].
+    #[serde(skip)]
+    pub a3: f64,
+    /// Where the tie breaks, if it does.
+    #[serde(skip)]
+    pub tie_break: Option<TieBreak>,
+    /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
+    #[serde(skip)]
+    pub corners: Vec<(f64, f64)>,
+}
+
+impl SideVerdict {
+    pub(super) fn checks(&self) -> Checks {
+        let Self { sld, slv_q, slv, slc, .. } = *self;
+        Checks { sld, slv_q, slv, slc }
+    }
+}
+
+impl Checks {
+    /// Where the hinge is in a check, of h \[-\].
+    pub(super) fn hinge(&self, check: Deciding) -> Option<f64> {
+        match check {
+            Deciding::Sld => self.sld?.hinge,
+            Deciding::SlvWithQ => self.slv_q?.hinge,
+            Deciding::Slv => self.slv?.hinge,
+            Deciding::Slc => self.slc?.hinge,
+        }
+    }
+}
+
+/// What the hinge of the least α0 gives, and beside it the least favourable one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LeastAlpha0 {
+    /// The least α0 \[-\].
+    pub alpha0: f64,
+    /// Its hinge, of h \[-\].
+    #[serde(rename = "hinge_ratio")]
+    pub hinge: f64,
+    /// The least `ζ_E` that decides with that hinge \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: Option<f64>,
+    /// The least `ζ_E` that decides with any hinge of the range; `None` where it was not searched \[-\].
+    #[serde(rename = "worst_zeta_E")]
+    pub worst: Option<f64>,
+    /// Its hinge, of h \[-\].
+    #[serde(rename = "worst_hinge_ratio")]
+    pub worst_hinge: Option<f64>,
+}
+
+/// A wall at its activation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AtActivationNumbers {
+    /// α0 with the tie \[-\].
+    pub alpha0: f64,
+    /// a with the tie, without FC \[m/s²\].
+    #[serde(rename = "a")]
+    pub acceleration: f64,
+    /// T0 with the tie \[s\].
+    #[serde(rename = "T0")]
+    pub t0: f64,
+    /// N of the tie \[N\].
+    #[serde(rename = "tie_force")]
+    pub force: f64,
+}
+
+/// Displacements u of a tie, and what its rupture takes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TieNumbers {
+    /// Where it begins to pull \[m\].
+    #[serde(rename = "u_engaged")]
+    pub engaged: f64,
+    /// Where it has its strength \[m\].
+    #[serde(rename = "u_yield")]
+    pub yields: Option<f64>,
+    /// Where it breaks \[m\].
+    #[serde(rename = "u_break")]
+    pub breaks: Option<f64>,
+    /// What the curve loses there, over its largest a \[-\].
+    pub loss: Option<f64>,
+}
+
+/// `ζ_E` of a side without its tie.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Untied {
+    /// SLV \[-\].
+    #[serde(rename = "SLV")]
+    pub slv: Option<f64>,
+    /// SLC \[-\].
+    #[serde(rename = "SLC")]
+    pub slc: Option<f64>,
+}
+
+/// The verdict on a side with another a₁ or E; without numbers where the check is impossible.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Sensitivity {
+    /// `a1` or `young_modulus`.
+    pub parameter: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// The least `ζ_E` that decides \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: Option<f64>,
+    /// Whether the side passes.
+    pub passed: Option<bool>,
+    /// `ζ_E` of SLV \[-\].
+    #[serde(rename = "SLV")]
+    pub slv: Option<f64>,
+    /// `ζ_E` of SLC \[-\].
+    #[serde(rename = "SLC")]
+    pub slc: Option<f64>,
+}
+
+/// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieBreak {
+    /// u there \[m\].
+    pub u: f64,
+    /// a with the tie there \[m/s²\].
+    pub before: f64,
+    /// The largest a that the wall alone reaches from there on \[m/s²\].
+    pub after: f64,
+    /// The largest a of the whole curve \[m/s²\].
+    pub largest: f64,
+    /// What is lost over the largest \[-\].
+    pub loss: f64,
+}
+
+/// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ActivationCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// Capacity, with FC and, in the linear check, times q \[m/s²\].
+    pub capacity: f64,
+    /// Demand \[m/s²\].
+    pub demand: f64,
+    /// `ζ_E` = capacity/demand \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there \[g\].
+    pub ag: f64,
+    /// Strength of the tie at which `ζ_E` is 1; `None` without a tie, and for one with slack \[N\].
+    #[serde(rename = "tie_required")]
+    pub required: Option<f64>,
+    /// a of the activation, without FC and q \[m/s²\].
+    #[serde(skip)]
+    pub acceleration: f64,
+    /// T0 of the demand \[s\].
+    #[serde(skip)]
+    pub t0: f64,
+}
+
+/// A check of displacements, C8.7.1.2.1.8.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DisplacementCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// `d_SLV` or `d_SLC` \[m\].
+    pub d: f64,
+    /// a there, with FC \[m/s²\].
+    pub a: f64,
+    /// `T_SLV` or `T_SLC` \[s\].
+    #[serde(rename = "T")]
+    pub period: f64,
+    /// `S_e` or `S_eZ` at that period \[m/s²\].
+    #[serde(rename = "S_e")]
+    pub acceleration: f64,
+    /// `S_d` \[m\].
+    pub demand: f64,
+    /// Both terms of [C8.7.1.12]; the second only behind b T₁ \[m\].
+    pub demand_terms: [Option<f64>; 2],
+    /// d/`S_d` \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
+    pub ag: f64,
+    /// `ζ_E` \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+    /// Whether the tie breaks there.
+    pub limited_by_tie: bool,
+    /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
+    #[serde(rename = "raised_to_SLD")]
+    pub raised: bool,
+    /// The tie there and at the demand.
+    #[serde(flatten)]
+    pub tie: Option<TieAtLimit>,
+    /// `d_0` \[m\].
+    #[serde(skip)]
+    pub d0: f64,
+}
