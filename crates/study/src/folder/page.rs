@@ -99,8 +99,8 @@ fn reading(manifest: &Manifest) -> String {
          {observed}. {counted} {dispersions} Misfit is the largest distance of a curve from the fractions of \
          the records. Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all their \
          results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels leave \
-         open, with its bound. Fractiles of IDA curves are those of the intensity at which a record first exceeds a demand \
-         (Vamvatsikos and Cornell 2004).{runs}",
+         open, with its bound. Fractiles of IDA curves are those of the intensity at which a record first \
+         exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
         report.resamples,
         escaped(&report.reference)
     )
