@@ -15,8 +15,8 @@ use rocking_wall::wall::Parameters;
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::fragility::{ObservationKind, fit};
-use study::ida::{IntensityMeasure, Levels, Study};
+use study::fragility::{Sample, fit};
+use study::ida::{Crossing, IntensityMeasure, Levels, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let parameters = Parameters { height: 3.0, thickness: 0.3, a1: 0.01, ..Parameters::default() };
@@ -36,8 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     for (index, model) in study.models().iter().enumerate() {
         let of_model = (0..study.count()).filter(|&case| study.case(case).model == index);
-        let collapses: Vec<_> = of_model.map(|case| curves[case].collapse()).collect();
-        let fragility = fit(&ObservationKind::Records.observations(&collapses))?;
+        let of_model: Vec<_> = of_model.map(|case| curves[case].clone()).collect();
+        let fragility = fit(&Sample::of_curves(&of_model, 1.0, Crossing::First, None).observations())?;
         println!(
             "{}: median PGA {:.2} m/s², dispersion {:.2}",
             model.name, fragility.median, fragility.dispersion

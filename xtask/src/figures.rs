@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::bench;
-use crate::command::{Result, at, read, root, target, write};
+use crate::command::{Result, at, cargo, output, read, root, target, write};
 use crate::images::{self, wall};
 
 const DOCUMENT: &str = "docs/accuracy.md";
@@ -32,10 +32,14 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let rotations = accuracy.find(ROTATIONS).map_or("", |start| &accuracy[start..]);
     let stability =
         wall(&["verify", "stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
+    let mut noise = cargo();
+    noise.args(["run", "--release", "--locked", "--quiet", "--package", "rocking-study"]);
+    noise.args(["--example", "record_noise"]);
     let figures = [
         ("accuracy", condensed(&read("fmu_out/accuracy.csv")?)),
         ("stability", fenced(&stability)),
         ("rotations", fenced(rotations)),
+        ("noise", fenced(&output(&mut noise, "see its message above")?)),
         ("peers", fenced(&outlined(&peers))),
     ];
     write_marked(DOCUMENT, &figures)?;

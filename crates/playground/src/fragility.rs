@@ -10,8 +10,8 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
-use study::fragility::{Bootstrap, ObservationKind, Summary, compare, steps};
-use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, Study};
+use study::fragility::{Bootstrap, Dispersion, Estimator, Sample, Summary, compare, steps};
+use study::ida::{Crossing, Curve, IntensityMeasure, Levels, Study};
 
 /// Synthetic motions, with the seeds 1, 2, …
 const MOTIONS: u32 = 20;
@@ -70,10 +70,12 @@ impl Fragility {
     }
 
     fn result(&self) -> Value {
-        let exceedances = |fraction| self.curves.iter().map(|c| c.exceedance(fraction, false)).collect();
-        let states: Vec<Vec<Exceedance>> = STATES.iter().map(|state| exceedances(state.0)).collect();
-        let bootstrap = Bootstrap::new(states[0].len(), RESAMPLES, SEED);
-        let summaries = compare(std::slice::from_ref(&states), 0, &ObservationKind::Records, &bootstrap);
+        let fractions = STATES.map(|(fraction, ..)| fraction);
+        let sample = |fraction| Sample::of_curves(&self.curves, fraction, Crossing::First, None);
+        let states: Vec<Sample> = fractions.into_iter().map(sample).collect();
+        let bootstrap = Bootstrap::new(self.curves.len(), RESAMPLES, SEED);
+        let estimator = Estimator::new(Dispersion::Own, &fractions);
+        let summaries = compare(std::slice::from_ref(&states), 0, &estimator, &bootstrap);
         let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
         let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
             let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, 2);
@@ -91,11 +93,11 @@ impl Fragility {
         json!({ "states": rows, "svg": self.chart(&states, &summaries).svg() })
     }
 
-    fn chart(&self, states: &[Vec<Exceedance>], summaries: &[&Summary]) -> Plot {
+    fn chart(&self, states: &[Sample], summaries: &[&Summary]) -> Plot {
         let in_g = |intensity: f64| intensity / STANDARD_GRAVITY;
         let mut empirical: Vec<Vec<(f64, f64)>> = Vec::new();
         for state in states {
-            let steps = steps(state).into_iter().filter(|step| step.0.is_finite());
+            let steps = steps(state.exceedances()).into_iter().filter(|step| step.0.is_finite());
             empirical.push(steps.map(|(intensity, part)| (in_g(intensity), part)).collect());
         }
         let largest = empirical.iter().flatten().map(|point| point.0).fold(0.1, f64::max);

@@ -13,6 +13,7 @@ use report::table::Table;
 use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::records::NamedRecord;
+use study::document::ReportOptions;
 use study::folder::{Contents, encode};
 use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
@@ -150,7 +151,9 @@ impl Study {
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
-            let fitting = Fitting::new(study.records().len(), &self.models(), grid, report);
+            // classes would keep the resamples of all walls in memory
+            let report = ReportOptions { classes: Vec::new(), ..report.clone() };
+            let fitting = Fitting::new(study.records().len(), &self.models(), grid, &report);
             let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
             let fitted = parallel::map(of_wall.len(), threads, |wall| {
                 Ok::<_, Infallible>(fitting.results(of_wall[wall].to_vec()))

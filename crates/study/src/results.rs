@@ -1,8 +1,8 @@
 //! The results of a study, wall by wall: its curves, and the fragilities that follow from them.
 
 use crate::document::ReportOptions;
-use crate::fragility::{Bootstrap, ObservationKind, Summary, compare};
-use crate::ida::{Curve, Exceedance};
+use crate::fragility::{Bootstrap, Estimator, FitError, Lognormal, Sample, Summary, compare, fit};
+use crate::ida::{Crossing, Curve, Exceedance};
 
 /// Makes the results of each wall of a study.
 #[derive(Clone, Debug)]
@@ -11,7 +11,11 @@ pub struct Fitting {
     models: usize,
     reference: usize,
     fractions: Vec<f64>,
-    kind: ObservationKind,
+    /// Levels \[m/s²\] that all records share.
+    grid: Option<Vec<f64>>,
+    crossing: Crossing,
+    estimator: Estimator,
+    keeps_resamples: bool,
     bootstrap: Bootstrap,
 }
 
@@ -21,8 +25,19 @@ pub struct WallResults {
     records: usize,
     at_levels: bool,
     curves: Vec<Curve>,
-    /// Limit state by limit state: one summary for each model.
-    summaries: Vec<Vec<Summary>>,
+    /// Limit state by limit state, model by model.
+    states: Vec<Vec<StateResults>>,
+}
+
+/// Results of one model at one limit state.
+#[derive(Clone, Debug)]
+pub struct StateResults {
+    /// The fragility.
+    pub summary: Summary,
+    /// What it was fitted to.
+    pub sample: Sample,
+    /// Curves of this limit state alone for each choice of the exceedance, in the order of [`Crossing::ALL`].
+    pub by_crossing: [Result<Lognormal, FitError>; 3],
 }
 
 impl Fitting {
@@ -34,7 +49,10 @@ impl Fitting {
             models: models.len(),
             reference: models.iter().position(|name| *name == report.reference).unwrap_or(0),
             fractions: report.fractions.clone(),
-            kind: grid.map_or(ObservationKind::Records, ObservationKind::Stripes),
+            grid,
+            crossing: report.collapse,
+            estimator: Estimator::new(report.beta, &report.fractions),
+            keeps_resamples: !report.classes.is_empty(),
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
         }
     }
@@ -45,14 +63,31 @@ impl Fitting {
     /// If there is not one curve for each model and record.
     pub fn results(&self, curves: Vec<Curve>) -> WallResults {
         assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
-        let at_levels = matches!(self.kind, ObservationKind::Stripes(_));
-        let mut results = WallResults { records: self.records, at_levels, curves, summaries: Vec::new() };
-        let exceedances = |model: usize| {
-            self.fractions.iter().map(|&fraction| results.exceedances(model, fraction)).collect()
+        let samples = |crossing| -> Vec<Vec<Sample>> {
+            let of_model = |curves: &[Curve]| {
+                let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, self.grid.as_deref());
+                self.fractions.iter().copied().map(of_state).collect()
+            };
+            curves.chunks(self.records).map(of_model).collect()
         };
-        let exceedances: Vec<Vec<_>> = (0..self.models).map(exceedances).collect();
-        results.summaries = compare(&exceedances, self.reference, &self.kind, &self.bootstrap);
-        results
+        let all = Crossing::ALL.map(|(_, crossing)| samples(crossing));
+        let chosen =
+            &all[Crossing::ALL.iter().position(|(_, crossing)| *crossing == self.crossing).unwrap_or(0)];
+        let summaries = compare(chosen, self.reference, &self.estimator, &self.bootstrap);
+        let state = |(state, summaries): (usize, Vec<Summary>)| {
+            let of_model = |(model, mut summary): (usize, Summary)| {
+                if !self.keeps_resamples {
+                    summary.resamples = Vec::new();
+                }
+                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state].observations());
+                let [a, b, c] = &all;
+                let by_crossing = [fit(a), fit(b), fit(c)];
+                StateResults { summary, sample: chosen[model][state].clone(), by_crossing }
+            };
+            summaries.into_iter().enumerate().map(of_model).collect()
+        };
+        let states = summaries.into_iter().enumerate().map(state).collect();
+        WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states }
     }
 }
 
@@ -72,18 +107,28 @@ impl WallResults {
         self.at_levels
     }
 
-    /// Returns where each record first exceeds a fraction of `u_ins`.
-    pub fn exceedances(&self, model: usize, fraction: f64) -> Vec<Exceedance> {
-        self.curves(model).iter().map(|curve| curve.exceedance(fraction, self.at_levels)).collect()
+    /// Returns where each record exceeds a limit state, given by its index.
+    pub fn exceedances(&self, state: usize, model: usize) -> &[Exceedance] {
+        self.states[state][model].sample.exceedances()
+    }
+
+    /// Returns the results at a limit state, given by its index: one for each model.
+    pub fn states(&self, state: usize) -> &[StateResults] {
+        &self.states[state]
     }
 
     /// Returns the fragilities at a limit state, given by its index: one for each model.
-    pub fn summaries(&self, state: usize) -> &[Summary] {
-        &self.summaries[state]
+    pub fn summaries(&self, state: usize) -> impl ExactSizeIterator<Item = &Summary> {
+        self.states[state].iter().map(|results| &results.summary)
+    }
+
+    /// Returns the fragility of a model at a limit state.
+    pub fn summary(&self, state: usize, model: usize) -> &Summary {
+        &self.states[state][model].summary
     }
 
     /// Returns whether the limit states of a model contradict a common β.
     pub fn is_contradicted(&self, model: usize) -> bool {
-        self.summaries.first().is_some_and(|summaries| summaries[model].contradicted)
+        self.states.first().is_some_and(|models| models[model].summary.contradicted)
     }
 }

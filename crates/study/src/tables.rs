@@ -5,8 +5,8 @@ use report::table::{Cell, Column, Digits, Growing, Table};
 use run::sample::fractile;
 
 use crate::fragility::{FitError, Interval, Lognormal, Summary};
-use crate::ida::{Curve, Exceedance, TieDemand};
-use crate::results::WallResults;
+use crate::ida::{Crossing, Curve, Exceedance, TieDemand};
+use crate::results::{StateResults, WallResults};
 
 /// Names of the parts of a study, and its limit states.
 #[derive(Clone, Debug)]
@@ -117,8 +117,12 @@ fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
 /// The collapse with every model and record.
 fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     let collapse = |curve: &Curve| match curve.collapse() {
-        Exceedance::At(intensity) => Some(in_g(intensity)),
         Exceedance::Above(_) => None,
+        exceedance => Some(in_g(exceedance.bounds()[1])),
+    };
+    let last = |curve: &Curve| match curve.exceedance(1.0, Crossing::Last, true).bounds() {
+        [_, f64::INFINITY] => None,
+        [_, level] => Some(in_g(level)),
     };
     names
         .with_curves(wall, results.all_curves().iter().enumerate(), |(index, _)| *index)
@@ -127,6 +131,7 @@ fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         .value("highest_level_g", |(_, curve)| in_g(curve.top()))
         .value("runs", |(_, curve)| curve.runs().len())
         .value("resurrections", |(_, curve)| curve.resurrections())
+        .value("last_collapse_g", |(_, curve)| last(curve))
         .done()
 }
 
@@ -135,14 +140,14 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     let states = names.fractions.iter().enumerate();
     let rows = (0..names.models.len())
         .flat_map(|model| states.clone().map(move |(state, fraction)| (model, *fraction, state)))
-        .map(|(model, fraction, state)| (model, fraction, &results.summaries(state)[model]));
+        .map(|(model, fraction, state)| (model, fraction, &results.states(state)[model]));
     let beta = |fit: &Result<Lognormal, FitError>| fit.as_ref().ok().map(|fit| fit.dispersion);
     let mut table = Table::over(rows)
         .text("wall", "", |_| names.walls[wall].to_owned())
         .text("model", "", |(model, ..)| names.models[*model].to_owned())
         .value("u_max_over_u_ins", |(_, fraction, _)| *fraction)
-        .value("records", |(.., summary)| summary.records)
-        .value("censored", |(.., summary)| summary.censored);
+        .value("records", |(.., one)| one.summary.records)
+        .value("censored", |(.., one)| one.summary.censored);
     let accelerations: [Estimate; 2] =
         [("median", "_g", |one| &one.median), ("theta", "_g", |one| &one.theta)];
     let ratios: [Estimate; 2] =
@@ -151,10 +156,26 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         table = with_interval(table, estimate, STANDARD_GRAVITY);
     }
     table = table
-        .value("beta", |(.., summary)| beta(&summary.fitted))
-        .value("beta_alone", |(.., summary)| beta(&summary.alone));
+        .value("beta", |(.., one)| beta(&one.summary.fitted))
+        .value("beta_alone", |(.., one)| beta(&one.summary.alone));
     for estimate in ratios {
         table = with_interval(table, estimate, 1.0);
+    }
+    let known = |value: f64| (!value.is_nan()).then_some(value);
+    table = table
+        .value("beta_low", move |(.., one)| known(one.summary.beta.range[0]))
+        .value("beta_high", move |(.., one)| known(one.summary.beta.range[1]));
+    for (part, name) in ["var_ln_theta", "cov_ln_theta_beta", "var_beta"].into_iter().enumerate() {
+        table = table.value(name, |(.., one)| one.summary.covariance().map(|moments| moments[part]));
+    }
+    table = table
+        .value("misfit", |(.., one)| one.summary.misfit)
+        .value("crossing_g", |(.., one)| one.summary.crossing.map(in_g));
+    for (place, (name, _)) in Crossing::ALL.into_iter().enumerate() {
+        let theta = |curve: &Lognormal| in_g(curve.median);
+        table = table
+            .value(format!("theta_{name}_g"), |(.., one)| one.by_crossing[place].as_ref().ok().map(theta))
+            .value(format!("beta_{name}"), |(.., one)| beta(&one.by_crossing[place]));
     }
     table.done()
 }
@@ -163,13 +184,13 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
 type Estimate = (&'static str, &'static str, fn(&Summary) -> &Interval);
 
 /// Adds an estimate and the ends of its interval, in a unit.
-fn with_interval(
-    table: Growing<(usize, f64, &Summary)>,
+fn with_interval<'a>(
+    table: Growing<(usize, f64, &'a StateResults)>,
     (name, ending, of): Estimate,
     unit: f64,
-) -> Growing<(usize, f64, &Summary)> {
+) -> Growing<(usize, f64, &'a StateResults)> {
     ["", "_low", "_high"].into_iter().enumerate().fold(table, |table, (part, end)| {
-        let bounds = |row: &(usize, f64, &Summary)| Cell::Between(of(row.2).bounds(unit)[part]);
+        let bounds = |row: &(usize, f64, &StateResults)| Cell::Between(of(&row.2.summary).bounds(unit)[part]);
         table.value(format!("{name}{end}{ending}"), bounds)
     })
 }

@@ -12,8 +12,8 @@ use run::model::{Model, color};
 use run::parallel;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
-use study::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, Study};
+use study::fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare, steps};
+use study::ida::{Case, Crossing, Exceedance, IdaError, IntensityMeasure, Levels, Study};
 
 use super::figure::Figure;
 use super::printed::{TABLE_5, Table5};
@@ -69,12 +69,13 @@ pub fn figure_15(
     for (wall, row) in TABLE_5.iter().enumerate() {
         let collapses = |model| -> Vec<Exceedance> {
             let curve = |record| &curves[study.index(Case { wall, record, model })];
-            (0..count).map(|record| curve(record).collapse()).collect()
+            (0..count).map(|record| curve(record).exceedance(1.0, Crossing::First, false)).collect()
         };
         let collapses: Vec<_> = (0..study.models().len()).map(collapses).collect();
         // overturning is the only limit state
-        let states: Vec<_> = collapses.iter().map(|model| vec![model.clone()]).collect();
-        let summaries = compare(&states, 0, &ObservationKind::Records, &bootstrap).concat();
+        let states: Vec<_> = collapses.iter().map(|model| vec![Sample::of_records(model.clone())]).collect();
+        let estimator = Estimator::new(Dispersion::Own, &[1.0]);
+        let summaries = compare(&states, 0, &estimator, &bootstrap).concat();
         charts.push(chart(row, study.models(), &collapses));
         walls.push(summaries);
     }

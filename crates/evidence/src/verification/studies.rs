@@ -243,8 +243,8 @@ fn fragility() -> Comparisons {
         [
             (triple, "θ", "-", fitted.median, 2.0),
             (triple, "β", "-", fitted.dispersion, two * (2.0_f64 / 3.0).sqrt()),
-            (pair, "θ", "-", class.medians[0], 2.0),
-            (pair, "β", "-", class.dispersion(), (0.09 + two * two + 0.16).sqrt()),
+            (pair, "θ", "-", class.states[0].median, 2.0),
+            (pair, "β", "-", class.dispersion(0), (0.09 + two * two + 0.16).sqrt()),
         ],
     ))
 }

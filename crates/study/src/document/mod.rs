@@ -127,6 +127,7 @@ impl StudyFile {
                 place.error(given.span(), format!("tail = {tail} s must be from 0 to {LONGEST_TAIL} s"))
             );
         }
+        let levels = levels(&document.levels, place)?;
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -137,9 +138,9 @@ impl StudyFile {
                 .transpose()?
                 .unwrap_or_default(),
             measure: measure(document.intensity.as_ref(), place)?,
-            levels: levels(&document.levels, place)?,
             tail,
-            report: report(document.report.as_ref(), &document.classes, &models, place)?,
+            report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
+            levels,
             models,
         })
     }

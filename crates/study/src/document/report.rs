@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
+use crate::fragility::Dispersion;
+use crate::ida::{Crossing, Levels};
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
 use rocking_wall::tables;
@@ -22,6 +24,10 @@ pub struct ReportOptions {
     pub fractions: Vec<f64>,
     /// Name of the model by whose medians those of the others are divided.
     pub reference: String,
+    /// Dispersions of the limit states.
+    pub beta: Dispersion,
+    /// Which exceedance of a curve counts.
+    pub collapse: Crossing,
     /// Number of resamples of the records.
     pub resamples: u32,
     /// Seed of the resamples.
@@ -52,6 +58,14 @@ tables! {
         fractions: Option<Vec<f64>>,
         /// Model by whose medians the others are divided; by default the first.
         reference: Option<Spanned<String>>,
+        /// Dispersions: one for each limit state (own), one for all (common), or one for each with which
+        /// curves do not cross (ordered).
+        #[key(enum = Dispersion::ALL.map(|(name, _)| name).to_vec(), default = "own")]
+        beta: Option<Spanned<String>>,
+        /// Which exceedance of a record counts where a wall stands again above it: the first, the last, or at
+        /// each level the fraction of the records; by default the fraction on a grid, else the first.
+        #[key(enum = Crossing::ALL.map(|(name, _)| name).to_vec())]
+        collapse: Option<Spanned<String>>,
         /// Number of resamples of the bootstrap.
         #[key(minimum = 100, maximum = MOST_RESAMPLES, default = RESAMPLES)]
         resamples: Option<u32>,
@@ -113,11 +127,15 @@ pub(super) fn report(
     table: Option<&Spanned<ReportTable>>,
     classes: &[Spanned<ClassTable>],
     models: &[Model],
+    levels: &Levels,
     place: &Place<'_>,
 ) -> Result<ReportOptions, SceneError> {
+    let is_grid = matches!(levels, Levels::Grid(_));
     let mut report = ReportOptions {
         fractions: DEFAULT_THRESHOLDS.to_vec(),
         reference: models.first().map(|model| model.name.clone()).unwrap_or_default(),
+        beta: Dispersion::Own,
+        collapse: if is_grid { Crossing::Fraction } else { Crossing::First },
         resamples: RESAMPLES,
         seed: 1,
         modelling_uncertainty: 0.0,
@@ -142,6 +160,12 @@ pub(super) fn report(
         }
         report.reference.clone_from(reference.get_ref());
     }
+    if let Some(beta) = &spec.beta {
+        report.beta = chosen("beta", beta, &Dispersion::ALL, place)?;
+    }
+    if let Some(collapse) = &spec.collapse {
+        report.collapse = chosen("collapse", collapse, &Crossing::ALL, place)?;
+    }
     if let Some(resamples) = spec.resamples {
         if !(100..=MOST_RESAMPLES).contains(&resamples) {
             return refused(format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}"));
@@ -156,6 +180,21 @@ pub(super) fn report(
     }
     report.seed = spec.seed.unwrap_or(report.seed);
     Ok(report)
+}
+
+/// Returns the variant that a word names.
+fn chosen<T: Copy>(
+    key: &str,
+    word: &Spanned<String>,
+    all: &[(&str, T)],
+    place: &Place<'_>,
+) -> Result<T, SceneError> {
+    let found = all.iter().find(|(name, _)| name == word.get_ref());
+    found.map(|(_, variant)| *variant).ok_or_else(|| {
+        let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
+        let message = format!("{key} = {:?} is not one of {}", word.get_ref(), names.join(", "));
+        place.error(word.span(), message)
+    })
 }
 
 fn read_classes(tables: &[Spanned<ClassTable>], place: &Place<'_>) -> Result<Vec<WallClass>, SceneError> {

@@ -25,7 +25,7 @@ impl Comparison {
     /// Adds the next wall, if the collapse is among the limit states.
     pub(crate) fn add(&mut self, manifest: &Manifest, results: &WallResults) {
         let collapse = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0);
-        let medians = |state| results.summaries(state).iter().map(|summary| summary.median).collect();
+        let medians = |state| results.summaries(state).map(|summary| summary.median).collect();
         self.0.extend(collapse.map(medians));
     }
 

@@ -4,14 +4,12 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use crate::document::ReportOptions;
-use crate::fragility::FragilityFunction;
+use crate::fragility::{FragilityFunction, TAIL};
 use crate::tables::in_g;
 use report::escaped;
 
 use super::contents::Manifest;
 
-/// Φ⁻¹(1 − 1e-4): beyond `minIML` and `maxIML` lies a probability of 1e-4.
-const TAIL: f64 = 3.719_016_485_455_709;
 /// What risk engines refuse in the name of a function.
 const REFUSED: [char; 3] = ['#', '\'', '"'];
 
@@ -57,18 +55,19 @@ impl Writer {
     }
 
     /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
-    /// `minIML` and `noDamageLimit` the first limit state has a probability of less than 1e-4, above `maxIML`
-    /// the last one of more than 1 − 1e-4.
+    /// `minIML` and `noDamageLimit` each limit state has a probability of less than 1e-4, above `maxIML` of
+    /// more than 1 − 1e-4.
     pub(crate) fn function(
         &mut self,
         out: &mut dyn Write,
         name: &str,
         function: &FragilityFunction,
     ) -> io::Result<bool> {
-        let (medians, beta) = (&function.medians, function.dispersion());
-        let tail = libm::exp(TAIL * beta);
-        let (least, most) = (in_g(medians[0]) / tail, in_g(medians[medians.len() - 1]) * tail);
-        let params: Vec<_> = medians.iter().map(|median| moments(in_g(*median), beta)).collect();
+        let curves = function.states.iter().enumerate();
+        let curves: Vec<_> = curves.map(|(k, curve)| (in_g(curve.median), function.dispersion(k))).collect();
+        let end = |sign: f64| curves.iter().map(move |(median, beta)| median * libm::exp(sign * TAIL * beta));
+        let (least, most) = (end(-1.0).fold(f64::INFINITY, f64::min), end(1.0).fold(0.0, f64::max));
+        let params: Vec<_> = curves.iter().map(|(median, beta)| moments(*median, *beta)).collect();
         let mut numbers = params.iter().flatten().chain([&least, &most]);
         if !numbers.all(|number| number.is_finite() && *number > 0.0) {
             return Ok(false);
@@ -85,6 +84,14 @@ impl Writer {
         }
         writeln!(out, "    </fragilityFunction>")?;
         Ok(true)
+    }
+
+    /// Writes in a comment what is known of a function that is not written.
+    pub(crate) fn note(out: &mut dyn Write, name: &str, thetas: &[(String, String)]) -> io::Result<()> {
+        let thetas: Vec<_> = thetas.iter().map(|(state, theta)| format!("{state} {theta}")).collect();
+        // a comment must not have two dashes
+        let text = format!("{name}: theta in g of {}", thetas.join(", ")).replace("--", "- -");
+        writeln!(out, "    <!-- no function of {} -->", escaped(&text))
     }
 
     /// Writes what follows the functions.
@@ -154,6 +161,8 @@ mod tests {
         let report = ReportOptions {
             fractions: vec![0.4, 0.1, 1.0, 0.4],
             reference: String::new(),
+            beta: crate::fragility::Dispersion::Own,
+            collapse: crate::ida::Crossing::First,
             resamples: 1,
             seed: 1,
             modelling_uncertainty: 0.0,

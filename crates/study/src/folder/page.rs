@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::fragility::Interval;
-use crate::ida::Exceedance;
-use crate::results::WallResults;
+use crate::fragility::{Dispersion, Interval};
+use crate::ida::{Crossing, Exceedance};
+use crate::results::{StateResults, WallResults};
 use crate::tables::in_g;
 use report::counted;
 use report::escaped;
@@ -63,29 +63,44 @@ fn measure_words(manifest: &Manifest) -> String {
 /// Explains medians, fits and intervals.
 fn reading(manifest: &Manifest) -> String {
     let report = &manifest.report;
-    let stripes = manifest.contents.grid.is_some();
-    let (drawn, observed) = if stripes {
-        (
+    let (drawn, observed) = match report.collapse {
+        Crossing::Fraction => (
             "marks are the fractions of the records that exceed the limit state at each level",
-            "the numbers of exceedances at each level (Baker 2015, Eq. 11)",
-        )
-    } else {
-        (
+            "the numbers of exceedances at each level, taken as runs of their own (Baker 2015, Eq. 11)",
+        ),
+        Crossing::First | Crossing::Last => (
             "steps are the records",
-            "the records' own intensities; those that stood at the highest level count as censored (Baker \
-             2015, Eq. 8)",
-        )
+            "the two levels around each record’s exceedance; those that stood at the highest level count as \
+             censored (Baker 2015, Eq. 8)",
+        ),
     };
+    let counted = match report.collapse {
+        Crossing::First => "Where a wall stands again above its first exceedance, the first counts.",
+        Crossing::Last => "Where a wall stands again above an exceedance, the last counts.",
+        Crossing::Fraction => "",
+    };
+    let stripes = manifest.contents.grid.is_some();
     let runs =
         if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
+    let dispersions = match report.beta {
+        Dispersion::Own => {
+            "Each limit state has its own β; † marks curves that cross that of the next limit state."
+        }
+        Dispersion::Common => {
+            "All limit states of a wall and model share one β, so that their curves do not cross (Shinozuka \
+             et al. 2003). * marks a β that the limit states contradict (ratio of likelihoods, 5&nbsp;%)."
+        }
+        Dispersion::Ordered => {
+            "Each limit state has its own β; curves that would cross are the likeliest that do not."
+        }
+    };
     format!(
-        "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum \
-         likelihood to {observed}. All limit states of a wall and model share one β, so that their curves do \
-         not cross (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of \
-         likelihoods, 5&nbsp;%). Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all \
-         their results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels \
-         leave open, with its bound. Fractiles of IDA curves are those of the intensity at which a record \
-         first exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
+        "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum likelihood to \
+         {observed}. {counted} {dispersions} Misfit is the largest distance of a curve from the fractions of \
+         the records. Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all their \
+         results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels leave \
+         open, with its bound. Fractiles of IDA curves are those of the intensity at which a record first \
+         exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
         report.resamples,
         escaped(&report.reference)
     )
@@ -97,7 +112,9 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     let every = runs.div_ceil(MOST_POINTS).max(1);
     let contents = &manifest.contents;
     let note = &contents.walls[wall];
-    let top_of_collapses = top(shown, 1.0);
+    let last = (0..manifest.report.fractions.len())
+        .max_by(|a, b| manifest.report.fractions[*a].total_cmp(&manifest.report.fractions[*b]));
+    let top_of_collapses = last.map_or(1.0, |place| top(shown, place));
     let mut html = format!(
         "<section><h2>Wall {}</h2><p class=\"subtitle\">{}; e = {:.3}</p><div class=\"row pair\">",
         escaped(&note.name),
@@ -129,7 +146,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
         let _ = write!(
             html,
             "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
-            fragility(shown, place, top(shown, *fraction))
+            fragility(shown, place, top(shown, place))
         );
     }
     html.push_str("</div></section>\n");
@@ -170,8 +187,8 @@ fn collapses(shown: Shown<'_>) -> String {
     let mut table = Table::new([Column::text("", "record")].into_iter().chain(columns));
     for (index, record) in records.iter().enumerate() {
         let collapse = |model| match shown.results.curves(model)[index].collapse() {
-            Exceedance::At(intensity) => Cell::Number(in_g(intensity)),
             Exceedance::Above(top) => Cell::Between([in_g(top), f64::INFINITY]),
+            exceedance => Cell::Number(in_g(exceedance.bounds()[1])),
         };
         table.row([record.name.clone().into()].into_iter().chain((0..models.len()).map(collapse)));
     }
@@ -188,34 +205,48 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
     let (contents, report) = (&manifest.contents, &manifest.report);
     let mut html = format!(
         "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
-         <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
+         <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th><th>misfit</th>\
+         <th>θ (g) of the first, last, fraction</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
-    for (model, (summary, (color, mark))) in
-        results.summaries(collapse).iter().zip(looks(manifest)).enumerate()
-    {
+    for (model, (state, (color, mark))) in results.states(collapse).iter().zip(looks(manifest)).enumerate() {
+        let StateResults { summary, by_crossing, .. } = state;
         let xi = contents.walls[wall].xi[model];
         let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
         let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
         let gravity = ground_motion::STANDARD_GRAVITY;
+        let crosses =
+            (0..report.fractions.len()).any(|state| results.summary(state, model).crossing.is_some());
+        let sign_of_doubt = match report.beta {
+            Dispersion::Common if summary.contradicted => " *",
+            Dispersion::Own if crosses => " †",
+            _ => "",
+        };
+        let thetas = by_crossing.iter().map(|curve| {
+            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", in_g(curve.median)))
+        });
         let _ = write!(
             html,
             "<tr><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
-             <td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
+             <td>{}</td><td>{}</td><td>{}</td><td>{again}</td><td>{}</td><td>{}</td></tr>",
             escaped(&contents.models[model].name),
             sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
             words(&summary.median, gravity),
             words(&summary.theta, gravity),
             match summary.fitted {
-                Ok(fit) if summary.contradicted => format!("{:.2} *", fit.dispersion),
-                Ok(fit) => format!("{:.2}", fit.dispersion),
+                Ok(_) => {
+                    let [estimate, low, high] = summary.beta.texts(1.0, 2);
+                    format!("{estimate}{sign_of_doubt}<br><small>{low} … {high}</small>")
+                }
                 Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
             },
             ratio(&summary.median_ratio),
             ratio(&summary.theta_ratio),
             summary.censored,
+            summary.misfit.map_or("–".to_owned(), |misfit| format!("{misfit:.2}")),
+            thetas.collect::<Vec<_>>().join("<br>"),
         );
     }
     html.push_str("</tbody></table>");

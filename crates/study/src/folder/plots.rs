@@ -1,8 +1,8 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
 use crate::fragility::steps;
-use crate::ida::{Curve, Exceedance, Run};
-use crate::results::WallResults;
+use crate::ida::{Crossing, Curve, Run};
+use crate::results::{StateResults, WallResults};
 use crate::tables::in_g;
 use report::many_lines::ManyLines;
 use run::sample::fractile;
@@ -28,16 +28,17 @@ pub(crate) struct Shown<'a> {
     pub(crate) results: &'a WallResults,
 }
 
-/// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a fraction of `u_ins`.
-pub(crate) fn top(shown: Shown<'_>, fraction: f64) -> f64 {
+/// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a limit state, given by its place.
+pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
     let models = shown.manifest.contents.models.len();
     let largest = |model: usize| {
         let mut intensities: Vec<f64> = shown
             .results
-            .exceedances(model, fraction)
-            .into_iter()
-            .map(|occurrence| match occurrence {
-                Exceedance::At(intensity) | Exceedance::Above(intensity) => intensity,
+            .exceedances(place, model)
+            .iter()
+            .map(|exceedance| match exceedance.bounds() {
+                [least, f64::INFINITY] => least,
+                [_, most] => most,
             })
             .collect();
         intensities.sort_by(f64::total_cmp);
@@ -51,34 +52,32 @@ pub(crate) fn top(shown: Shown<'_>, fraction: f64) -> f64 {
 /// Draws the observations, as steps or as marks at the levels of stripes, and the fit of each model.
 pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
-    let fraction = manifest.report.fractions[place];
     let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
-    for (model, (summary, (color, mark))) in results.summaries(place).iter().zip(looks(manifest)).enumerate()
+    for (StateResults { summary, sample, .. }, (color, mark)) in
+        results.states(place).iter().zip(looks(manifest))
     {
-        let exceedances = results.exceedances(model, fraction);
-        if let Some(levels) = &manifest.contents.grid {
-            let part = |level: f64| {
-                let exceeded = exceedances.iter().filter(|e| e.or_infinity() <= level).count();
-                exceeded as f64 / exceedances.len() as f64
-            };
-            let stripes: Vec<_> = levels.iter().map(|&level| [in_g(level), part(level)]).collect();
-            plot.marks(&stripes, mark, color);
-        } else {
+        let counts = sample.counts();
+        if counts.is_empty() {
             let mut points = vec![[0.0, 0.0]];
             let mut before = 0.0;
-            for (intensity, part) in steps(&exceedances) {
+            for (intensity, part) in steps(sample.exceedances()) {
                 points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
                 before = part;
             }
             points.push([2.0 * top, before]);
             plot.line(&points, "steps", color);
+        } else {
+            let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
+                [in_g(level), f64::from(exceeded) / f64::from(runs.max(1))]
+            };
+            plot.marks(&counts.iter().map(part).collect::<Vec<_>>(), mark, color);
         }
         if let Ok(fit) = summary.fitted {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
             let probability = |x: f64| fit.probability(x * ground_motion::STANDARD_GRAVITY);
             let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
             plot.line(&curve, "fit", color);
-            if manifest.contents.grid.is_none() {
+            if counts.is_empty() {
                 let first = |part: f64| curve.iter().find(|point| point[1] >= part).copied();
                 plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
             }
@@ -92,7 +91,7 @@ pub(crate) fn panel(manifest: &Manifest, wall: usize, results: &WallResults) -> 
     let collapse = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0)?;
     let shown = Shown { manifest, wall, results };
     let name = &manifest.contents.walls[wall].name;
-    Some((format!("Wall {name}"), fragility(shown, collapse, top(shown, 1.0))))
+    Some((format!("Wall {name}"), fragility(shown, collapse, top(shown, collapse))))
 }
 
 /// Draws the runs of one model, intensity over demand: a curve for each record, or the points of stripes.
@@ -139,7 +138,7 @@ fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
     });
     for k in 1..=POINTS {
         let demand = f64::from(k) / f64::from(POINTS);
-        let first = |curve: &Curve| curve.exceedance(demand, false).or_infinity();
+        let first = |curve: &Curve| curve.exceedance(demand, Crossing::First, false).or_infinity();
         let mut intensities: Vec<f64> = curves.iter().map(first).collect();
         intensities.sort_by(f64::total_cmp);
         for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {

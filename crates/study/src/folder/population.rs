@@ -23,15 +23,20 @@ const WEAKEST: usize = 10;
 pub(crate) struct Population {
     /// Medians of each limit state and model \[m/s²\], infinite above the levels.
     medians: Vec<Vec<Vec<f64>>>,
-    /// Dispersions of each model, where there is a fit.
+    /// Dispersions of each model at the last limit state, where there is a fit.
     dispersions: Vec<Vec<f64>>,
+    /// Place of the last limit state to be exceeded.
+    last: usize,
 }
 
 impl Population {
     pub(crate) fn new(manifest: &Manifest) -> Self {
         let models = manifest.contents.models.len();
         let medians = vec![vec![Vec::new(); models]; manifest.report.fractions.len()];
-        Self { medians, dispersions: vec![Vec::new(); models] }
+        let last =
+            |a: &usize, b: &usize| manifest.report.fractions[*a].total_cmp(&manifest.report.fractions[*b]);
+        let last = (0..medians.len()).max_by(last).unwrap_or(0);
+        Self { medians, dispersions: vec![Vec::new(); models], last }
     }
 
     /// Adds the next wall.
@@ -41,9 +46,7 @@ impl Population {
                 medians.push(summary.median.estimate);
             }
         }
-        // the limit states of a wall and model share it
-        let fits = self.medians.first().map(|_| results.summaries(0)).unwrap_or_default();
-        for (dispersions, summary) in self.dispersions.iter_mut().zip(fits) {
+        for (dispersions, summary) in self.dispersions.iter_mut().zip(results.summaries(self.last)) {
             dispersions.extend(summary.fitted.ok().map(|fit| fit.dispersion));
         }
     }
@@ -70,7 +73,8 @@ impl Population {
             self.dispersions.iter().map(|values| sorted(values, |value| value)).collect();
         let _ = write!(
             html,
-            "<figure><figcaption>Dispersions β</figcaption>{}</figure></div></section>\n{}",
+            "<figure><figcaption>Dispersions β at {}</figcaption>{}</figure></div></section>\n{}",
+            manifest.report.fractions[self.last],
             distribution(manifest, &dispersions, "beta", "β"),
             self.tables(manifest)
         );

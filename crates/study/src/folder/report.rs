@@ -6,10 +6,10 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use crate::fragility::Interval;
-use crate::ida::{Curve, Exceedance};
-use crate::results::{Fitting, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES};
+use crate::fragility::{Dispersion, Interval, Summary};
+use crate::ida::{Crossing, Curve, Exceedance};
+use crate::results::{Fitting, StateResults, WallResults};
+use crate::tables::{KINDS, Kind, Names, TIES, in_g};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Digits, Table};
@@ -123,8 +123,11 @@ struct Output<'a> {
     panels: Vec<(String, String)>,
     population: Population,
     summary: Option<Table>,
-    contradictions: Vec<String>,
-    contradicted: usize,
+    /// Fits whose curves contradict a common β or cross: the words of the first ones, and the number of all.
+    doubts: Vec<String>,
+    doubted: usize,
+    /// θ of the last collapse and of the fraction, over that of the first collapse, of each fit.
+    over_first: [Vec<f64>; 2],
     resurrected: usize,
     /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
     tied: [usize; 3],
@@ -157,8 +160,9 @@ impl<'a> Output<'a> {
             panels: Vec::new(),
             population: Population::new(folder.manifest()),
             summary: None,
-            contradictions: Vec::new(),
-            contradicted: 0,
+            doubts: Vec::new(),
+            doubted: 0,
+            over_first: [const { Vec::new() }; 2],
             resurrected: 0,
             tied: [0; 3],
         })
@@ -193,10 +197,18 @@ impl<'a> Output<'a> {
         } else {
             self.population.add(results);
         }
-        for model in (0..manifest.contents.models.len()).filter(|&model| results.is_contradicted(model)) {
-            self.contradicted += 1;
-            if self.contradictions.len() < NAMED {
-                self.contradictions.push(contradiction(manifest, wall, model, results));
+        for model in 0..manifest.contents.models.len() {
+            if let Some(doubt) = doubt(manifest, wall, model, results) {
+                self.doubted += 1;
+                self.doubts.extend((self.doubts.len() < NAMED).then_some(doubt));
+            }
+        }
+        if let Some(collapse) = collapse(manifest) {
+            for StateResults { by_crossing: [first, others @ ..], .. } in results.states(collapse) {
+                for (over_first, other) in self.over_first.iter_mut().zip(others) {
+                    let ratio = first.and_then(|first| Ok((*other)?.median / first.median));
+                    over_first.extend(ratio.ok());
+                }
             }
         }
         let stands_again =
@@ -212,7 +224,7 @@ impl<'a> Output<'a> {
         let together =
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
-        let (summary, warning) = (self.summary(manifest, is_large), self.warning(&manifest.contents));
+        let (summary, warning) = (self.summary(manifest, is_large), self.warning(manifest));
         let (mut files, about_risk) = self.risk.finish()?;
         for (_, draft) in self.tables {
             files.push(draft.commit(true)?);
@@ -235,9 +247,7 @@ impl<'a> Output<'a> {
 
     fn summary(&self, manifest: &Manifest, is_large: bool) -> String {
         let (contents, report) = (&manifest.contents, &manifest.report);
-        let Some(collapse) = report.fractions.iter().position(|fraction| *fraction == 1.0) else {
-            return String::new();
-        };
+        let Some(collapse) = collapse(manifest) else { return String::new() };
         let mut text = format!(
             "{}; collapse {} in g, 95 % intervals of {} resamples of {}\n",
             counted(self.runs, "run"),
@@ -259,9 +269,26 @@ impl<'a> Output<'a> {
         if self.resurrected > 0 {
             let _ = writeln!(
                 text,
-                "{} of {} stand again above their first overturning, which counts as the collapse",
+                "{} of {} stand again above their first overturning{}",
                 self.resurrected,
-                counted(contents.count(), "curve")
+                counted(contents.count(), "curve"),
+                match report.collapse {
+                    Crossing::First => ", which counts as the collapse",
+                    Crossing::Last => "; the last one counts as the collapse",
+                    Crossing::Fraction => "; each level counts for itself",
+                }
+            );
+            let [last, fraction] = self.over_first.each_ref().map(|ratios| {
+                let [low, high] = [0.0, 1.0].map(|part| {
+                    let end = if part == 0.0 { f64::min } else { f64::max };
+                    ratios.iter().copied().reduce(end).unwrap_or(f64::NAN)
+                });
+                format!("{low:.3} to {high:.3}")
+            });
+            let _ = writeln!(
+                text,
+                "over theta of the first overturning, that of the last is {last}, that of the fractions at \
+                 all levels {fraction}"
             );
         }
         text
@@ -269,9 +296,7 @@ impl<'a> Output<'a> {
 
     /// Adds the collapse of a wall to the summary.
     fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
-        let Some(collapse) = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0) else {
-            return;
-        };
+        let Some(collapse) = collapse(manifest) else { return };
         let three = Digits::Decimals(3);
         let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
         let ends = |of: &Interval, unit| {
@@ -297,26 +322,43 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// Warns of walls and models whose limit states contradict a common β.
-    fn warning(&self, contents: &Contents) -> Option<String> {
-        let more = if self.contradicted > NAMED { " …" } else { "" };
-        (self.contradicted > 0).then(|| {
-            format!(
-                "limit states contradict a common beta in {} of {} fits: {}{more}; their fitted curves are \
-                 rough, see the steps on the page and beta_alone in fragilities.csv",
-                self.contradicted,
-                contents.walls.len() * contents.models.len(),
-                self.contradictions.join(", ")
-            )
+    /// Warns of walls and models whose limit states contradict a common β, or whose curves cross.
+    fn warning(&self, manifest: &Manifest) -> Option<String> {
+        let more = if self.doubted > NAMED { " …" } else { "" };
+        let fits = manifest.contents.walls.len() * manifest.contents.models.len();
+        let named = format!("{} of {fits} fits: {}{more}", self.doubted, self.doubts.join(", "));
+        (self.doubted > 0).then(|| match manifest.report.beta {
+            Dispersion::Common => format!(
+                "limit states contradict a common beta in {named}; their fitted curves are rough, see the \
+                 steps on the page and beta_alone in fragilities.csv"
+            ),
+            Dispersion::Own | Dispersion::Ordered => format!(
+                "curves of limit states cross in {named}; in [report], beta = \"ordered\" fits curves that \
+                 do not cross"
+            ),
         })
     }
 }
 
-/// Names a wall and model whose limit states contradict a common β, with the β of each.
-fn contradiction(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> String {
-    let states = manifest.report.fractions.len();
-    let alone = (0..states).filter_map(|state| results.summaries(state)[model].alone.ok());
-    let alone: Vec<_> = alone.map(|fit| format!("{:.2}", fit.dispersion)).collect();
-    let (wall, model) = (&manifest.contents.walls[wall].name, &manifest.contents.models[model].name);
-    format!("wall {wall:?} with {model} ({})", alone.join(", "))
+/// Returns the place of the collapse among the limit states.
+fn collapse(manifest: &Manifest) -> Option<usize> {
+    manifest.report.fractions.iter().position(|fraction| *fraction == 1.0)
+}
+
+/// Names a wall and model whose limit states contradict a common β, with the β of each, or whose curves
+/// cross, with the limit states and intensities at which they do.
+fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
+    let Manifest { report, contents, .. } = manifest;
+    let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
+    let words: Vec<_> = if report.beta == Dispersion::Common {
+        let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
+        alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()
+    } else {
+        let crossing = |(summary, fraction): (&Summary, &f64)| {
+            summary.crossing.map(|at| format!("{fraction} at {:.3} g", in_g(at)))
+        };
+        summaries.zip(&report.fractions).filter_map(crossing).collect()
+    };
+    let (wall, model) = (&contents.walls[wall].name, &contents.models[model].name);
+    (!words.is_empty()).then(|| format!("wall {wall:?} with {model} ({})", words.join(", ")))
 }

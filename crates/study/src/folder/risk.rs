@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::document::WallClass;
-use crate::fragility::{FragilityFunction, Interval};
+use crate::document::{ReportOptions, WallClass};
+use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Interval, Summary, covariance};
 use crate::results::WallResults;
 use crate::tables::in_g;
 use ground_motion::STANDARD_GRAVITY;
@@ -16,7 +16,7 @@ use run::file::{self, Draft};
 use super::contents::Manifest;
 use super::error::FolderError;
 use super::nrml;
-use report::table::Table;
+use report::table::{Cell, Table};
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
@@ -33,6 +33,8 @@ pub(crate) struct Risk<'a> {
     classes: Vec<(&'a WallClass, Vec<usize>)>,
     /// Functions of walls in classes, one for each model where it has all curves.
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
+    /// Resamples of each class, of each model and limit state.
+    resamples: Vec<Vec<Vec<ClassResamples>>>,
     /// Number of functions without a curve, and of those that NRML cannot hold.
     left_out: [usize; 2],
 }
@@ -55,9 +57,12 @@ impl<'a> Risk<'a> {
             (class, if class.walls.is_empty() { (0..walls.len()).collect() } else { named })
         });
         let classes: Vec<_> = classes.collect();
+        let states = nrml::limit_states(&manifest.report);
+        let of_class = vec![vec![ClassResamples::default(); states.len()]; manifest.contents.models.len()];
         Ok(Self {
             manifest,
-            states: nrml::limit_states(&manifest.report),
+            resamples: vec![of_class; classes.len()],
+            states,
             table: Draft::new(&table, b"")?,
             is_begun: false,
             xml,
@@ -72,12 +77,20 @@ impl<'a> Risk<'a> {
         let Manifest { contents, report, .. } = self.manifest;
         let note = &contents.walls[wall];
         for model in 0..contents.models.len() {
-            let summaries: Vec<_> =
-                self.states.iter().map(|(place, _)| &results.summaries(*place)[model]).collect();
+            let summaries = self.states.iter().map(|(place, _)| results.summary(*place, model));
+            let summaries: Vec<&Summary> = summaries.collect();
             let curves: Option<Vec<_>> = summaries.iter().map(|summary| summary.fitted.ok()).collect();
-            let function = curves.map(|curves| FragilityFunction::new(&curves, report.modelling_uncertainty));
-            let thetas: Vec<_> = summaries.iter().map(|summary| known(&summary.theta)).collect();
-            self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &thetas)?;
+            let function =
+                curves.map(|curves| FragilityFunction::new(curves.as_slice(), report.modelling_uncertainty));
+            let known: Vec<_> = summaries.iter().map(|summary| Known::of_wall(summary, report)).collect();
+            self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &known)?;
+            for (class, (of, walls)) in self.classes.iter().enumerate() {
+                let Some(place) = walls.iter().position(|member| *member == wall) else { continue };
+                let share = of.shares(walls.len())[place];
+                for (resamples, summary) in self.resamples[class][model].iter_mut().zip(&summaries) {
+                    resamples.add(share, summary.theta.estimate, &summary.resamples);
+                }
+            }
             if let Some(functions) = self.members.get_mut(&wall) {
                 functions.push(function);
             }
@@ -89,7 +102,7 @@ impl<'a> Risk<'a> {
     pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String), FolderError> {
         let contents = &self.manifest.contents;
         let mut told = String::new();
-        for (class, walls) in std::mem::take(&mut self.classes) {
+        for (number, (class, walls)) in std::mem::take(&mut self.classes).into_iter().enumerate() {
             let shares = class.shares(walls.len());
             let named = |(share, &wall): (&f64, &usize)| format!("{share} {}", contents.walls[wall].name);
             let stated: Vec<_> = shares.iter().zip(&walls).map(named).collect();
@@ -97,7 +110,12 @@ impl<'a> Risk<'a> {
                 let members = walls.iter().map(|wall| self.members[wall][model].clone());
                 let members: Option<Vec<_>> = members.collect();
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
-                self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &[])?;
+                let known = |(k, resamples): (usize, &ClassResamples)| {
+                    let beta_modelling = self.manifest.report.modelling_uncertainty;
+                    Known::of_class(function.as_ref(), k, &resamples.curves(beta_modelling))
+                };
+                let known: Vec<_> = self.resamples[number][model].iter().enumerate().map(known).collect();
+                self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &known)?;
                 told.extend(function.map(|function| self.line(class, model, &function)));
             }
         }
@@ -112,19 +130,19 @@ impl<'a> Risk<'a> {
     }
 
     /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
-    /// `intervals` are those of θ \[g\], limit state by limit state; a class has none.
+    /// `known` is what is known of each limit state beside its curve.
     fn write(
         &mut self,
         [name, geometry]: [&str; 2],
         model: usize,
         function: Option<&FragilityFunction>,
-        intervals: &[[f64; 2]],
+        known: &[Known],
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
         let model = &contents.models[model].name;
-        let known = |value: Option<f64>| value.filter(|value| value.is_finite());
-        let end = |k: usize, end: usize| known(intervals.get(k).map(|ends| ends[end]));
-        let theta = |k: usize| known(function.map(|function| in_g(function.medians[k])));
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let bounds = |k: usize, part: usize| Cell::Between(known[k].theta.bounds(STANDARD_GRAVITY)[part]);
+        let covariance = |k: usize, part: usize| known[k].covariance.map(|moments| moments[part]);
         let table = Table::over(self.states.iter().enumerate())
             .text("wall", "", |_| name.to_owned())
             .text("geometry", "", |_| geometry.to_owned())
@@ -133,24 +151,37 @@ impl<'a> Risk<'a> {
             .text("unit", "", |_| "g")
             .text("limit_state", "", |(_, (_, state))| state.clone())
             .value("u_max_over_u_ins", |(_, (place, _))| report.fractions[*place])
-            .value("theta", |(k, _)| theta(*k))
-            .value("theta_low", |(k, _)| end(*k, 0))
-            .value("theta_high", |(k, _)| end(*k, 1))
+            .value("theta", |(k, _)| match function {
+                Some(function) => Cell::Number(in_g(function.states[*k].median)),
+                None => bounds(*k, 0),
+            })
+            .value("theta_low", |(k, _)| bounds(*k, 1))
+            .value("theta_high", |(k, _)| bounds(*k, 2))
             // the square root of the sum of the squares of those after it
-            .value("beta", |_| function.map(FragilityFunction::dispersion))
-            .value("beta_records", |_| function.map(|function| function.beta_records))
-            .value("beta_walls", |_| function.map(|function| function.beta_walls))
+            .value("beta", |(k, _)| function.map(|function| function.dispersion(*k)))
+            .value("beta_records", |(k, _)| function.map(|function| function.states[*k].beta_records))
+            .value("beta_walls", |(k, _)| function.map(|function| function.states[*k].beta_walls))
             .value("beta_modelling", |_| function.map(|function| function.beta_modelling))
+            .value("beta_low", |(k, _)| finite(Some(known[*k].beta.range[0])))
+            .value("beta_high", |(k, _)| finite(Some(known[*k].beta.range[1])))
+            .value("var_ln_theta", |(k, _)| covariance(*k, 0))
+            .value("cov_ln_theta_beta", |(k, _)| covariance(*k, 1))
+            .value("var_beta", |(k, _)| covariance(*k, 2))
+            .value("misfit", |(k, _)| known[*k].misfit)
             .done();
         let text = if self.is_begun { table.csv_rows() } else { table.csv() };
         self.is_begun = true;
         self.table.write(|file| file.write_all(text.as_bytes()))?;
-        let Some(function) = function else {
-            self.left_out[0] += 1;
-            return Ok(());
-        };
+        self.left_out[0] += usize::from(function.is_none());
         let Some((draft, writer)) = &mut self.xml else { return Ok(()) };
         let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
+        let Some(function) = function else {
+            let theta = |((_, state), known): (&(usize, String), &Known)| {
+                (state.clone(), known.theta.texts(STANDARD_GRAVITY, 3)[0].clone())
+            };
+            let thetas: Vec<_> = self.states.iter().zip(known).map(theta).collect();
+            return Ok(draft.write(|file| nrml::Writer::note(file, &id, &thetas))?);
+        };
         let is_written = draft.write(|file| writer.function(file, &id, function))?;
         self.left_out[1] += usize::from(!is_written);
         Ok(())
@@ -182,27 +213,52 @@ impl<'a> Risk<'a> {
     /// Describes the result of a class.
     fn line(&self, class: &WallClass, model: usize, function: &FragilityFunction) -> String {
         let Manifest { contents, report, .. } = self.manifest;
-        let theta = |((place, _), theta): (&(usize, String), &f64)| {
-            format!("{:.3} g to exceed {} u_ins", in_g(*theta), report.fractions[*place])
+        let state = |(k, (place, _)): (usize, &(usize, String))| {
+            let curve = function.states[k];
+            format!(
+                "{:.3} g to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
+                in_g(curve.median),
+                report.fractions[*place],
+                function.dispersion(k),
+                curve.beta_records,
+                curve.beta_walls,
+                function.beta_modelling
+            )
         };
-        let thetas: Vec<_> = self.states.iter().zip(&function.medians).map(theta).collect();
-        format!(
-            "class {:?} with {}: theta {}; beta {:.3} (records {:.3}, walls {:.3}, modelling {})\n",
-            class.name,
-            contents.models[model].name,
-            thetas.join(", "),
-            function.dispersion(),
-            function.beta_records,
-            function.beta_walls,
-            function.beta_modelling
-        )
+        let states: Vec<_> = self.states.iter().enumerate().map(state).collect();
+        let model = &contents.models[model].name;
+        format!("class {:?} with {model}: theta {}\n", class.name, states.join("; "))
     }
 }
 
-/// Returns the ends of an interval \[g\], NaN where the levels leave one open.
-fn known(theta: &Interval) -> [f64; 2] {
-    let [_, low, high] = theta.bounds(STANDARD_GRAVITY);
-    [low, high].map(|[least, most]| if least == most { most } else { f64::NAN })
+/// What is known of a limit state of a wall or a class beside its curve.
+struct Known {
+    theta: Interval,
+    /// With the β of the model.
+    beta: Interval,
+    /// Variance of ln θ, covariance of ln θ and β, variance of β.
+    covariance: Option<[f64; 3]>,
+    misfit: Option<f64>,
+}
+
+impl Known {
+    fn of_wall(summary: &Summary, report: &ReportOptions) -> Self {
+        let total = |beta: f64| beta.hypot(report.modelling_uncertainty);
+        let Interval { estimate, range, least } = summary.beta;
+        let beta = Interval { estimate: total(estimate), range: range.map(total), least: least.map(total) };
+        Self { theta: summary.theta, beta, covariance: summary.covariance(), misfit: summary.misfit }
+    }
+
+    fn of_class(function: Option<&FragilityFunction>, state: usize, resamples: &[[f64; 2]]) -> Self {
+        let [theta, beta] = function
+            .map_or([f64::NAN; 2], |function| [function.states[state].median, function.dispersion(state)]);
+        let resamples = if function.is_some() { resamples } else { &[] };
+        let interval = |estimate: f64, part: usize| {
+            Interval::new(estimate, resamples.iter().map(|pair| pair[part]), CONFIDENCE)
+        };
+        let covariance = covariance(resamples);
+        Self { theta: interval(theta, 0), beta: interval(beta, 1), covariance, misfit: None }
+    }
 }
 
 /// Returns the geometry among the parameters of a wall, in one line.

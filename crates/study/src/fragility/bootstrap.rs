@@ -1,7 +1,8 @@
 //! Uncertainty of medians and their ratios due to the choice of records.
 
-use super::fit::{FitError, Lognormal, fit_from, open_bounds};
-use super::observation::{Observation, ObservationKind, median};
+use super::dispersion::Estimator;
+use super::fit::Lognormal;
+use super::observation::{Sample, median};
 use report::table::between;
 use run::sample::{Pcg, fractile, sample_median};
 
@@ -75,41 +76,56 @@ impl Bootstrap {
         })
     }
 
-    /// Returns θ of each limit state in the joint fit to each resample, with the bounds of those that have
-    /// no fit. A limit state is given by its exceedances, record by record.
+    /// Fits the curves of each resample: of each limit state θ with the bounds of those that have no fit, and
+    /// β, which is not a number then.
     ///
     /// # Panics
     /// As [`medians`](Self::medians).
-    pub fn fitted_medians(&self, states: &[Vec<Exceedance>], kind: &ObservationKind) -> Vec<Resampled> {
-        let observed = |state: &Vec<Exceedance>| kind.observations(state);
-        let bounds = |(fitted, observations): (Result<Lognormal, FitError>, &Vec<Observation>)| {
-            fitted.map_or_else(|_| open_bounds(observations), |fit| [fit.median; 2])
+    pub fn fitted(&self, states: &[Sample], estimator: &Estimator) -> Vec<[Resampled; 2]> {
+        let prepared: Vec<_> = states.iter().map(Sample::prepared).collect();
+        let fit = |counts: &[u32], near: &[_]| {
+            let terms: Vec<_> = prepared.iter().map(|state| state.terms(counts)).collect();
+            estimator.fit(&terms, near)
         };
-        let all: Vec<_> = states.iter().map(observed).collect();
-        let near = fit_from(&all, &[]);
-        let samples = self.each(|drawn| -> Vec<[f64; 2]> {
-            let resample = |state: &Vec<Exceedance>| drawn.iter().map(|&index| state[index]).collect();
-            let drawn: Vec<_> = states.iter().map(|state| observed(&resample(state))).collect();
-            fit_from(&drawn, &near).into_iter().zip(&drawn).map(bounds).collect()
+        let ends = |counts: &[u32], curves: Vec<Result<Lognormal, _>>| -> Vec<[f64; 3]> {
+            let bounds = |(fitted, sample): (Result<Lognormal, _>, &Sample)| {
+                let Ok(Lognormal { median, dispersion }) = fitted else {
+                    let [least, most] = sample.open_bounds(counts);
+                    return [least, most, f64::NAN];
+                };
+                [median, median, dispersion]
+            };
+            curves.into_iter().zip(states).map(bounds).collect()
+        };
+        let ones = vec![1; self.records];
+        let near = fit(&ones, &[]);
+        let mut counts = vec![0; self.records];
+        let samples = self.each(|drawn| {
+            counts.fill(0);
+            for &record in drawn {
+                counts[record] += 1;
+            }
+            ends(&counts, fit(&counts, &near))
         });
-        let estimates = near.into_iter().zip(&all).map(bounds).enumerate();
-        let resampled = |(state, estimate): (usize, [f64; 2])| {
-            let side = |side: usize| samples.iter().map(|sample| sample[state][side]).collect();
-            Resampled { estimate, least: side(0), most: side(1) }
+        let resampled = |(state, [least, most, beta]): (usize, [f64; 3])| {
+            let side =
+                |side: usize| -> Vec<f64> { samples.iter().map(|sample| sample[state][side]).collect() };
+            let [low, high, betas] = [side(0), side(1), side(2)];
+            let theta = Resampled { estimate: [least, most], least: low, most: high };
+            [theta, Resampled { estimate: [beta; 2], least: betas.clone(), most: betas }]
         };
-        estimates.map(resampled).collect()
+        ends(&ones, near.clone()).into_iter().enumerate().map(resampled).collect()
     }
 }
 
 impl Resampled {
     /// Takes the sample median of exceedances, and those of its resamples.
-    pub(super) fn medians(exceedances: &[Exceedance], kind: &ObservationKind, bootstrap: &Bootstrap) -> Self {
-        // a censored record exceeds at least above its levels, one that exceeds at the lowest of all levels
-        // anywhere below it
-        let lowest = kind.lowest_level();
-        let least = |exceedance: &Exceedance| match *exceedance {
-            Exceedance::At(intensity) if intensity <= lowest => Exceedance::At(0.0),
-            Exceedance::At(intensity) | Exceedance::Above(intensity) => Exceedance::At(intensity),
+    pub(super) fn medians(exceedances: &[Exceedance], bootstrap: &Bootstrap) -> Self {
+        // a censored record exceeds at least above its levels, one that exceeds at its lowest level anywhere
+        // below it
+        let least = |exceedance: &Exceedance| match exceedance.bounds() {
+            [least, most] if least == 0.0 || most == f64::INFINITY => Exceedance::At(least),
+            _ => *exceedance,
         };
         let least: Vec<_> = exceedances.iter().map(least).collect();
         Self {

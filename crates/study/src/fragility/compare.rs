@@ -1,8 +1,10 @@
 //! Fragilities of several models beside that of a reference.
 
 use super::bootstrap::{Bootstrap, Interval, Resampled};
-use super::fit::{FitError, Lognormal, fit, fit_jointly, log_likelihood};
-use super::observation::{Observation, ObservationKind};
+use super::dispersion::{Dispersion, Estimator};
+use super::fit::{FitError, Lognormal, fit_from, log_likelihood};
+use super::observation::Sample;
+use super::term::Term;
 use crate::ida::Exceedance;
 
 /// Fraction of the resamples within an interval.
@@ -17,39 +19,47 @@ pub struct Summary {
     pub censored: usize,
     /// Intensity that half of the records need.
     pub median: Interval,
-    /// Curve of the joint fit, with one β for all limit states of the model.
+    /// Curve, with the dispersion of the estimator.
     pub fitted: Result<Lognormal, FitError>,
     /// Curve of this limit state alone.
     pub alone: Result<Lognormal, FitError>,
     /// Whether the limit states of the model contradict a common β.
     pub contradicted: bool,
-    /// θ of the joint fit; its bounds where there is none.
+    /// Intensity at which the curve crosses that of the next limit state.
+    pub crossing: Option<f64>,
+    /// Largest distance of the curve from the fractions of the records that exceed.
+    pub misfit: Option<f64>,
+    /// θ of the curve; its bounds where there is none.
     pub theta: Interval,
+    /// β of the curve; not a number where there is none.
+    pub beta: Interval,
+    /// θ and β of each resample; not numbers where it has no curve.
+    pub resamples: Vec<[f64; 2]>,
     /// Median over that of the reference.
     pub median_ratio: Interval,
     /// θ over that of the reference.
     pub theta_ratio: Interval,
 }
 
-/// Compares the exceedances of some models, over the same records, with those of the model number
-/// `reference`. Intervals hold 95 % of the resamples.
+/// Compares some models, over the same records, with the model number `reference`. Intervals hold 95 % of the
+/// resamples.
 ///
-/// Each model has one list of exceedances for each limit state, record by record. Returns one list of
-/// summaries for each limit state, model by model.
+/// Each model has one sample for each limit state. Returns one list of summaries for each limit state, model
+/// by model.
 ///
 /// # Panics
 /// If there is no such model, or the models differ in their number of limit states or records.
 pub fn compare(
-    models: &[Vec<Vec<Exceedance>>],
+    models: &[Vec<Sample>],
     reference: usize,
-    kind: &ObservationKind,
+    estimator: &Estimator,
     bootstrap: &Bootstrap,
 ) -> Vec<Vec<Summary>> {
-    let shape = |model: &Vec<Vec<Exceedance>>| model.iter().map(Vec::len).collect::<Vec<_>>();
+    let shape = |model: &Vec<Sample>| model.iter().map(|s| s.exceedances().len()).collect::<Vec<_>>();
     let states = shape(&models[reference]);
     assert!(models.iter().all(|model| shape(model) == states), "each model has a result for each record");
     let all: Vec<Vec<Fragility>> =
-        models.iter().map(|model| Fragility::of_states(model, kind, bootstrap)).collect();
+        models.iter().map(|model| Fragility::of_states(model, estimator, bootstrap)).collect();
     let at = |state: usize| {
         let base = &all[reference][state];
         let summary = |(model, fragilities): (usize, &Vec<Fragility>)| {
@@ -64,12 +74,16 @@ pub fn compare(
             let censored = |exceedance: &&Exceedance| matches!(exceedance, Exceedance::Above(_));
             Summary {
                 records: states[state],
-                censored: models[model][state].iter().filter(censored).count(),
+                censored: models[model][state].exceedances().iter().filter(censored).count(),
                 median: own.median.interval(CONFIDENCE),
                 fitted: own.fitted,
                 alone: own.alone,
                 contradicted: own.contradicted,
+                crossing: own.crossing,
+                misfit: own.fitted.ok().map(|curve| models[model][state].misfit(|x| curve.probability(x))),
                 theta: own.theta.interval(CONFIDENCE),
+                beta: own.beta.interval(CONFIDENCE),
+                resamples: own.resamples(),
                 median_ratio: ratio(&own.median, &base.median),
                 theta_ratio: ratio(&own.theta, &base.theta),
             }
@@ -85,22 +99,57 @@ struct Fragility {
     fitted: Result<Lognormal, FitError>,
     alone: Result<Lognormal, FitError>,
     contradicted: bool,
+    crossing: Option<f64>,
     theta: Resampled,
+    beta: Resampled,
 }
 
 impl Fragility {
-    fn of_states(states: &[Vec<Exceedance>], kind: &ObservationKind, bootstrap: &Bootstrap) -> Vec<Self> {
-        let observations: Vec<_> = states.iter().map(|state| kind.observations(state)).collect();
-        let fitted = fit_jointly(&observations);
-        let alone: Vec<_> = observations.iter().map(|state| fit(state)).collect();
-        let contradicted = contradict_common_dispersion(&observations, &alone);
-        let thetas = bootstrap.fitted_medians(states, kind);
-        let medians = states.iter().map(|state| Resampled::medians(state, kind, bootstrap));
-        let fits = fitted.into_iter().zip(alone);
-        let fragility =
-            |((median, theta), (fitted, alone))| Self { median, fitted, alone, contradicted, theta };
-        medians.zip(thetas).zip(fits).map(fragility).collect()
+    fn of_states(states: &[Sample], estimator: &Estimator, bootstrap: &Bootstrap) -> Vec<Self> {
+        let terms = |state: &Sample| state.prepared().terms(&vec![1; state.exceedances().len()]);
+        let terms: Vec<_> = states.iter().map(terms).collect();
+        let mut own = estimator.clone();
+        own.dispersion = Dispersion::Own;
+        let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
+        let contradicted = contradict_common_dispersion(&terms, &alone);
+        let crossings = estimator.crossings(&fitted);
+        let medians = states.iter().map(|state| Resampled::medians(state.exceedances(), bootstrap));
+        let resampled = medians.zip(bootstrap.fitted(states, estimator));
+        let fits = fitted.into_iter().zip(alone).zip(crossings);
+        let mut all = Vec::new();
+        for ((median, [theta, beta]), ((fitted, alone), crossing)) in resampled.zip(fits) {
+            all.push(Self { median, fitted, alone, contradicted, crossing, theta, beta });
+        }
+        all
     }
+
+    /// Returns θ and β of each resample.
+    fn resamples(&self) -> Vec<[f64; 2]> {
+        let pair = |(theta, beta): (&f64, &f64)| if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] };
+        self.theta.most.iter().zip(&self.beta.most).map(pair).collect()
+    }
+}
+
+impl Summary {
+    /// Returns the variance of ln θ, the covariance of ln θ and β, and the variance of β, over the resamples;
+    /// `None` without a curve.
+    pub fn covariance(&self) -> Option<[f64; 3]> {
+        self.fitted.ok().and_then(|_| covariance(&self.resamples))
+    }
+}
+
+/// Returns the variance of ln θ, the covariance of ln θ and β, and the variance of β, of resamples; `None`
+/// with fewer than two curves.
+pub fn covariance(resamples: &[[f64; 2]]) -> Option<[f64; 3]> {
+    let known = resamples.iter().filter(|pair| pair.iter().all(|value| value.is_finite()));
+    let known: Vec<_> = known.map(|[theta, beta]| [libm::log(*theta), *beta]).collect();
+    let count = known.len() as f64;
+    let mean = [0, 1].map(|k| known.iter().map(|pair| pair[k]).sum::<f64>() / count);
+    let moment = |one: usize, other: usize| -> f64 {
+        let products = known.iter().map(|pair| (pair[one] - mean[one]) * (pair[other] - mean[other]));
+        products.sum::<f64>() / (count - 1.0)
+    };
+    (known.len() > 1).then(|| [moment(0, 0), moment(0, 1), moment(1, 1)])
 }
 
 /// Returns whether limit states contradict a common β, by the ratio of likelihoods at a level of 5 %, as if
@@ -108,18 +157,15 @@ impl Fragility {
 ///
 /// S. S. Wilks: The large-sample distribution of the likelihood ratio for testing composite hypotheses.
 /// Annals of Mathematical Statistics 9(1), 1938, 60–62.
-fn contradict_common_dispersion(
-    observations: &[Vec<Observation>],
-    alone: &[Result<Lognormal, FitError>],
-) -> bool {
-    let own = observations.iter().zip(alone).filter_map(|(state, alone)| Some((state.clone(), alone.ok()?)));
+fn contradict_common_dispersion(states: &[Vec<Term>], alone: &[Result<Lognormal, FitError>]) -> bool {
+    let own = states.iter().zip(alone).filter_map(|(terms, alone)| Some((Ok(terms.as_slice()), alone.ok()?)));
     let (states, alone): (Vec<_>, Vec<_>) = own.unzip();
-    let joint: Vec<Lognormal> = fit_jointly(&states).into_iter().flatten().collect();
+    let joint: Vec<Lognormal> = fit_from(&states, &[]).into_iter().flatten().collect();
     if states.len() < 2 || joint.len() < states.len() {
         return false;
     }
     let sum = |curves: &[Lognormal]| -> f64 {
-        states.iter().zip(curves).map(|(state, curve)| log_likelihood(state, curve)).sum()
+        states.iter().flatten().zip(curves).map(|(terms, curve)| log_likelihood(terms, curve)).sum()
     };
     2.0 * (sum(&alone) - sum(&joint)) > chi_squared_95(states.len() - 1)
 }

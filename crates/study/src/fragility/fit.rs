@@ -1,7 +1,8 @@
 //! Lognormal curve of maximum likelihood.
 
-use super::normal::{cumulative, log_and_hazard};
+use super::normal::cumulative;
 use super::observation::Observation;
+use super::term::{Likelihood, Term};
 
 /// A lognormal fragility.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,32 +69,44 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
 /// analysis of fragility curves. Report MCEER-03-0002, 2003.
 ///
 /// With z = a ln x + c, a = 1/β, c = −a ln θ, the logarithm of the likelihood is concave in a and all c, for
-/// exact intensities, censored records and stripes alike. Newton's method with halved steps finds its only
-/// maximum:
+/// exact intensities, intervals, censored records and stripes alike: each is an integral of a density with a
+/// concave logarithm (A. Prékopa: Acta Scientiarum Mathematicarum 34, 1973, 335–343). Newton's method with
+/// halved steps finds its only maximum:
 ///
 /// ```text
-/// At(x):      ln a − z²/2
-/// Above(x):   ln Φ(−z)                                                                  Eq. (8)
-/// Stripe:     k ln Φ(z) + (n − k) ln Φ(−z)                                             Eq. (11)
+/// At(x):           ln a − z²/2
+/// Between(x₁, x₂): ln(Φ(z₂) − Φ(z₁))
+/// Above(x):        ln Φ(−z)                                                             Eq. (8)
+/// Stripe:          k ln Φ(z) + (n − k) ln Φ(−z)                                        Eq. (11)
 /// ```
 ///
 /// For exact intensities alone the maximum has a closed form: their means and their pooled standard
 /// deviation. A limit state whose observations determine no median has an error and leaves the others alone.
 pub fn fit_jointly(states: &[Vec<Observation>]) -> Vec<Result<Lognormal, FitError>> {
-    fit_from(states, &[])
+    let states: Vec<_> = states.iter().map(|state| terms(state)).collect();
+    let states: Vec<_> = states.iter().map(|terms| terms.as_deref().map_err(|error| *error)).collect();
+    fit_from(&states, &[])
+}
+
+/// Returns the terms of the likelihood of observations.
+pub(super) fn terms(observations: &[Observation]) -> Result<Vec<Term>, FitError> {
+    observations.iter().try_fold(Vec::new(), |mut terms, observation| {
+        terms.extend(Term::of(observation)?);
+        Ok(terms)
+    })
 }
 
 /// Fits as [`fit_jointly`] does, starting from the curves of similar observations.
 pub(super) fn fit_from(
-    states: &[Vec<Observation>],
+    states: &[Result<&[Term], FitError>],
     near: &[Result<Lognormal, FitError>],
 ) -> Vec<Result<Lognormal, FitError>> {
-    let mut states: Vec<Result<State, FitError>> =
-        states.iter().map(|observations| State::new(observations)).collect();
-    let usable: Vec<&mut State> = states.iter_mut().flatten().collect();
+    let mut states: Vec<Result<State<'_>, FitError>> =
+        states.iter().map(|terms| State::new((*terms)?)).collect();
+    let usable: Vec<&mut State<'_>> = states.iter_mut().flatten().collect();
     let fitted = maximum(usable, near);
     let mut medians = fitted.iter().flat_map(|(logarithms, _)| logarithms);
-    let curve = |state: &Result<State, FitError>| {
+    let curve = |state: &Result<State<'_>, FitError>| {
         state.as_ref().map_err(|error| *error)?;
         let dispersion = fitted.as_ref().map_err(|error| *error)?.1;
         let median = medians.next().map_or(f64::NAN, |logarithm| libm::exp(*logarithm));
@@ -104,15 +117,15 @@ pub(super) fn fit_from(
 
 /// Returns ln θ of each limit state, and the common β.
 fn maximum(
-    mut states: Vec<&mut State>,
+    mut states: Vec<&mut State<'_>>,
     near: &[Result<Lognormal, FitError>],
 ) -> Result<(Vec<f64>, f64), FitError> {
-    let sum = |part: fn(&State) -> f64| states.iter().map(|state| part(state)).sum::<f64>();
+    let sum = |part: fn(&State<'_>) -> f64| states.iter().map(|state| part(state)).sum::<f64>();
     let spread = (sum(|state| state.squares) / sum(|state| state.weight)).sqrt();
     if !states.iter().any(|state| state.scatters) {
         return Err(FitError::NoScatter);
     }
-    if states.iter().all(|state| state.terms.iter().all(|term| term.exact)) {
+    if states.iter().all(|state| state.terms.iter().all(Term::is_exact)) {
         return Ok((states.iter().map(|state| state.centre).collect(), spread));
     }
     let mut spread = spread.max(LEAST_SPREAD);
@@ -127,13 +140,13 @@ fn maximum(
     let mut now = likelihood(&states, &point);
     for _ in 0..MOST_STEPS {
         let (step, decrement) =
-            now.newton_step().filter(|_| point.a < STEEPEST).ok_or(FitError::NoScatter)?;
+            newton_step(&now.1).filter(|_| point.a < STEEPEST).ok_or(FitError::NoScatter)?;
         if decrement <= DECREMENT {
             point = point.moved(&step, 1.0);
             break;
         }
         // where no step raises ln L by more than rounding, this point is the maximum
-        let Some((better, there)) = climb(&states, &point, &step, now.value) else { break };
+        let Some((better, there)) = climb(&states, &point, &step, now.0) else { break };
         (point, now) = (better, there);
     }
     if point.a >= STEEPEST {
@@ -147,13 +160,18 @@ fn maximum(
 }
 
 /// Halves a step until it raises the likelihood.
-fn climb(states: &[&mut State], from: &Point, step: &Point, value: f64) -> Option<(Point, Likelihood)> {
+fn climb(
+    states: &[&mut State<'_>],
+    from: &Point,
+    step: &Point,
+    value: f64,
+) -> Option<(Point, (f64, Vec<Likelihood>))> {
     let mut part = 1.0;
     for _ in 0..MOST_HALVINGS {
         let trial = from.moved(step, part);
         if trial.a > 0.0 {
             let there = likelihood(states, &trial);
-            if there.value > value {
+            if there.0 > value {
                 return Some((trial, there));
             }
         }
@@ -162,83 +180,14 @@ fn climb(states: &[&mut State], from: &Point, step: &Point, value: f64) -> Optio
     None
 }
 
-/// Bounds of the θ that observations leave open: `[0, x]` if all exceed from x on, `[x, ∞]` if none exceeds
-/// up to x, and the gap between the two where one intensity parts them.
-pub(super) fn open_bounds(observations: &[Observation]) -> [f64; 2] {
-    let [mut least, mut most] = [0.0, f64::INFINITY];
-    for term in observations.iter().filter_map(|observation| Term::new(observation).ok()) {
-        if term.exact || term.not_exceeded > 0.0 {
-            least = f64::max(least, libm::exp(term.y));
-        }
-        if term.exceeded > 0.0 {
-            most = f64::min(most, libm::exp(term.y));
-        }
-    }
-    [least, most.max(least)]
-}
-
-/// Computes ln L of a curve under observations, without its constant.
-pub(super) fn log_likelihood(observations: &[Observation], curve: &Lognormal) -> f64 {
-    let Ok(mut state) = State::new(observations) else { return 0.0 };
-    state.centre = libm::log(curve.median);
-    likelihood(&[&mut state], &Point { a: 1.0 / curve.dispersion, c: vec![0.0] }).value
-}
-
-/// Term of ln L: k ln Φ(z) + m ln Φ(−z), or ln a − z²/2 of an exact intensity.
-#[derive(Clone, Copy)]
-struct Term {
-    /// y = ln x.
-    y: f64,
-    /// k; 1 of an exact intensity.
-    exceeded: f64,
-    /// m; 0 of an exact intensity.
-    not_exceeded: f64,
-    exact: bool,
-}
-
-impl Term {
-    fn new(observation: &Observation) -> Result<Self, FitError> {
-        let (x, exceeded, not_exceeded, exact) = match *observation {
-            Observation::At(x) => (x, 1, 0, true),
-            Observation::Above(x) => (x, 0, 1, false),
-            Observation::Stripe { intensity, runs, exceeded } => {
-                (intensity, exceeded, runs.checked_sub(exceeded).ok_or(FitError::Observation)?, false)
-            }
-        };
-        if !(x > 0.0 && x.is_finite()) {
-            return Err(FitError::Observation);
-        }
-        Ok(Self { y: libm::log(x), exceeded: exceeded.into(), not_exceeded: not_exceeded.into(), exact })
-    }
-
-    fn runs(&self) -> f64 {
-        self.exceeded + self.not_exceeded
-    }
-
-    /// Returns the term and its derivatives with respect to z; those of ln a are with respect to a.
-    fn derivatives(&self, a: f64, z: f64) -> [f64; 3] {
-        if self.exact {
-            return [libm::log(a) - 0.5 * z * z, -z, -1.0];
-        }
-        let (mut l, mut d, mut dd) = (0.0, 0.0, 0.0);
-        // a side without runs adds nothing, but 0 · ∞ would be NaN
-        if self.exceeded > 0.0 {
-            let (log, h) = log_and_hazard(z);
-            (l, d, dd) = (self.exceeded * log, self.exceeded * h, -self.exceeded * h * (h + z));
-        }
-        if self.not_exceeded > 0.0 {
-            let (log, h) = log_and_hazard(-z);
-            l += self.not_exceeded * log;
-            d -= self.not_exceeded * h;
-            dd -= self.not_exceeded * h * (h - z);
-        }
-        [l, d, dd]
-    }
+/// Computes ln L of a curve under terms, without its constant.
+pub(super) fn log_likelihood(terms: &[Term], curve: &Lognormal) -> f64 {
+    Likelihood::of(terms, libm::log(curve.median), [1.0 / curve.dispersion, 0.0]).value
 }
 
 /// The observations of one limit state.
-struct State {
-    terms: Vec<Term>,
+struct State<'a> {
+    terms: &'a [Term],
     /// About where ln θ lies: at first the mean of the logarithms.
     centre: f64,
     /// Sum of the squares of the logarithms about their mean.
@@ -249,23 +198,18 @@ struct State {
     scatters: bool,
 }
 
-impl State {
-    fn new(observations: &[Observation]) -> Result<Self, FitError> {
-        let terms: Vec<Term> = observations.iter().map(Term::new).collect::<Result<_, _>>()?;
-        let exceeded = terms.iter().filter(|term| term.exceeded > 0.0).map(|term| term.y);
-        let not_exceeded = terms.iter().filter(|term| term.not_exceeded > 0.0).map(|term| term.y);
-        let lowest_exceeded = exceeded.fold(f64::INFINITY, f64::min);
-        let highest_not_exceeded = not_exceeded.fold(f64::NEG_INFINITY, f64::max);
-        let exact: Vec<f64> = terms.iter().filter(|term| term.exact).map(|term| term.y).collect();
-        if lowest_exceeded == f64::INFINITY || (exact.is_empty() && highest_not_exceeded == f64::NEG_INFINITY)
-        {
+impl<'a> State<'a> {
+    fn new(terms: &'a [Term]) -> Result<Self, FitError> {
+        let least_end = terms.iter().map(|term| term.between[1]).fold(f64::INFINITY, f64::min);
+        let last_start = terms.iter().map(|term| term.between[0]).fold(f64::NEG_INFINITY, f64::max);
+        if least_end == f64::INFINITY || last_start == f64::NEG_INFINITY {
             return Err(FitError::OneSided);
         }
-        // an exact intensity counts on both sides; an overlap, or two of them that differ, give a scatter
-        let scatters = exact.iter().any(|y| *y != exact[0]) || highest_not_exceeded > lowest_exceeded;
-        let weight: f64 = terms.iter().map(Term::runs).sum();
-        let centre = terms.iter().map(|term| term.runs() * term.y).sum::<f64>() / weight;
-        let squares = terms.iter().map(|term| term.runs() * (term.y - centre).powi(2)).sum();
+        // no intensity may be in all intervals; an exact one counts on both sides
+        let scatters = last_start > least_end;
+        let weight: f64 = terms.iter().map(|term| term.runs).sum();
+        let centre = terms.iter().map(|term| term.runs * term.middle()).sum::<f64>() / weight;
+        let squares = terms.iter().map(|term| term.runs * (term.middle() - centre).powi(2)).sum();
         Ok(Self { terms, centre, squares, weight, scatters })
     }
 }
@@ -284,54 +228,27 @@ impl Point {
     }
 }
 
-/// The likelihood L at some point.
-struct Likelihood {
-    /// ln L without its constant.
-    value: f64,
-    /// ∂ ln L/∂a and −∂² ln L/∂a².
-    along_a: [f64; 2],
-    /// ∂ ln L/∂c, −∂² ln L/∂a∂c and −∂² ln L/∂c² of each limit state.
-    along_c: Vec<[f64; 3]>,
+/// Returns ln L at a point, and the likelihood of each limit state.
+fn likelihood(states: &[&mut State<'_>], point: &Point) -> (f64, Vec<Likelihood>) {
+    let of = |(state, c): (&&mut State<'_>, &f64)| Likelihood::of(state.terms, state.centre, [point.a, *c]);
+    let all: Vec<_> = states.iter().zip(&point.c).map(of).collect();
+    (all.iter().map(|state| state.value).sum(), all)
 }
 
-impl Likelihood {
-    /// Returns Newton's step and its decrement; none where the curvature is not positive definite.
-    ///
-    /// The limit states share nothing but a, so their c are eliminated first.
-    fn newton_step(&self) -> Option<(Point, f64)> {
-        let [mut gradient, mut curvature] = self.along_a;
-        for [gc, ac, cc] in &self.along_c {
-            gradient -= ac * gc / cc;
-            curvature -= ac * ac / cc;
-        }
-        let definite = curvature > 0.0 && self.along_c.iter().all(|[_, _, cc]| *cc > 0.0);
-        let a = gradient / curvature;
-        let c: Vec<f64> = self.along_c.iter().map(|[gc, ac, cc]| (gc - ac * a) / cc).collect();
-        let along = self.along_c.iter().zip(&c).map(|([gc, ..], c)| gc * c).sum::<f64>();
-        let decrement = a * self.along_a[0] + along;
-        definite.then_some((Point { a, c }, decrement))
+/// Returns Newton's step and its decrement; none where the curvature is not positive definite.
+///
+/// The limit states share nothing but a, so their c are eliminated first.
+fn newton_step(states: &[Likelihood]) -> Option<(Point, f64)> {
+    let (mut gradient, mut curvature) = (0.0, 0.0);
+    for Likelihood { gradient: [ga, gc], curvature: [aa, ac, cc], .. } in states {
+        gradient += ga - ac * gc / cc;
+        curvature += aa - ac * ac / cc;
     }
-}
-
-fn likelihood(states: &[&mut State], point: &Point) -> Likelihood {
-    let mut all = Likelihood { value: 0.0, along_a: [0.0; 2], along_c: Vec::with_capacity(states.len()) };
-    for (state, c) in states.iter().zip(&point.c) {
-        let mut along_c = [0.0; 3];
-        for term in &state.terms {
-            let y = term.y - state.centre;
-            let [l, d, dd] = term.derivatives(point.a, point.a * y + c);
-            if term.exact {
-                all.along_a[0] += 1.0 / point.a;
-                all.along_a[1] += 1.0 / (point.a * point.a);
-            }
-            all.value += l;
-            all.along_a[0] += d * y;
-            all.along_a[1] -= dd * y * y;
-            along_c[0] += d;
-            along_c[1] -= dd * y;
-            along_c[2] -= dd;
-        }
-        all.along_c.push(along_c);
-    }
-    all
+    let definite = curvature > 0.0 && states.iter().all(|state| state.curvature[2] > 0.0);
+    let a = gradient / curvature;
+    let c = states.iter().map(|state| (state.gradient[1] - state.curvature[1] * a) / state.curvature[2]);
+    let c: Vec<f64> = c.collect();
+    let along = |(state, c): (&Likelihood, &f64)| a * state.gradient[0] + c * state.gradient[1];
+    let decrement = states.iter().zip(&c).map(along).sum();
+    definite.then_some((Point { a, c }, decrement))
 }

@@ -8,7 +8,8 @@
 //! J. W. Baker: Efficient analytical fragility function fitting using dynamic structural analysis. Earthquake
 //! Spectra 31(1), 2015, 579–599.
 //!
-//! Limit states of the same runs share one β, so that their curves do not cross.
+//! Limit states of the same runs have each their own β, or one for all, or dispersions with which their
+//! curves do not cross: see [`Dispersion`].
 //!
 //! ```
 //! use study::fragility::{Observation, fit};
@@ -22,13 +23,16 @@
 mod bootstrap;
 mod class;
 mod compare;
+mod dispersion;
 mod fit;
 mod normal;
 mod observation;
+mod term;
 
 pub use bootstrap::{Bootstrap, Interval, Resampled};
-pub use class::FragilityFunction;
-pub use compare::{CONFIDENCE, Summary, compare};
+pub use class::{ClassResamples, FragilityFunction, StateCurve};
+pub use compare::{CONFIDENCE, Summary, compare, covariance};
+pub use dispersion::{Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;
-pub use observation::{Observation, ObservationKind, median, steps};
+pub use observation::{Observation, Sample, median, steps};

@@ -2,13 +2,16 @@
 
 use run::sample::sample_median;
 
-use crate::ida::Exceedance;
+use super::term::Term;
+use crate::ida::{Crossing, Curve, Exceedance};
 
 /// An observation to which a fragility is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Observation {
-    /// A record that first exceeds the limit state at this intensity.
+    /// A record that exceeds the limit state from this intensity on.
     At(f64),
+    /// A record that exceeds it from an intensity between these two on; the lower one may be 0.
+    Between([f64; 2]),
     /// A record that does not exceed it up to this intensity: censored. Baker, Eq. (8).
     Above(f64),
     /// A stripe: of `runs` at this intensity, `exceeded` exceed the limit state. Baker, Eq. (11).
@@ -22,41 +25,185 @@ pub enum Observation {
     },
 }
 
-/// Kind of observations that are made of the records' exceedances.
+/// What the records show of one limit state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ObservationKind {
-    /// The intensity of each record, for records with levels of their own.
-    Records,
-    /// Stripes at the levels that all records share. Of a record only the two levels around its exceedance
-    /// are known.
-    Stripes(Vec<f64>),
+pub struct Sample {
+    exceedances: Vec<Exceedance>,
+    stripes: Vec<Stripe>,
 }
 
-impl ObservationKind {
-    /// Returns the lowest level that all records share, or 0 where they share none.
-    pub(super) fn lowest_level(&self) -> f64 {
-        match self {
-            Self::Records => 0.0,
-            Self::Stripes(levels) => levels.iter().copied().reduce(f64::min).unwrap_or(0.0),
+/// A level, and whether each record exceeds there; `None` of one that was not run there.
+#[derive(Clone, Debug, PartialEq)]
+struct Stripe {
+    intensity: f64,
+    exceeded: Vec<Option<bool>>,
+}
+
+/// Intensities at which records without common levels are read to count fractions.
+const READ: u32 = 50;
+
+impl Sample {
+    /// Takes one exceedance of each record.
+    pub fn of_records(exceedances: Vec<Exceedance>) -> Self {
+        Self { exceedances, stripes: Vec::new() }
+    }
+
+    /// Takes what the curves of some records show of a `fraction` of `u_ins`: one exceedance of each, or with
+    /// [`Crossing::Fraction`] how many exceed at each level. `shared` holds the levels of all records, if
+    /// they share them; if not, the curves are read at 50 intensities, equally spaced by their logarithms
+    /// between the lowest first and the highest last exceedance.
+    pub fn of_curves(curves: &[Curve], fraction: f64, crossing: Crossing, shared: Option<&[f64]>) -> Self {
+        let exceedances = |crossing| -> Vec<Exceedance> {
+            curves.iter().map(|curve| curve.exceedance(fraction, crossing, shared.is_some())).collect()
+        };
+        let sample = Self::of_records(exceedances(crossing));
+        if crossing != Crossing::Fraction {
+            return sample;
+        }
+        let stripe = |intensity: f64| {
+            let exceeded = curves.iter().map(|curve| curve.exceeds(fraction, intensity)).collect();
+            Stripe { intensity, exceeded }
+        };
+        let stripes = if let Some(levels) = shared {
+            levels.iter().copied().map(stripe).collect()
+        } else {
+            let ends = |exceedances: Vec<Exceedance>| exceedances.into_iter().map(|one| one.bounds()[0]);
+            let low =
+                ends(exceedances(Crossing::First)).filter(|end| *end > 0.0).fold(f64::INFINITY, f64::min);
+            let high = ends(exceedances(Crossing::Last)).fold(low, f64::max);
+            let at = |k: u32| low * libm::exp(libm::log(high / low) * f64::from(k) / f64::from(READ - 1));
+            if low < high { (0..READ).map(at).map(stripe).collect() } else { Vec::new() }
+        };
+        Self { stripes, ..sample }
+    }
+
+    /// Returns the exceedance of each record.
+    pub fn exceedances(&self) -> &[Exceedance] {
+        &self.exceedances
+    }
+
+    /// Returns the levels at which the fit counts, with the numbers of all runs and of those that exceed;
+    /// none where it takes the records one by one.
+    pub fn counts(&self) -> Vec<(f64, [u32; 2])> {
+        let ones = vec![1; self.exceedances.len()];
+        let count = |stripe: &Stripe| (stripe.intensity, stripe.count(&ones));
+        self.stripes.iter().map(count).collect()
+    }
+
+    /// Returns the observations to which a curve is fitted.
+    pub fn observations(&self) -> Vec<Observation> {
+        let stripe = |(intensity, [runs, exceeded]): (f64, [u32; 2])| Observation::Stripe {
+            intensity,
+            runs,
+            exceeded,
+        };
+        let record = |exceedance: &Exceedance| match *exceedance {
+            Exceedance::At(intensity) => Observation::At(intensity),
+            Exceedance::Between(levels) => Observation::Between(levels),
+            Exceedance::Above(intensity) => Observation::Above(intensity),
+        };
+        if self.stripes.is_empty() {
+            self.exceedances.iter().map(record).collect()
+        } else {
+            self.counts().into_iter().map(stripe).collect()
         }
     }
 
-    /// Makes observations of the exceedances of some records.
-    pub fn observations(&self, exceedances: &[Exceedance]) -> Vec<Observation> {
-        let record = |exceedance: &Exceedance| match *exceedance {
-            Exceedance::At(intensity) => Observation::At(intensity),
-            Exceedance::Above(intensity) => Observation::Above(intensity),
-        };
-        let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
-        let stripe = |&intensity: &f64| {
-            let exceeded = exceedances.iter().filter(|exceedance| exceedance.or_infinity() <= intensity);
-            let (runs, exceeded) = (count(exceedances.len()), count(exceeded.count()));
-            Observation::Stripe { intensity, runs, exceeded }
-        };
-        match self {
-            Self::Records => exceedances.iter().map(record).collect(),
-            Self::Stripes(levels) => levels.iter().map(stripe).collect(),
+    /// Prepares terms for many fits, with the logarithms of all intensities.
+    pub(super) fn prepared(&self) -> Prepared {
+        let between = |one: &Exceedance| one.bounds().map(libm::log);
+        let stripe = |stripe: &Stripe| (libm::log(stripe.intensity), stripe.clone());
+        Prepared {
+            records: self.exceedances.iter().map(between).collect(),
+            stripes: self.stripes.iter().map(stripe).collect(),
         }
+    }
+
+    /// Bounds of the θ that the sample leaves open, by how often each record was drawn: no more than half of
+    /// the records exceed below the lower one, at least half up to the upper one. Where the fractions fall
+    /// with the intensity, nothing is known.
+    pub(super) fn open_bounds(&self, drawn: &[u32]) -> [f64; 2] {
+        let [mut least, mut most] = [0.0, f64::INFINITY];
+        for stripe in &self.stripes {
+            let [runs, exceeded] = stripe.count(drawn);
+            if 2 * exceeded <= runs {
+                least = f64::max(least, stripe.intensity);
+            }
+            if 2 * exceeded >= runs {
+                most = f64::min(most, stripe.intensity);
+            }
+        }
+        if self.stripes.is_empty() {
+            [least, most] = [0, 1].map(|side| {
+                let end = |(one, &count): (&Exceedance, &u32)| (one.bounds()[side], count);
+                let mut ends: Vec<_> = self.exceedances.iter().zip(drawn).map(end).collect();
+                ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let all: u32 = drawn.iter().sum();
+                let mut below = 0;
+                let half = ends.iter().find(|(_, count)| {
+                    below += count;
+                    2 * below > all || (side == 1 && 2 * below == all)
+                });
+                half.map_or(f64::INFINITY, |end| end.0)
+            });
+        }
+        if least <= most { [least, most] } else { [0.0, f64::INFINITY] }
+    }
+
+    /// Returns the largest distance between a curve and the fractions of the records that exceed, as the test
+    /// of Kolmogorov and Smirnov takes it; of stripes, that at their levels. Where only two levels around an
+    /// exceedance are known, it is the least distance that is possible.
+    pub fn misfit(&self, probability: impl Fn(f64) -> f64) -> f64 {
+        let counts = self.counts();
+        let of_stripe = |(intensity, [runs, exceeded]): &(f64, [u32; 2])| {
+            (probability(*intensity) - f64::from(*exceeded) / f64::from(*runs)).abs()
+        };
+        if !counts.is_empty() {
+            return counts.iter().filter(|(_, [runs, _])| *runs > 0).map(of_stripe).fold(0.0, f64::max);
+        }
+        let [starts, ends] = [0, 1].map(|side| {
+            let mut ends: Vec<f64> = self.exceedances.iter().map(|one| one.bounds()[side]).collect();
+            ends.sort_by(f64::total_cmp);
+            ends
+        });
+        let all = self.exceedances.len() as f64;
+        let before = |y: &f64| probability(*y) - starts.partition_point(|start| start < y) as f64 / all;
+        let after = |y: &f64| ends.partition_point(|end| end <= y) as f64 / all - probability(*y);
+        let known = starts.iter().filter(|start| **start > 0.0).map(before);
+        known.chain(ends.iter().filter(|end| end.is_finite()).map(after)).fold(0.0, f64::max)
+    }
+}
+
+impl Stripe {
+    /// Counts the runs and those that exceed, by how often each record was drawn.
+    fn count(&self, drawn: &[u32]) -> [u32; 2] {
+        let mut counts = [0; 2];
+        for (exceeded, count) in self.exceeded.iter().zip(drawn) {
+            counts[0] += if exceeded.is_some() { *count } else { 0 };
+            counts[1] += if *exceeded == Some(true) { *count } else { 0 };
+        }
+        counts
+    }
+}
+
+/// A sample with the logarithms of its intensities.
+pub(super) struct Prepared {
+    records: Vec<[f64; 2]>,
+    stripes: Vec<(f64, Stripe)>,
+}
+
+impl Prepared {
+    /// Returns the terms of the likelihood, by how often each record was drawn.
+    pub(super) fn terms(&self, drawn: &[u32]) -> Vec<Term> {
+        let record = |(between, &count): (&[f64; 2], &u32)| Term { between: *between, runs: count.into() };
+        let stripe = |(y, stripe): &(f64, Stripe)| {
+            let [runs, exceeded] = stripe.count(drawn);
+            let below = Term { between: [f64::NEG_INFINITY, *y], runs: exceeded.into() };
+            [below, Term { between: [*y, f64::INFINITY], runs: (runs - exceeded).into() }]
+        };
+        let records = self.records.iter().zip(drawn).filter(|_| self.stripes.is_empty()).map(record);
+        let all = records.chain(self.stripes.iter().flat_map(stripe));
+        all.filter(|term| term.runs > 0.0).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use rocking_wall::solver::State;
 use rocking_wall::wall::Wall;
+use serde::{Deserialize, Serialize};
 
 /// A run: one wall through one record scaled to one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,22 +47,60 @@ impl TieDemand {
     }
 }
 
-/// Intensity at which the demand first exceeds a limit state.
+/// Intensity at which the demand exceeds a limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exceedance {
     /// At this intensity \[m/s²\].
     At(f64),
+    /// Between these two levels \[m/s²\]: the wall does not exceed it at the lower one, which is 0 below the
+    /// lowest level, and exceeds it at the upper one.
+    Between([f64; 2]),
     /// Above this intensity, the highest level of the curve \[m/s²\]: the record is censored.
     Above(f64),
 }
 
+/// Which exceedance of a curve counts, where a wall stands again at a level above one that it exceeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Crossing {
+    /// The lowest level that exceeds.
+    First,
+    /// The lowest level from which on all that were run exceed.
+    Last,
+    /// Each level for itself: the fraction of the records that exceed there.
+    Fraction,
+}
+
+impl Crossing {
+    /// Every variant, with the words of study files.
+    pub const ALL: [(&str, Self); 3] =
+        [("first", Self::First), ("last", Self::Last), ("fraction", Self::Fraction)];
+}
+
 impl Exceedance {
-    /// Returns the intensity, infinite for a censored record.
-    pub fn or_infinity(self) -> f64 {
+    /// Returns the least and the most that the intensity can be \[m/s²\].
+    pub fn bounds(self) -> [f64; 2] {
         match self {
-            Self::At(intensity) => intensity,
-            Self::Above(_) => f64::INFINITY,
+            Self::At(intensity) => [intensity; 2],
+            Self::Between(levels) => levels,
+            Self::Above(intensity) => [intensity, f64::INFINITY],
         }
+    }
+
+    /// Returns the intensity: the geometric mean of two levels, the lowest level for one below it, infinite
+    /// for a censored record.
+    pub fn or_infinity(self) -> f64 {
+        match self.bounds() {
+            [least, most] if least == most || least == 0.0 => most,
+            [least, most] => (least * most).sqrt(),
+        }
+    }
+}
+
+impl Run {
+    /// Returns whether |u| exceeds a `fraction` of `u_ins`: whether the wall overturned for 1 and more.
+    pub fn exceeds(&self, fraction: f64) -> bool {
+        self.overturning.is_some() || (fraction < 1.0 && self.demand > fraction)
     }
 }
 
@@ -104,26 +143,40 @@ impl Curve {
         self.runs[self.below_collapse..].iter().filter(|run| run.overturning.is_none()).count()
     }
 
-    /// Returns where |u| first exceeds a `fraction` of `u_ins`, which is the collapse for a fraction of 1 and
-    /// more.
+    /// Returns where |u| exceeds a `fraction` of `u_ins`, which is the collapse for a fraction of 1 and more;
+    /// for the first time, or with [`Crossing::Last`] for the last.
     ///
-    /// Between two levels without overturning the demand is interpolated linearly. The intensity is that of a
-    /// level where the wall overturns at it, or where `at_levels` is set.
-    pub fn exceedance(&self, fraction: f64, at_levels: bool) -> Exceedance {
-        let mut before = [0.0, 0.0];
-        for run in &self.runs {
-            let exceeded = run.overturning.is_some() || (fraction < 1.0 && run.demand > fraction);
-            if exceeded && (at_levels || run.overturning.is_some()) {
-                return Exceedance::At(run.intensity);
-            }
-            if exceeded {
-                let [intensity, demand] = before;
-                let part = (fraction - demand) / (run.demand - demand);
-                return Exceedance::At(intensity + part * (run.intensity - intensity));
-            }
-            before = [run.intensity, run.demand];
+    /// Between two levels without overturning the demand is interpolated linearly. Where the wall overturns
+    /// at the upper one, or `at_levels` is set, only the two levels are known.
+    pub fn exceedance(&self, fraction: f64, crossing: Crossing, at_levels: bool) -> Exceedance {
+        let exceeds = |run: &Run| run.exceeds(fraction);
+        let first = match crossing {
+            Crossing::Last => self.runs.iter().rposition(|run| !exceeds(run)).map(|below| below + 1),
+            Crossing::First | Crossing::Fraction => self.runs.iter().position(exceeds),
+        };
+        let first = first.unwrap_or(if crossing == Crossing::Last { 0 } else { self.runs.len() });
+        let Some(run) = self.runs.get(first) else { return Exceedance::Above(self.top()) };
+        let below = first.checked_sub(1).map(|below| self.runs[below]);
+        let [intensity, demand] = below.map_or([0.0; 2], |run| [run.intensity, run.demand]);
+        if at_levels || run.overturning.is_some() {
+            return Exceedance::Between([intensity, run.intensity]);
         }
-        Exceedance::Above(self.top())
+        let part = (fraction - demand) / (run.demand - demand);
+        Exceedance::At(intensity + part * (run.intensity - intensity))
+    }
+
+    /// Returns whether |u| exceeds a `fraction` of `u_ins` at an intensity: as at the nearest level, by the
+    /// ratio of intensities. Returns `None` above the levels, unless the highest one exceeds.
+    pub fn exceeds(&self, fraction: f64, intensity: f64) -> Option<bool> {
+        let above = self.runs.partition_point(|run| run.intensity < intensity);
+        let at = |index: usize| self.runs.get(index).map(|run| (run.intensity, run.exceeds(fraction)));
+        match (above.checked_sub(1).and_then(at), at(above)) {
+            (Some((_, exceeds)), None) => exceeds.then_some(true),
+            (None, upper) => upper.map(|(level, exceeds)| exceeds && level <= intensity),
+            (Some((lower, below)), Some((upper, above))) => {
+                Some(if lower * upper < intensity * intensity { above } else { below })
+            }
+        }
     }
 
     /// Returns |u|/`u_ins` at an intensity, interpolated linearly from the origin on, and infinite from the

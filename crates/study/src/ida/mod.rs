@@ -44,7 +44,7 @@ use run::records::NamedRecord;
 use run::shaking::Shaking;
 use run::walls::NamedWall;
 
-pub use curve::{Curve, Exceedance, Run, TieDemand};
+pub use curve::{Crossing, Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;

@@ -3,10 +3,10 @@
 use proptest::prelude::*;
 
 use study::fragility::{
-    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, compare, cumulative, fit,
-    fit_jointly, median, steps,
+    Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Observation, Sample, Summary, compare,
+    cumulative, fit, fit_jointly, median, steps,
 };
-use study::ida::Exceedance;
+use study::ida::{Crossing, Curve, Exceedance, Run};
 
 use crate::configuration::mostly;
 
@@ -104,19 +104,20 @@ fn censored_records_count() {
     assert!(fit(&kept).unwrap().median < 0.8 * TRUTH.median);
 }
 
-/// With steps as wide as half of θ, a record is known only to lie between two levels. Counts at the levels
-/// give the true values; taking the upper level as the record's intensity does not.
+/// With steps as wide as half of θ, a record is known only to lie between two levels. These give the true
+/// values; taking the upper level as the record's intensity does not.
 #[test]
-fn wide_steps_make_stripes() {
+fn wide_steps_leave_intervals() {
     let step = 0.31;
-    let levels: Vec<f64> = (1..=12).map(|k| step * f64::from(k)).collect();
-    let sample: Vec<Exceedance> =
-        stratified(4000).into_iter().map(|x| Exceedance::At((x / step).ceil() * step)).collect();
-    let found = fit(&ObservationKind::Stripes(levels).observations(&sample)).unwrap();
-    // counts are off by less than one in 4000, and the highest level includes all records
+    let upper = |x: f64| (x / step).ceil() * step;
+    let sample: Vec<_> =
+        stratified(4000).into_iter().map(|x| Observation::Between([upper(x) - step, upper(x)])).collect();
+    let found = fit(&sample).unwrap();
+    // counts are off by less than one in 4000
     near(found.median, TRUTH.median, 1e-3);
     near(found.dispersion, TRUTH.dispersion, 1e-3);
-    assert!(fit(&ObservationKind::Records.observations(&sample)).unwrap().median > 1.15 * TRUTH.median);
+    let upper: Vec<_> = stratified(4000).into_iter().map(|x| Observation::At(upper(x))).collect();
+    assert!(fit(&upper).unwrap().median > 1.15 * TRUTH.median);
 }
 
 #[test]
@@ -145,14 +146,14 @@ fn what_gives_no_curve_is_refused() {
 
 #[test]
 fn medians_and_steps_count_censored_records() {
-    use Exceedance::{Above, At};
+    use Exceedance::{Above, At, Between};
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2)]), 0.2);
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2), Above(1.0)]), 0.25);
     assert_eq!(median(&[At(0.3), Above(1.0), Above(1.0)]), f64::INFINITY);
     assert_eq!(steps(&[At(0.3), Above(1.0), At(0.1), Above(1.0)]), [(0.1, 0.25), (0.3, 0.5)]);
-    let stripes = ObservationKind::Stripes(vec![0.2, 0.4]).observations(&[At(0.2), At(0.4), Above(0.4)]);
-    let stripe = |intensity, exceeded| Observation::Stripe { intensity, runs: 3, exceeded };
-    assert_eq!(stripes, [stripe(0.2, 1), stripe(0.4, 2)]);
+    // the middle of two levels, by their ratio; the lowest level for an exceedance below it
+    assert_eq!(median(&[At(0.3), Between([0.1, 0.4]), At(0.1)]), 0.2);
+    assert_eq!(median(&[Between([0.0, 0.4])]), 0.4);
 }
 
 /// The interval of a median contains the true value in 95 % of 200 random samples, within four standard
@@ -197,7 +198,10 @@ fn ratios_are_paired() {
     for medians in [
         |b: &Bootstrap, o: &[Exceedance]| b.medians(o),
         |b: &Bootstrap, o: &[Exceedance]| {
-            b.fitted_medians(&[o.to_vec()], &ObservationKind::Records).remove(0).most
+            let [theta, _] = b
+                .fitted(&[Sample::of_records(o.to_vec())], &Estimator::new(Dispersion::Own, &[1.0]))
+                .remove(0);
+            theta.most
         },
     ] {
         let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
@@ -253,18 +257,19 @@ fn medians_rise_with_the_limit_states() {
     let records = prop::collection::vec([0.1..4.0_f64, 0.0..2.0, 0.0..2.0], 2..30);
     mostly(0.95, (records, any::<bool>()), |(records, striped)| {
         let step = 0.25;
-        let state = |number: usize| -> Vec<Exceedance> {
+        let state = |number: usize| -> Vec<Observation> {
             let reach = |increments: &[f64; 3]| increments[..=number].iter().sum::<f64>();
             let exceedance = |intensity: f64| match intensity {
-                intensity if intensity > 5.0 => Exceedance::Above(5.0),
-                intensity if striped => Exceedance::At((intensity / step).ceil() * step),
-                intensity => Exceedance::At(intensity),
+                intensity if intensity > 5.0 => Observation::Above(5.0),
+                intensity if striped => {
+                    let upper = (intensity / step).ceil() * step;
+                    Observation::Between([upper - step, upper])
+                }
+                intensity => Observation::At(intensity),
             };
             records.iter().map(reach).map(exceedance).collect()
         };
-        let levels = (1..=20).map(|k| step * f64::from(k)).collect();
-        let kind = if striped { ObservationKind::Stripes(levels) } else { ObservationKind::Records };
-        let states: Vec<_> = (0..3).map(|number| kind.observations(&state(number))).collect();
+        let states: Vec<_> = (0..3).map(state).collect();
         let medians: Vec<f64> = fit_jointly(&states).into_iter().flatten().map(|fit| fit.median).collect();
         for pair in medians.windows(2) {
             // Newton's last step leaves 1e-14
@@ -282,8 +287,9 @@ fn a_common_dispersion_can_be_contradicted() {
     let state = |power: f64| sample.iter().map(|x| exceed(x, power)).collect::<Vec<_>>();
     let bootstrap = Bootstrap::new(40, 100, 1);
     for (power, contradicted) in [(1.0 / 3.0, true), (1.0, false)] {
-        let models = [vec![state(1.0), state(power)]];
-        for summaries in compare(&models, 0, &ObservationKind::Records, &bootstrap) {
+        let models = [[1.0, power].map(|power| Sample::of_records(state(power))).to_vec()];
+        let estimator = Estimator::new(Dispersion::Common, &[0.4, 1.0]);
+        for summaries in compare(&models, 0, &estimator, &bootstrap) {
             assert_eq!(summaries[0].contradicted, contradicted, "{summaries:?}");
         }
     }
@@ -297,8 +303,12 @@ fn open_numbers_have_their_bounds() {
     let open = vec![At(2.0), Above(5.0), Above(5.0), Above(5.0), Above(5.0)];
     let never = vec![Above(5.0); 5];
     let bootstrap = Bootstrap::new(5, 200, 1);
-    let models = [known, open, never].map(|model| vec![model]);
-    let summaries = compare(&models, 0, &ObservationKind::Records, &bootstrap).remove(0);
+    let compared = |models: &[Vec<Exceedance>], reference: usize| -> Vec<Summary> {
+        let models: Vec<_> = models.iter().map(|model| vec![Sample::of_records(model.clone())]).collect();
+        compare(&models, reference, &Estimator::new(Dispersion::Own, &[1.0]), &bootstrap).remove(0)
+    };
+    let models = [known, open, never];
+    let summaries = compared(&models, 0);
     let texts = |interval: &Interval| interval.texts(1.0, 2);
     assert_eq!(texts(&summaries[0].median)[0], "3.00");
     assert_eq!(texts(&summaries[1].median), ["open >5.00", "2.00", "open >5.00"]);
@@ -307,13 +317,39 @@ fn open_numbers_have_their_bounds() {
     assert_eq!(texts(&summaries[2].theta), ["open >5.00", "open >5.00", "open >5.00"]);
     assert_eq!(summaries[2].fitted, Err(FitError::OneSided));
     // over an open reference, a known median has an upper bound, and an open one none
-    let summaries = compare(&models, 2, &ObservationKind::Records, &bootstrap).remove(0);
+    let summaries = compared(&models, 2);
     assert_eq!(texts(&summaries[0].median_ratio)[0], "open <0.60");
     assert_eq!(texts(&summaries[1].median_ratio)[0], "open");
     assert_eq!(texts(&summaries[2].median_ratio), ["1.00", "1.00", "1.00"]);
-    // at the lowest of the levels that all share, a record exceeds anywhere up to it
-    let lowest = [vec![vec![At(3.0); 5]], vec![vec![At(3.0), At(3.0), At(4.0), At(4.0), At(4.0)]]];
-    let summaries = compare(&lowest, 0, &ObservationKind::Stripes(vec![3.0, 4.0]), &bootstrap).remove(0);
-    assert_eq!(texts(&summaries[0].median), ["open <3.00", "open <3.00", "open <3.00"]);
-    assert_eq!(texts(&summaries[1].median), ["4.00", "open <3.00", "4.00"]);
+    // at the lowest level, a record exceeds anywhere up to it
+    let lowest = Exceedance::Between([0.0, 3.0]);
+    let next = Exceedance::Between([3.0, 4.0]);
+    let summaries = compared(&[vec![lowest; 5], vec![lowest, lowest, next, next, next]], 0);
+    for interval in [summaries[0].median, summaries[0].theta] {
+        assert_eq!(texts(&interval), ["open <3.00", "open <3.00", "open <3.00"]);
+    }
+    assert_eq!(texts(&summaries[1].median), ["3.46", "open <3.00", "3.46"]);
+    assert_eq!(texts(&summaries[1].theta), ["open 3.00 to 4.00", "open <3.00", "open 3.00 to 4.00"]);
+}
+
+/// One stripe does not determine a curve: its fraction says on which side of it θ lies.
+#[test]
+fn one_stripe_gives_a_bound() {
+    let bootstrap = Bootstrap::new(10, 200, 1);
+    for (fallen, text) in
+        [(0, "open >3.00"), (3, "open >3.00"), (5, "3.00"), (7, "open <3.00"), (10, "open <3.00")]
+    {
+        let run = |record: u32| Run {
+            intensity: 3.0,
+            demand: 1.0,
+            overturning: (record < fallen).then_some(1.0),
+            tie: None,
+        };
+        let curves: Vec<_> = (0..10).map(|record| Curve::new(vec![run(record)])).collect();
+        let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&[3.0]));
+        let estimator = Estimator::new(Dispersion::Own, &[1.0]);
+        let summary = compare(&[vec![sample]], 0, &estimator, &bootstrap).remove(0).remove(0);
+        assert!(summary.fitted.is_err() && summary.beta.estimate.is_nan());
+        assert_eq!(summary.theta.texts(1.0, 2)[0], text, "{fallen} of 10");
+    }
 }

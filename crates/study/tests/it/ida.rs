@@ -8,7 +8,7 @@ use rocking_wall::wall::{Parameters, Support};
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::ida::{Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study};
+use study::ida::{Crossing, Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study};
 
 /// Two walls of Table 5 of the paper.
 fn walls() -> Vec<NamedWall> {
@@ -225,11 +225,17 @@ fn a_curve_tells_its_first_collapse_and_its_resurrections() {
         (curve.collapse(), curve.level_below_collapse(), curve.resurrections()),
         (Exceedance::At(3.0), 2.0, 1)
     );
-    assert_eq!(curve.exceedance(0.1, false), Exceedance::At(0.5));
-    assert_eq!(curve.exceedance(0.1, true), Exceedance::At(1.0));
-    assert_eq!(curve.exceedance(0.3, false), Exceedance::At(1.5));
-    assert_eq!(curve.exceedance(0.6, false), Exceedance::At(3.0));
-    assert_eq!(curve.exceedance(1.0, false), Exceedance::At(3.0));
+    let first = |fraction, at_levels| curve.exceedance(fraction, Crossing::First, at_levels);
+    assert_eq!(first(0.1, false), Exceedance::At(0.5));
+    assert_eq!(first(0.1, true), Exceedance::Between([0.0, 1.0]));
+    assert_eq!(first(0.3, false), Exceedance::At(1.5));
+    assert_eq!(first(0.6, false), Exceedance::Between([2.0, 3.0]));
+    assert_eq!(first(1.0, false), Exceedance::Between([2.0, 3.0]));
+    assert_eq!(curve.exceedance(1.0, Crossing::Last, false), Exceedance::Between([4.0, 5.0]));
+    assert_eq!(curve.exceedance(0.3, Crossing::Last, false), Exceedance::At(1.5));
+    // as at the nearest level: 2.4 is below, 2.5 above the geometric mean of 2 and 3
+    let collapsed = [0.5, 1.0, 2.4, 2.5, 3.4, 3.5, 4.4, 4.5, 6.0].map(|x| curve.exceeds(1.0, x).unwrap());
+    assert_eq!(collapsed, [false, false, false, true, true, false, false, true, true]);
     assert_eq!([0.5, 1.5, 2.0].map(|x| curve.demand(x).unwrap()), [0.1, 0.2 + 0.5 * (0.4 - 0.2), 0.4]);
     assert_eq!(curve.demand(4.0), Some(f64::INFINITY));
     let standing = Curve::new(vec![level(1.0, 0.2, false)]);

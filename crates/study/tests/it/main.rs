@@ -8,6 +8,7 @@ mod broken;
 mod calibration;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
+mod estimators;
 mod fragility;
 mod ida;
 mod messages;

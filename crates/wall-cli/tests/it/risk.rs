@@ -100,10 +100,12 @@ fn assert_close(found: f64, expected: f64) {
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
 }
 
-/// The file gives back the θ and β of the table to 1e-12. Limit states are in order and never cross.
+/// The file gives back the θ and β of the table to 1e-12. Limit states are in order; with one β they never
+/// cross.
 #[test]
 fn risk_engines_read_the_fragilities() {
-    let [xml, table, _] = run("risk", STUDY);
+    let [xml, table, _] =
+        run("risk", &STUDY.replace("resamples = 100", "resamples = 100, beta = \"common\""));
     let functions = read(&xml, "PGA");
     let names: Vec<_> = functions.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["low", "high", "alone", "both"]);
@@ -111,8 +113,8 @@ fn risk_engines_read_the_fragilities() {
     let curves: Vec<_> = curves.collect();
     assert_eq!(table.lines().count(), 1 + curves.len(), "{table}");
     for (line, (name, (state, [theta, beta]))) in table.lines().skip(1).zip(curves) {
-        // from the end: the geometry may hold commas
-        let fields: Vec<_> = line.rsplit(',').collect();
+        // from β of modelling on, after which six columns follow; the geometry may hold commas
+        let fields: Vec<_> = line.rsplit(',').skip(6).collect();
         assert!(line.starts_with(name.as_str()) && fields[8] == state && fields[9] == "g", "{line}");
         assert_close(*theta, number(fields[6]));
         assert_close(*beta, number(fields[3]));
@@ -124,8 +126,9 @@ fn risk_engines_read_the_fragilities() {
         assert_eq!(states, ["u_ins_0_1", "u_ins_0_4", "u_ins_1"]);
         for pair in curves.windows(2) {
             let [[theta, beta], [next_theta, next_beta]] = [pair[0].1, pair[1].1];
-            // one β but for the rounding of means and deviations
-            assert!(theta < next_theta && (beta / next_beta - 1.0).abs() < 1e-12, "{name}: {pair:?}");
+            // one β but for the rounding of means and deviations; between walls each limit state has its own
+            let is_common = name == "both" || (beta / next_beta - 1.0).abs() < 1e-12;
+            assert!(theta < next_theta && is_common, "{name}: {pair:?}");
         }
     }
 }
@@ -135,21 +138,34 @@ fn risk_engines_read_the_fragilities() {
 fn classes_join_walls() {
     let [xml, table, told] = run("risk_classes", STUDY);
     assert_has(&told, &["class \"both\" with CDC: theta 0.", "modelling 0)"]);
-    assert_has(&told, &[" g to exceed 0.4 u_ins, ", " g to exceed 1 u_ins; beta"]);
+    assert_has(&told, &[" g to exceed 0.4 u_ins, beta ", " g to exceed 1 u_ins, beta 0."]);
     let of =
         |name: &str| xml.split(&format!("id=\"{name}\"")).nth(1).unwrap().split("</frag").next().unwrap();
     assert_eq!(of("alone"), of("high"));
     let functions = read(&xml, "PGA");
     let [low, high, both] = [0, 1, 3].map(|k| &functions[k].1);
-    let mut between = 0.0;
     for state in 0..3 {
         let [a, b] = [low, high].map(|curves| curves[state].1[0].ln());
         let mean = 0.75 * a + 0.25 * b;
         assert_close(both[state].1[0], mean.exp());
-        between += (0.75 * (a - mean).powi(2) + 0.25 * (b - mean).powi(2)) / 3.0;
+        let between = 0.75 * (a - mean).powi(2) + 0.25 * (b - mean).powi(2);
+        let within = 0.75 * low[state].1[1].powi(2) + 0.25 * high[state].1[1].powi(2);
+        assert_close(both[state].1[1], (within + between).sqrt());
     }
-    let within = 0.75 * low[0].1[1].powi(2) + 0.25 * high[0].1[1].powi(2);
-    assert_close(both[0].1[1], (within + between).sqrt());
+    // θ and β of walls and classes lie in their intervals, with a covariance that is one
+    let column = |name: &str| table.lines().next().unwrap().rsplit(',').position(|c| c == name).unwrap();
+    for line in table.lines().skip(1) {
+        let fields: Vec<_> = line.rsplit(',').collect();
+        let of = |name: &str| number(fields[column(name)]);
+        for name in ["theta", "beta"] {
+            let [low, high] = ["low", "high"].map(|end| of(&format!("{name}_{end}")));
+            assert!(low <= of(name) && of(name) <= high && low < high, "{name} in {line}");
+        }
+        let [theta, both, beta] = ["var_ln_theta", "cov_ln_theta_beta", "var_beta"].map(of);
+        assert!(theta > 0.0 && beta > 0.0 && both * both < theta * beta, "{line}");
+        let is_wall = line.starts_with("low") || line.starts_with("high");
+        assert_eq!(!fields[column("misfit")].is_empty(), is_wall, "{line}");
+    }
     assert_has(&table, &["both,0.75 low; 0.25 high,CDC,PGA,g,"]);
     assert_has(&table, &["low,mechanism=parapet; height=3.0; thickness=0.3; "]);
 }
@@ -185,6 +201,9 @@ fn functions_of_several_models() {
     let [xml, table, told] = run("risk_open", &STUDY.replace("top = 8", "top = 0.15"));
     assert_eq!((xml.matches("<fragilityFunction").count(), table.lines().count()), (0, 13), "{table}");
     assert_has(&told, &["fragilities.xml lacks 4 functions, ", "add levels below or above"]);
+    // what is known of them is a bound, in the table and in a comment of the file
+    assert_has(&xml, &["<!-- no function of high: theta in g of ", ", u_ins_1 open &gt;0.150 -->"]);
+    assert_has(&table, &[",u_ins_1,1.0,open >0.15,open >0.15,open >0.15,,,,,"]);
 }
 
 #[test]

@@ -204,26 +204,33 @@ fn warned_of_study(name: &str, study: &str) -> String {
 }
 
 /// The PGA at which a rigid wall starts to rock hardly depends on the record; that of its collapse does.
+/// Their own curves cross below all levels, with a common β they are rough.
 #[test]
-fn contradictions_of_a_common_beta_are_warned_of() {
-    let study = |fractions: &str| {
+fn contradictions_of_a_common_beta_and_crossings_are_warned_of() {
+    let study = |fractions: &str, beta: &str| {
         format!(
             "models = [\"CR rigid\"]\nintensity = {{ measure = \"PGA\" }}\n\
-             report = {{ fractions = {fractions} }}\n\
+             report = {{ fractions = {fractions}, beta = \"{beta}\" }}\n\
              records = {{ synthetic = {{ count = 8, duration = 10 }} }}\n\
              levels = {{ method = \"hunt\", first = 0.02, increase = 0.1, top = 4, gap = 0.1 }}\n\
              [[walls]]\nname = \"parapet\"\ngeometry = {{ height = 3, thickness = 0.3 }}\n"
         )
     };
-    let message = warned_of_study("contradicted", &study("[0.001, 1]"));
+    let message = warned_of_study("contradicted", &study("[0.001, 1]", "common"));
     let words = [
         "warning: limit states contradict a common beta in 1 of 1 fits",
         ": wall \"parapet\" with CR rigid (0.08, 0.30); their fitted curves are rough",
         "see the steps on the page and beta_alone in fragilities.csv",
     ];
     assert_has(&message, &words);
-    let alike = warned_of_study("not_contradicted", &study("[0.9, 1]"));
+    let alike = warned_of_study("not_contradicted", &study("[0.9, 1]", "common"));
     assert!(!alike.contains("beta"), "{alike}");
+    let crossing = warned_of_study("crossing", &study("[0.001, 0.01, 0.1, 1]", "own"));
+    let words = ["warning: curves of limit states cross in 1 of 1 fits: wall \"parapet\" with CR rigid ("];
+    assert_has(&crossing, &words);
+    assert_has(&crossing, &[" at 0.", " g)", "beta = \"ordered\" fits curves that do not cross"]);
+    let ordered = warned_of_study("ordered", &study("[0.001, 0.01, 0.1, 1]", "ordered"));
+    assert!(!ordered.contains("cross"), "{ordered}");
 }
 
 /// Steps of Newmark and elastic frequencies that make a study slow are named before its runs.

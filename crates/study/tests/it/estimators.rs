@@ -1,0 +1,274 @@
+//! Fits of fragilities against maxima that are searched for without derivatives.
+
+use study::document::StudyFile;
+use study::fragility::{
+    Bootstrap, Dispersion, Estimator, Lognormal, Observation, Sample, Summary, TAIL, compare, cumulative, fit,
+};
+use study::ida::{Crossing, Curve, Run};
+use study::results::Fitting;
+
+/// ln L of a curve, term by term, from Φ and φ alone.
+fn log_likelihood(observations: &[Observation], median: f64, dispersion: f64) -> f64 {
+    let z = |x: f64| (x / median).ln() / dispersion;
+    let term = |observation: &Observation| match *observation {
+        Observation::At(x) => -0.5 * z(x).powi(2) - dispersion.ln(),
+        Observation::Between([from, to]) => (cumulative(z(to)) - cumulative(z(from))).ln(),
+        Observation::Above(x) => cumulative(-z(x)).ln(),
+        Observation::Stripe { intensity, runs, exceeded } => {
+            let [p, q] = [cumulative(z(intensity)), cumulative(-z(intensity))];
+            // 0 ln 0 is 0
+            let part = |count: u32, p: f64| if count == 0 { 0.0 } else { f64::from(count) * p.ln() };
+            part(exceeded, p) + part(runs - exceeded, q)
+        }
+    };
+    observations.iter().map(term).sum()
+}
+
+/// Place and value of the maximum of a function with one, by golden sections.
+///
+/// A search by values finds the place to about the root of a rounding, 1e-8 of the range.
+fn golden([mut low, mut high]: [f64; 2], value: &dyn Fn(f64) -> f64) -> [f64; 2] {
+    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let inner = |low: f64, high: f64| [high - ratio * (high - low), low + ratio * (high - low)];
+    // 0.618⁶⁰ is 3e-13
+    for _ in 0..60 {
+        let [a, b] = inner(low, high);
+        if value(a) > value(b) { high = b } else { low = a }
+    }
+    let place = 0.5 * (low + high);
+    [place, value(place)]
+}
+
+/// The likeliest curve, with θ from 0.05 to 20 and β from 0.02 to 5.
+fn likeliest(observations: &[Observation]) -> Lognormal {
+    let of_median = |logarithm: f64| {
+        golden([0.02_f64.ln(), 5.0_f64.ln()], &|beta| {
+            log_likelihood(observations, logarithm.exp(), beta.exp())
+        })
+    };
+    let [median, _] = golden([0.05_f64.ln(), 20.0_f64.ln()], &|logarithm| of_median(logarithm)[1]);
+    Lognormal { median: median.exp(), dispersion: of_median(median)[0].exp() }
+}
+
+fn assert_near(found: &Lognormal, wanted: &Lognormal) {
+    for (found, wanted) in [(found.median, wanted.median), (found.dispersion, wanted.dispersion)] {
+        assert!((found / wanted - 1.0).abs() < 1e-6, "{found} is not {wanted}");
+    }
+}
+
+/// Curves of 30 records that stand, fall, and some stand again; no two alike.
+fn curves(levels: &[f64]) -> Vec<Curve> {
+    let of_record = |record: u32| {
+        let phase = 0.754_877_666 * f64::from(record + 1) % 1.0;
+        let (falls, again) = (0.6 + 1.8 * phase, 0.569_840_291 * f64::from(record + 1) % 1.0);
+        let run = |&intensity: &f64| {
+            let stands_again = again < 0.4 && (1.1 * falls..1.3 * falls).contains(&intensity);
+            let falls_here = intensity > falls && !stands_again;
+            let demand = if falls_here { 1.0 } else { (0.8 * intensity / falls).min(0.99) };
+            Run { intensity, demand, overturning: falls_here.then_some(2.0), tie: None }
+        };
+        Curve::new(levels.iter().map(run).collect())
+    };
+    (0..30).map(of_record).collect()
+}
+
+fn levels() -> Vec<f64> {
+    (1..=16).map(|k| 0.2 * f64::from(k)).collect()
+}
+
+/// Multiple stripes count, level by level, how many fall there; the first or last collapse of a record lies
+/// between two levels.
+#[test]
+fn each_choice_of_the_collapse_has_the_likeliest_curve() {
+    let (curves, levels) = (curves(&levels()), levels());
+    let count =
+        |holds: &dyn Fn(&Curve) -> bool| u32::try_from(curves.iter().filter(|c| holds(c)).count()).unwrap();
+    let stripe = |(k, &intensity): (usize, &f64)| Observation::Stripe {
+        intensity,
+        runs: 30,
+        exceeded: count(&|curve| curve.runs()[k].overturning.is_some()),
+    };
+    let stripes: Vec<_> = levels.iter().enumerate().map(stripe).collect();
+    let bracket = |last: bool| -> Vec<Observation> {
+        let of_curve = |curve: &Curve| {
+            let falls: Vec<bool> = curve.runs().iter().map(|run| run.overturning.is_some()).collect();
+            let upper = if last {
+                falls.iter().rposition(|f| !f).unwrap() + 1
+            } else {
+                falls.iter().position(|f| *f).unwrap()
+            };
+            Observation::Between([levels[upper - 1], levels[upper]])
+        };
+        curves.iter().map(of_curve).collect()
+    };
+    let found = [Crossing::First, Crossing::Last, Crossing::Fraction].map(|crossing| {
+        fit(&Sample::of_curves(&curves, 1.0, crossing, Some(&levels)).observations()).unwrap()
+    });
+    for (found, observations) in found.iter().zip([bracket(false), bracket(true), stripes]) {
+        assert_near(found, &likeliest(&observations));
+    }
+    // standing again raises θ
+    let [first, last, fraction] = found.map(|curve| curve.median);
+    assert!(1.03 * first < fraction && 1.03 * fraction < last, "{first} {fraction} {last}");
+}
+
+/// Narrow, wide and one-sided intervals, and brackets of all widths down to a rounding.
+#[test]
+fn intervals_have_the_likeliest_curve() {
+    let lows = [0.4, 0.5, 0.62, 0.8, 0.85, 1.1, 1.4, 1.9];
+    for width in [1e-9, 1e-4, 0.01, 0.05, 0.3, 1.0] {
+        let mut all: Vec<_> =
+            lows.iter().map(|low| Observation::Between([*low, low * (1.0 + width)])).collect();
+        all.extend([Observation::Between([0.0, 0.3]), Observation::Above(1.5), Observation::At(0.9)]);
+        let found = fit(&all).unwrap();
+        if width > 1e-3 {
+            assert_near(&found, &likeliest(&all));
+        } else {
+            // a difference of Φ would lose its digits; their middle is exact to the square of their width
+            let middle = |observation: &Observation| match *observation {
+                Observation::Between([from, to]) if from > 0.0 => Observation::At((from * to).sqrt()),
+                other => other,
+            };
+            assert_near(&found, &likeliest(&all.iter().map(middle).collect::<Vec<_>>()));
+        }
+    }
+}
+
+/// Two limit states whose own curves cross: with the ordered fit they touch at one end of the range, and the
+/// common z there is the likeliest.
+#[test]
+fn ordered_curves_are_the_likeliest_that_do_not_cross() {
+    let stripe = |(intensity, exceeded)| Observation::Stripe { intensity, runs: 20, exceeded };
+    let states = [[0, 6, 15, 19, 20], [1, 5, 8, 12, 16]]
+        .map(|counts| [0.4, 0.6, 0.9, 1.3, 2.0].into_iter().zip(counts).map(stripe).collect::<Vec<_>>());
+    // records whose runs have these counts at the levels
+    let sample = |counts: &[Observation]| {
+        let curve = |record: u32| {
+            let run = |observation: &Observation| {
+                let Observation::Stripe { intensity, exceeded, .. } = *observation else { unreachable!() };
+                Run { intensity, demand: 1.0, overturning: (record < exceeded).then_some(1.0), tie: None }
+            };
+            Curve::new(counts.iter().map(run).collect())
+        };
+        let curves: Vec<_> = (0..20).map(curve).collect();
+        Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&[0.4, 0.6, 0.9, 1.3, 2.0]))
+    };
+    let samples: Vec<_> = states.iter().map(|state| sample(state)).collect();
+    assert_eq!(samples[0].observations(), states[0]);
+    let summaries = |dispersion| -> [Summary; 2] {
+        let estimator = Estimator::new(dispersion, &[0.4, 1.0]);
+        let all = compare(std::slice::from_ref(&samples), 0, &estimator, &Bootstrap::new(20, 100, 1));
+        [0, 1].map(|state| all[state][0].clone())
+    };
+    let own = summaries(Dispersion::Own);
+    let curves = [0, 1].map(|state| own[state].fitted.unwrap());
+    for (curve, state) in curves.iter().zip(&states) {
+        assert_near(curve, &likeliest(state));
+    }
+    let crossing = own[0].crossing.unwrap();
+    let [p, q] = curves.map(|curve| curve.probability(crossing));
+    assert!((p - q).abs() < 1e-12 && p > 1e-4 && p < 1.0 - 1e-4, "{p} {q}");
+
+    let ordered = summaries(Dispersion::Ordered).map(|summary| {
+        assert_eq!(summary.crossing, None);
+        summary.fitted.unwrap()
+    });
+    // the later curve is flatter, so that the bound at the lower end holds it
+    let end = curves.map(|curve| curve.median.ln() - TAIL * curve.dispersion);
+    let end = end[0].min(end[1]).exp();
+    // with z there, β follows from θ: ln θ = ln end − β z
+    let given = |state: usize, z: f64| {
+        golden([0.02_f64.ln(), 5.0_f64.ln()], &|beta| {
+            log_likelihood(&states[state], end * (-beta.exp() * z).exp(), beta.exp())
+        })
+    };
+    let [z, _] = golden([-8.0, -0.5], &|z| given(0, z)[1] + given(1, z)[1]);
+    for (state, found) in ordered.iter().enumerate() {
+        let beta = given(state, z)[0].exp();
+        assert_near(found, &Lognormal { median: end * (-beta * z).exp(), dispersion: beta });
+    }
+    // it costs less likelihood than one β for both
+    let common = summaries(Dispersion::Common).map(|summary| summary.fitted.unwrap());
+    let value = |curves: &[Lognormal; 2]| -> f64 {
+        curves.iter().zip(&states).map(|(c, state)| log_likelihood(state, c.median, c.dispersion)).sum()
+    };
+    assert!(value(&common) < value(&ordered) && value(&ordered) < value(&curves));
+}
+
+/// The distance of Kolmogorov and Smirnov, and of stripes that at their levels.
+#[test]
+fn the_misfit_is_the_largest_distance() {
+    use study::ida::Exceedance::{Above, At, Between};
+    let curve = |x: f64| (x / 4.0).min(1.0);
+    let records = |all: Vec<study::ida::Exceedance>| Sample::of_records(all).misfit(curve);
+    // fractions 1/3 from 1, 2/3 from 1.5, 1 from 2: the last one is 1/2 above the curve
+    assert_eq!(records(vec![At(1.0), At(1.5), At(2.0)]), 0.5);
+    // before 3.6 only one half exceeds, where the curve has 0.9
+    assert!(
+        (records(vec![At(2.0), At(3.6)]) - 0.5).abs() < 1e-15 && records(vec![At(2.0), Above(3.6)]) > 0.399
+    );
+    // any place within a bracket is possible
+    assert_eq!(records(vec![Between([0.0, 2.0]), Between([2.0, 4.0])]), 0.0);
+    let curves: Vec<_> = curves(&levels());
+    let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels()));
+    let distance = |(level, [runs, exceeded]): (f64, [u32; 2])| {
+        (curve(level) - f64::from(exceeded) / f64::from(runs)).abs()
+    };
+    let expected = sample.counts().into_iter().map(distance).fold(0.0, f64::max);
+    assert_eq!(sample.misfit(curve), expected);
+}
+
+/// The covariance of (ln θ, β), and the interval of β, are those of the resamples; of exact intensities they
+/// are near the closed forms β²/n and β²/2n.
+#[test]
+fn resamples_have_the_covariance_of_the_fit() {
+    let count = 200;
+    let x = |k: u32| ((f64::from(k) + 0.5) / f64::from(count) * 1.4).exp();
+    let exceedances = (0..count).map(|k| study::ida::Exceedance::At(x(k))).collect();
+    let estimator = Estimator::new(Dispersion::Own, &[1.0]);
+    let samples = [vec![Sample::of_records(exceedances)]];
+    let summary = compare(&samples, 0, &estimator, &Bootstrap::new(200, 4000, 3)).remove(0).remove(0);
+    let beta = summary.fitted.unwrap().dispersion;
+    let [theta, both, dispersion] = summary.covariance().unwrap();
+    // uniform logarithms have β²/n and (9/5 − 1) β²/4n; 4000 resamples have them to √(2/4000) = 2.2 %
+    let one = beta * beta / f64::from(count);
+    assert!(
+        (theta / one - 1.0).abs() < 0.1 && (dispersion / (0.2 * one) - 1.0).abs() < 0.1,
+        "{theta} {dispersion}"
+    );
+    assert!(both.abs() < 0.1 * (theta * dispersion).sqrt(), "{both}");
+    let [low, high] = summary.beta.range;
+    assert!(low < beta && beta < high && ((high - low) / (2.0 * 1.96 * dispersion.sqrt()) - 1.0).abs() < 0.1);
+}
+
+/// A study's report states what is counted; on a grid, by default, the fractions at its levels.
+#[test]
+fn a_study_file_states_the_estimator() {
+    let file = |levels: &str, report: &str| {
+        let text = format!(
+            "models = [\"CR\"]\nlevels = {{ {levels} }}\nrecords = {{ synthetic = {{ count = 2 }} }}\n\
+             report = {{ fractions = [1]{report} }}\n\
+             walls = [{{ name = \"a\", geometry = {{ height = 2 }} }}]\n"
+        );
+        StudyFile::parse("study.toml", &text)
+    };
+    let (grid, step) = ("method = \"grid\", values = [0.1]", "method = \"step\", step = 0.1, top = 1");
+    let report = |levels, report| file(levels, report).unwrap().report;
+    assert_eq!((report(grid, "").collapse, report(step, "").collapse), (Crossing::Fraction, Crossing::First));
+    assert_eq!(report(grid, ", collapse = \"last\"").collapse, Crossing::Last);
+    assert_eq!(
+        [report(grid, "").beta, report(grid, ", beta = \"common\"").beta],
+        [Dispersion::Own, Dispersion::Common]
+    );
+    let error = file(grid, ", beta = \"none\"").unwrap_err().to_string();
+    assert!(
+        error.contains("line 4") && error.contains("beta = \"none\" is not one of own, common, ordered"),
+        "{error}"
+    );
+    // what is chosen is fitted
+    let (levels, report) = (levels(), report(grid, ", collapse = \"last\""));
+    let results = Fitting::new(30, &["CR"], Some(levels.clone()), &report).results(curves(&levels));
+    let state = &results.states(0)[0];
+    assert_eq!(state.summary.fitted, state.by_crossing[1]);
+    assert_ne!(state.summary.fitted, state.by_crossing[0]);
+}
