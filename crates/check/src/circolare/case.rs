@@ -174,7 +174,7 @@ impl<'a> Case<'a> {
             alpha0(to)?;
             return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
         }
-        Ok(hinge::least(range, |x| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
+        Ok(hinge::least(hinge::FINE, range, |x| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
     }
 }
 

@@ -3,12 +3,28 @@
 //! ζ(x) of a check, its `ζ_E` with the hinge at x h, has several minima, and corners where periods meet those
 //! of the spectrum. Equal points find the valleys; a golden section goes down each.
 
-/// Equal points of the range.
-const POINTS: u32 = 401;
+/// How finely a range is searched.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search {
+    /// Equal points of the range.
+    points: u32,
+    /// Where a golden section ends \[-\].
+    width: f64,
+}
+
+impl Search {
+    /// Whether it is that of a check.
+    pub(super) fn is_fine(self) -> bool {
+        self.points == FINE.points
+    }
+}
+
+/// The search of a check.
+pub(super) const FINE: Search = Search { points: 401, width: 1e-10 };
+/// The search of what only informs: ζ to some 1e-6.
+pub(super) const COARSE: Search = Search { points: 101, width: 1e-7 };
 /// Valleys are followed whose lowest point is within this share of the lowest of all \[-\].
 const NEAR: f64 = 0.05;
-/// Where a golden section ends \[-\].
-const WIDTH: f64 = 1e-10;
 /// Values that are equal \[-\]: of these the smallest x is taken.
 const EQUAL: f64 = 1e-9;
 /// (√5 − 1)/2.
@@ -20,11 +36,12 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// # Errors
 /// That of the functions.
 pub(super) fn least<const N: usize, E>(
+    Search { points: count, width }: Search,
     [from, to]: [f64; 2],
     mut values: impl FnMut(f64) -> Result<[f64; N], E>,
 ) -> Result<[Option<f64>; N], E> {
-    let x = |index: u32| from + (to - from) * (f64::from(index) / f64::from(POINTS - 1));
-    let points = (0..POINTS).map(|index| Ok((x(index), values(x(index))?)));
+    let x = |index: u32| from + (to - from) * (f64::from(index) / f64::from(count - 1));
+    let points = (0..count).map(|index| Ok((x(index), values(x(index))?)));
     let points = points.collect::<Result<Vec<_>, E>>()?;
     let mut found = [None; N];
     for (which, found) in found.iter_mut().enumerate() {
@@ -44,7 +61,7 @@ pub(super) fn least<const N: usize, E>(
             }
             let ends = [points[index.saturating_sub(1)].0, points[last.min(index + 1)].0];
             let start = (points[index].0, at(index));
-            let (x, value) = valley(ends, start, |x| Ok(values(x)?[which]))?;
+            let (x, value) = valley(width, ends, start, |x| Ok(values(x)?[which]))?;
             if best.is_none_or(|(_, least)| value < least * (1.0 - EQUAL)) {
                 best = Some((x, value));
             }
@@ -56,6 +73,7 @@ pub(super) fn least<const N: usize, E>(
 
 /// Goes down a valley: returns the lowest point that was looked at.
 fn valley<E>(
+    width: f64,
     [mut left, mut right]: [f64; 2],
     mut best: (f64, f64),
     mut value: impl FnMut(f64) -> Result<f64, E>,
@@ -70,7 +88,7 @@ fn valley<E>(
     let place = |left: f64, right: f64, share: f64| left + share * (right - left);
     let mut inner = [1.0 - GOLDEN, GOLDEN].map(|share| place(left, right, share));
     let mut values = [look(inner[0])?, look(inner[1])?];
-    while right - left > WIDTH {
+    while right - left > width {
         if values[0] <= values[1] {
             (right, inner[1], values[1]) = (inner[1], inner[0], values[0]);
             inner[0] = place(left, right, 1.0 - GOLDEN);
@@ -100,7 +118,7 @@ mod tests {
                 f64::INFINITY,
             ])
         };
-        let found = least([0.1, 0.9], functions).unwrap();
+        let found = least(FINE, [0.1, 0.9], functions).unwrap();
         // a smooth valley is flat within √(2 ε) of its bottom
         for (found, expected, tolerance) in [
             (found[0], 0.3456, 1e-7),
@@ -113,7 +131,8 @@ mod tests {
         }
         assert!(found[4].is_none() && found[2].unwrap() < 0.6172);
         // of equal valleys the first
-        let twice = least([0.1, 0.9], |x: f64| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap()[0].unwrap();
+        let twice =
+            least(FINE, [0.1, 0.9], |x: f64| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap()[0].unwrap();
         assert!((twice - std::f64::consts::PI / 25.0).abs() < 1e-7, "{twice}");
     }
 }

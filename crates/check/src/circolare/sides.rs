@@ -6,11 +6,11 @@ use rocking_wall::wall::{Parameters, Wall};
 use super::case::Case;
 use super::checks::{Checks, tie_at_activation};
 use super::curve::Curve;
-use super::hinge;
+use super::hinge::{self, Search};
 use super::side_verdict::{AtActivationNumbers, LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
 use super::states::Source;
 use super::table::{Activation, Hinge};
-use super::verdict::Side;
+use super::verdict::{Deciding, Side};
 use crate::error::CheckError;
 
 /// Share by which a searched hinge is said to be less favourable than the one given \[-\].
@@ -30,14 +30,30 @@ pub(super) fn drawn(parameters: &Parameters) -> Result<Wall, CheckError> {
 
 /// The checks of a side by a rule on the hinge, and the curve with the hinge of the check that governs.
 fn by_rule(case: &Case<'_>, sign: f64, rule: Option<Hinge>) -> Result<(Curve, Checks), CheckError> {
+    searched(case, sign, rule, hinge::FINE)
+}
+
+/// The same with a search of this fineness; a coarse one is for the checks that decide.
+fn searched(
+    case: &Case<'_>,
+    sign: f64,
+    rule: Option<Hinge>,
+    search: Search,
+) -> Result<(Curve, Checks), CheckError> {
     match rule {
         None => case.at(sign, None, true),
         Some(Hinge::Given) => case.at(sign, Some(case.parameters.hinge_ratio), true),
         Some(Hinge::LeastAlpha0) => case.at(sign, Some(case.least_alpha0(sign)?), true),
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
-            let places =
-                hinge::least(range, |x| Ok::<_, CheckError>(case.at(sign, Some(x), true)?.1.zetas()))?;
+            let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
+            let places = hinge::least(search, range, |x| {
+                let mut zetas = case.at(sign, Some(x), true)?.1.zetas();
+                for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
+                    *zeta = f64::INFINITY;
+                }
+                Ok::<_, CheckError>(zetas)
+            })?;
             let at = |which: usize| places[which].map(|x| case.at(sign, Some(x), true)).transpose();
             let found = [at(0)?, at(1)?, at(2)?, at(3)?];
             let [sld, slv_q, slv, slc] = found.each_ref().map(|found| found.as_ref().map(|found| found.1));
@@ -209,7 +225,7 @@ fn sensitivity(case: &Case<'_>, sign: f64, checks: &Checks, warnings: &mut Vec<S
     let own = checks.governing(statement).1;
     let one = |factor: f64| {
         let value = factor * value;
-        let found = by_rule(&case.with(factor), sign, case.rule);
+        let found = searched(&case.with(factor), sign, case.rule, hinge::COARSE);
         let (governs, zeta) = match &found {
             Ok((_, checks)) => checks.governing(statement),
             Err(_) => {
