@@ -74,7 +74,8 @@ impl Motion {
     }
 
     /// Moves `state` through a segment without events, with the ties as they are; `None` for another segment.
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "a call would take a tenth of a step")]
     fn pass_quietly(
         &self,
         state: &mut State,
@@ -132,7 +133,8 @@ impl Motion {
 
     /// Returns the end of a segment without events: one piece in closed form that reaches no corner and no
     /// new peak. `None` for every other segment. The result is bit for bit that of a [`Run`].
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "a call would take a tenth of a step")]
     fn quiet_end(
         &self,
         state: &State,

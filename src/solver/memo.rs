@@ -21,6 +21,12 @@ impl Memo {
     /// Prepares the motion for what the ties remember now, and returns it; `None` where it is `first`.
     #[inline]
     pub(crate) fn prepare(&mut self, first: &Motion, memory: &TieMemory) -> Option<Arc<Motion>> {
+        let is_as_at_first = self.stretched.is_none() && first.wall().tie_memory() == memory;
+        if is_as_at_first { None } else { self.stretch(first, memory) }
+    }
+
+    #[inline(never)]
+    fn stretch(&mut self, first: &Motion, memory: &TieMemory) -> Option<Arc<Motion>> {
         if self.motion(first).wall().tie_memory() != memory {
             let is_first = first.wall().tie_memory() == memory;
             self.stretched = (!is_first).then(|| Arc::new(first.with_tie_memory(*memory)));

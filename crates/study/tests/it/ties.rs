@@ -126,7 +126,9 @@ fn ties_of_several_ultimate_elongations() {
 fn every_parameter_of_a_tie_can_be_varied() {
     let mut barred = scene();
     let bar = [("diameter", 0.006), ("length", 6.0), ("yield_stress", 2e8), ("ultimate_strain", 0.02)];
-    bar.iter().for_each(|(name, value)| barred.set(&format!("bar_{name}"), &value.to_string()).unwrap());
+    for (name, value) in bar {
+        barred.set(&format!("bar_{name}"), &value.to_string()).unwrap();
+    }
     let values = |varied: &Varied| match *varied {
         STIFFNESS => [1e4, 1e5],
         STRENGTH => [2e2, 1e3],
