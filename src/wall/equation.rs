@@ -156,7 +156,7 @@ impl Wall {
     /// Returns the warning of a start that has stretched or broken a tie: whoever pulls the wall to `u_start`
     /// \[m\] pulls the tie with it.
     pub fn start_warning(&self, u_start: f64) -> Option<Warning> {
-        let tie = self.tie.as_ref()?;
+        let tie = self.tie()?;
         let memory = tie.memory_at(u_start);
         let (broken, elongation) =
             (tie.is_broken(u_start, &memory), tie.elongation(memory.yielded.of(u_start)));

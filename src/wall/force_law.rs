@@ -226,7 +226,7 @@ mod tests {
                 let force_law = ForceLaw::Trilinear;
                 let wall =
                     Wall::new(&Parameters { force_law, a1, a3, d1, softening, ..Parameters::default() })?;
-                let [from, to] = wall.force.positive.corners[..] else { panic!("not two corners") };
+                let [from, to] = wall.statics().force.positive.corners[..] else { panic!("not two corners") };
                 Ok((to - from) / wall.body().instability.positive)
             };
             let Err(ParameterError::PlateauTooHigh { limit, .. }) = width(0.99) else {
