@@ -161,7 +161,7 @@ fn a_tie_that_yields_reacts_on_its_floor() {
         }
         peaks.push(wall.largest);
     }
-    assert!(peaks.windows(2).all(|pair| pair[0] < pair[1]), "yielding and fracture free the wall: {peaks:?}");
+    assert!(peaks[0] < peaks[1].min(peaks[2]), "an elastic tie holds the wall best: {peaks:?}");
 }
 
 /// Every line of a building, broken in every way: no message speaks in words of the reader.
