@@ -5,6 +5,8 @@
 //! cargo run --release -p rocking-study --example record_noise studies/table_5.toml
 //! ```
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use std::error::Error;
 use std::path::Path;
 

@@ -51,7 +51,30 @@ impl<'a> Shaking<'a> {
     ///
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
-    pub fn runs(&self, [u, v]: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
+    pub fn runs(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
+        self.shaken(start, factors, true)
+    }
+
+    /// Runs as [`runs`](Self::runs) does, but to the end of the tail: a wall that is back within `u_ins`
+    /// there has no time of overturning. That of one that falls is when it first exceeded `u_ins`.
+    ///
+    /// # Errors
+    /// As [`runs`](Self::runs).
+    pub fn runs_to_the_end(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
+        let u_ins = self.motion.wall().body().instability;
+        let fate = |outcome: Outcome| {
+            let u = outcome.state.displacement;
+            Outcome { overturning: outcome.overturning.filter(|_| u.abs() >= u_ins.of(u)), ..outcome }
+        };
+        Ok(self.shaken(start, factors, false)?.into_iter().map(fate).collect())
+    }
+
+    fn shaken(
+        &self,
+        [u, v]: [f64; 2],
+        factors: &[f64],
+        until_overturning: bool,
+    ) -> Result<Vec<Outcome>, SolverError> {
         // p = −λ a_g
         let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
         let start = |factor: &f64| {
@@ -59,20 +82,26 @@ impl<'a> Shaking<'a> {
             RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
         };
         let starts: Vec<_> = factors.iter().map(start).collect();
-        self.batch.run(&starts, true)?.into_iter().map(|outcome| self.free_vibration(outcome)).collect()
+        let outcomes = self.batch.run(&starts, until_overturning)?.into_iter();
+        outcomes.map(|outcome| self.free_vibration(outcome, until_overturning)).collect()
     }
 
     /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
-    /// followed.
-    fn free_vibration(&self, outcome: Outcome) -> Result<Outcome, SolverError> {
-        if outcome.overturning.is_some() || peak_is_final(self.motion.wall(), &outcome.state) {
+    /// followed, unless it has overturned and may come back.
+    fn free_vibration(&self, outcome: Outcome, until_overturning: bool) -> Result<Outcome, SolverError> {
+        let is_final = match outcome.overturning {
+            Some(_) => until_overturning,
+            None => peak_is_final(self.motion.wall(), &outcome.state),
+        };
+        if is_final {
             return Ok(outcome);
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
         let start = RunStart { state: outcome.state, factor: 1.0 };
-        let after = self.solver.run(start, Forcing::Still(count), true)?;
-        let overturning = after.overturning.map(|time| self.record.duration() + time);
+        let after = self.solver.run(start, Forcing::Still(count), until_overturning)?;
+        let later = after.overturning.map(|time| self.record.duration() + time);
+        let overturning = outcome.overturning.or(later);
         Ok(Outcome { state: after.state, overturning, ..outcome })
     }
 }

@@ -121,7 +121,7 @@ impl LoadedStudy {
         walls: Vec<NamedWall>,
         records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
-        let StudyFile { title, models, measure, levels, tail, report, .. } = file;
+        let StudyFile { title, models, measure, levels, tail, collapse, report, .. } = file;
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
         check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
@@ -130,7 +130,8 @@ impl LoadedStudy {
         }
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(tail))
-            .map_err(|error| in_file(error.to_string()))?;
+            .map_err(|error| in_file(error.to_string()))?
+            .with_collapse(collapse);
         Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text })
     }
 }

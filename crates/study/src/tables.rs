@@ -132,6 +132,7 @@ fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         .value("runs", |(_, curve)| curve.runs().len())
         .value("resurrections", |(_, curve)| curve.resurrections())
         .value("last_collapse_g", |(_, curve)| last(curve))
+        .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
         .done()
 }
 
@@ -184,11 +185,11 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
 type Estimate = (&'static str, &'static str, fn(&Summary) -> &Interval);
 
 /// Adds an estimate and the ends of its interval, in a unit.
-fn with_interval<'a>(
-    table: Growing<(usize, f64, &'a StateResults)>,
+fn with_interval(
+    table: Growing<(usize, f64, &StateResults)>,
     (name, ending, of): Estimate,
     unit: f64,
-) -> Growing<(usize, f64, &'a StateResults)> {
+) -> Growing<(usize, f64, &StateResults)> {
     ["", "_low", "_high"].into_iter().enumerate().fold(table, |table, (part, end)| {
         let bounds = |row: &(usize, f64, &StateResults)| Cell::Between(of(&row.2.summary).bounds(unit)[part]);
         table.value(format!("{name}{end}{ending}"), bounds)

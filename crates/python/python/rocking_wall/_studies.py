@@ -83,6 +83,7 @@ class Study:
         title: str | None = None,
         intensity: Mapping[str, Any] | None = None,
         tail: float | None = None,
+        collapse_is: str | None = None,
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
@@ -97,6 +98,8 @@ class Study:
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
         :param tail: Free vibration after each record [s]; by default 10.
+        :param collapse_is: Which runs have collapsed: those that exceed u_ins ("exceeds", the default), or
+            those that do not come back ("falls").
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
 
@@ -105,7 +108,7 @@ class Study:
         """
         parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
-        options["classes"] = classes
+        options["classes"], options["collapse_is"] = classes, collapse_is
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:

@@ -29,11 +29,11 @@ use run::walls::{WallEntry, WallTable, entries};
 use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
-use crate::ida::{IntensityMeasure, LONGEST_TAIL, Levels};
+use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
-use report::{ClassTable, ReportTable, report};
+use report::{ClassTable, ReportTable, chosen, report};
 
 pub use report::{ReportOptions, WallClass};
 
@@ -54,6 +54,8 @@ pub struct StudyFile {
     pub levels: Levels,
     /// Free vibration after each record \[s\].
     pub tail: f64,
+    /// Which runs have overturned.
+    pub collapse: Collapse,
     /// Options of the report.
     pub report: ReportOptions,
 }
@@ -70,6 +72,9 @@ tables! {
         /// Free vibration after each record \[s\].
         #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_TAIL)]
         tail: Option<Spanned<f64>>,
+        /// Which runs have collapsed: those that exceed `u_ins`, or those that fall and do not come back.
+        #[key(enum = Collapse::ALL.map(|(name, _)| name).to_vec(), default = "exceeds")]
+        collapse_is: Option<Spanned<String>>,
         /// Intensity measure by which records are scaled.
         intensity: Option<Spanned<IntensityTable>>,
         /// Levels of intensity.
@@ -139,6 +144,12 @@ impl StudyFile {
                 .unwrap_or_default(),
             measure: measure(document.intensity.as_ref(), place)?,
             tail,
+            collapse: document
+                .collapse_is
+                .as_ref()
+                .map(|word| chosen("collapse_is", word, &Collapse::ALL, place))
+                .transpose()?
+                .unwrap_or_default(),
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
             levels,
             models,

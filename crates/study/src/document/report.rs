@@ -183,7 +183,7 @@ pub(super) fn report(
 }
 
 /// Returns the variant that a word names.
-fn chosen<T: Copy>(
+pub(super) fn chosen<T: Copy>(
     key: &str,
     word: &Spanned<String>,
     all: &[(&str, T)],

@@ -22,6 +22,8 @@ pub struct Contents {
     /// Levels \[m/s²\] where all records share them.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
+    /// Which runs have overturned, by the word of study files.
+    pub(crate) collapse_is: String,
     /// Combinations of each part; the last part may have fewer.
     pub part_size: usize,
     /// Damping models.
@@ -132,6 +134,7 @@ impl Contents {
             levels: study.levels().description(),
             grid: study.levels().shared(),
             tail_s: study.tail(),
+            collapse_is: study.collapse().name().to_owned(),
             part_size: study.part_size(),
             walls: walls.collect(),
             models: models
@@ -177,8 +180,9 @@ impl Contents {
 
     /// Writes everything except the walls.
     fn head(&self) -> String {
-        let Self { program, sources, measure, measure_details, levels, grid, .. } = self;
-        let runs = (program, sources, measure, measure_details, levels, grid, self.tail_s, self.part_size);
+        let Self { program, sources, measure, measure_details, levels, grid, collapse_is, .. } = self;
+        let how = (self.tail_s, collapse_is, self.part_size);
+        let runs = (program, sources, measure, measure_details, levels, grid, how);
         format!("{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
     }
 
@@ -186,9 +190,10 @@ impl Contents {
     pub(crate) fn difference(&self, other: &Self) -> String {
         let lines = |contents: &Self| {
             let Self { program, sources, measure_details, levels, tail_s, part_size, .. } = contents;
+            let collapse_is = &contents.collapse_is;
             let head = format!(
                 "program {program}\nsources {sources}\nintensity {measure_details}\nlevels: {levels}\n\
-                 tail of {tail_s} s\nparts of {part_size}"
+                 tail of {tail_s} s\ncollapse is {collapse_is}\nparts of {part_size}"
             );
             let models =
                 contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Crossing, Exceedance};
+use crate::ida::{Collapse, Crossing, Exceedance};
 use crate::results::{StateResults, WallResults};
 use crate::tables::in_g;
 use report::counted;
@@ -26,13 +26,18 @@ const MOST_LISTED: usize = 200;
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{}, {}, {}: {}. Intensity: {}. A run stops when the wall overturns, |u| &gt; \
-         u<sub>ins</sub>; the lowest level at which it does is the collapse.",
+        "{}, {}, {}: {}. Intensity: {}. {}; the lowest level at which it does is \
+         the collapse.",
         counted(contents.walls.len(), "wall"),
         counted(contents.records.len(), "record"),
         counted(contents.models.len(), "damping model"),
         counted(runs, "run"),
         measure_words(manifest),
+        if contents.collapse_is == Collapse::Falls.name() {
+            "A wall has overturned if it ends beyond u<sub>ins</sub>; one that comes back has not"
+        } else {
+            "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
+        },
     );
     template::page(
         include_str!("page.html"),

@@ -129,6 +129,8 @@ struct Output<'a> {
     /// θ of the last collapse and of the fraction, over that of the first collapse, of each fit.
     over_first: [Vec<f64>; 2],
     resurrected: usize,
+    /// Runs that exceed `u_ins` and come back.
+    come_back: usize,
     /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
     tied: [usize; 3],
 }
@@ -164,6 +166,7 @@ impl<'a> Output<'a> {
             doubted: 0,
             over_first: [const { Vec::new() }; 2],
             resurrected: 0,
+            come_back: 0,
             tied: [0; 3],
         })
     }
@@ -211,6 +214,8 @@ impl<'a> Output<'a> {
                 }
             }
         }
+        let runs = results.all_curves().iter().flat_map(Curve::runs);
+        self.come_back += runs.filter(|run| run.comes_back()).count();
         let stands_again =
             |curve: &&Curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0;
         self.resurrected += results.all_curves().iter().filter(stands_again).count();
@@ -265,6 +270,10 @@ impl<'a> Output<'a> {
         if tied > 0 {
             let runs = counted(tied, "run");
             let _ = writeln!(text, "ties yielded in {yielded} and broke in {broken} of {runs}; see ties.csv");
+        }
+        if self.come_back > 0 {
+            let runs = counted(self.come_back, "run");
+            let _ = writeln!(text, "{runs} exceed u_ins and come back, which is no collapse");
         }
         if self.resurrected > 0 {
             let _ = writeln!(

@@ -9,9 +9,10 @@ use serde::{Deserialize, Serialize};
 pub struct Run {
     /// Level: the intensity to which the record was scaled \[m/s²\].
     pub intensity: f64,
-    /// Demand: largest |u|/`u_ins` \[-\]; 1 of a wall that overturned, where its run stops.
+    /// Demand: largest |u|/`u_ins` \[-\]; 1 of a wall that overturned.
     pub demand: f64,
-    /// Time of overturning from the start of the record \[s\].
+    /// Time of overturning from the start of the record \[s\]; of a wall that comes back only where this is a
+    /// collapse.
     pub overturning: Option<f64>,
     /// Demand on ties that may yield; `None` where there are none.
     pub tie: Option<TieDemand>,
@@ -97,7 +98,32 @@ impl Exceedance {
     }
 }
 
+/// Which runs have overturned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Collapse {
+    /// Those that exceed `u_ins`, where they stop.
+    #[default]
+    Exceeds,
+    /// Those that end beyond `u_ins`; runs go on to the end of the tail.
+    Falls,
+}
+
+impl Collapse {
+    /// Every variant, with the words of study files.
+    pub const ALL: [(&str, Self); 2] = [("exceeds", Self::Exceeds), ("falls", Self::Falls)];
+
+    /// Returns the word of study files.
+    pub fn name(self) -> &'static str {
+        Self::ALL[usize::from(self == Self::Falls)].0
+    }
+}
+
 impl Run {
+    /// Returns whether the wall exceeds `u_ins` and comes back, in a study whose collapse is to fall.
+    pub fn comes_back(&self) -> bool {
+        self.overturning.is_none() && self.demand > 1.0
+    }
+
     /// Returns whether |u| exceeds a `fraction` of `u_ins`: whether the wall overturned for 1 and more.
     pub fn exceeds(&self, fraction: f64) -> bool {
         self.overturning.is_some() || (fraction < 1.0 && self.demand > fraction)

@@ -44,7 +44,7 @@ use run::records::NamedRecord;
 use run::shaking::Shaking;
 use run::walls::NamedWall;
 
-pub use curve::{Crossing, Curve, Exceedance, Run, TieDemand};
+pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
@@ -61,6 +61,7 @@ pub struct Study {
     measure: IntensityMeasure,
     levels: Levels,
     tail: f64,
+    collapse: Collapse,
     /// Intensity of each unscaled record \[m/s²\].
     intensities: Vec<f64>,
 }
@@ -106,7 +107,8 @@ impl Study {
             }
         };
         let intensities = records.iter().map(intensity).collect::<Result<_, _>>()?;
-        Ok(Self { walls, records, models, measure, levels, tail: DEFAULT_TAIL, intensities })
+        let (tail, collapse) = (DEFAULT_TAIL, Collapse::Exceeds);
+        Ok(Self { walls, records, models, measure, levels, tail, collapse, intensities })
     }
 
     /// Sets the free vibration after each record \[s\].
@@ -119,6 +121,12 @@ impl Study {
         } else {
             Err(IdaError::Tail { value: tail })
         }
+    }
+
+    /// Sets which runs have overturned.
+    #[must_use]
+    pub fn with_collapse(self, collapse: Collapse) -> Self {
+        Self { collapse, ..self }
     }
 
     /// Returns the walls.
@@ -149,6 +157,11 @@ impl Study {
     /// Returns the free vibration after each record \[s\].
     pub fn tail(&self) -> f64 {
         self.tail
+    }
+
+    /// Returns which runs have overturned.
+    pub fn collapse(&self) -> Collapse {
+        self.collapse
     }
 
     /// Returns the intensity of an unscaled record \[m/s²\].
@@ -261,7 +274,11 @@ impl Study {
             overturning: outcome.overturning,
             tie: TieDemand::of(motion.wall(), &outcome.state),
         };
-        Ok(levels.iter().zip(shaking.runs([0.0, 0.0], &factors)?).map(run).collect())
+        let outcomes = match self.collapse {
+            Collapse::Exceeds => shaking.runs([0.0, 0.0], &factors)?,
+            Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], &factors)?,
+        };
+        Ok(levels.iter().zip(outcomes).map(run).collect())
     }
 }
 

@@ -2,13 +2,15 @@
 
 use ground_motion::{GroundMotion, Pulse, Shape, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::Segment;
+use rocking_wall::solver::{Segment, State};
 use rocking_wall::variables::{DampingModel, Mechanism};
 use rocking_wall::wall::{Parameters, Support};
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::ida::{Crossing, Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study};
+use study::ida::{
+    Case, Collapse, Crossing, Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study,
+};
 
 /// Two walls of Table 5 of the paper.
 fn walls() -> Vec<NamedWall> {
@@ -268,4 +270,44 @@ fn what_cannot_run_is_refused() {
     refused(walls(), records(1), cr(), coarse, &["resolution", "1e-6 to 1"]);
     let error = study(HUNT, cr()).with_tail(-1.0).unwrap_err();
     assert!(matches!(error, IdaError::Tail { value } if value == -1.0));
+}
+
+/// Where a collapse is a fall, a wall that exceeds `u_ins` and comes back has none: each run is that of a
+/// simulation to the end.
+#[test]
+fn walls_that_come_back_have_not_fallen() {
+    let levels = || Levels::Grid((1..=40).map(|k| 0.25 * f64::from(k)).collect());
+    let models = || vec![Model::new(DampingModel::ConstantCoefficient)];
+    let exceeding = study(levels(), models());
+    let falling = study(levels(), models()).with_collapse(Collapse::Falls);
+    let (mut back, mut fallen) = (0, 0);
+    for index in 0..falling.count() {
+        let case = falling.case(index);
+        let [all, ends] = [&exceeding, &falling].map(|study| study.curve(case).unwrap());
+        for (first, run) in all.runs().iter().zip(ends.runs()) {
+            let end = end_of_run(&falling, case, run.intensity);
+            let falls =
+                end.overturned && end.displacement.abs() >= falling.wall(case.wall, 0).displacement_scale();
+            assert_eq!(run.overturning, first.overturning.filter(|_| falls), "{case:?} {run:?}");
+            assert_eq!(run.comes_back(), end.overturned && !falls, "{case:?} {run:?}");
+            assert_eq!(run.exceeds(0.9), first.exceeds(0.9));
+            back += usize::from(run.comes_back());
+            fallen += usize::from(falls);
+        }
+    }
+    assert!(back > 0 && fallen > 20, "{back} come back, {fallen} fall");
+}
+
+/// State at the end of the tail of 10 s, sample by sample.
+fn end_of_run(study: &Study, case: Case, intensity: f64) -> State {
+    let parameters = study.models()[case.model].applied_to(&study.walls()[case.wall].parameters).unwrap();
+    let motion = study.records()[case.record].motion.scaled(intensity / study.intensity(case.record));
+    let mut simulation =
+        Simulation::new(&parameters, None, 0.0, Support::rigid(motion.samples()[0])).unwrap();
+    let pairs = motion.samples().windows(2).map(|pair| [pair[0], pair[1]]).chain(vec![[0.0; 2]; 1000]);
+    for [from, to] in pairs {
+        let segment = Segment { duration: motion.step(), from: Support::rigid(from), to: Support::rigid(to) };
+        simulation.advance(&segment).unwrap();
+    }
+    simulation.progress().state
 }
