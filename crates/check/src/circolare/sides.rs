@@ -190,10 +190,19 @@ fn beside(
         )),
         _ => {}
     }
-    let [from, to] = statement.hinge_range;
+    about_place(case, (sign, rule), checks.hinge(governs), warnings);
+    let some = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
+    Ok(Some(LeastAlpha0 { worst: some(lowest), worst_hinge: worst.hinge(of), ..found }))
+}
+
+/// Warns where the hinge that governs is at an end of its range, or so near an end of the wall that a body is
+/// squat.
+fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, warnings: &mut Vec<String>) {
+    let side = case.name(Side::of(sign));
+    let [from, to] = case.statement.hinge_range;
     let is_end = |x: f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
     if rule != Hinge::Given {
-        let at = checks.hinge(governs).unwrap_or(f64::NAN);
+        let at = hinge.unwrap_or(f64::NAN);
         if is_end(at) {
             warnings.push(format!(
                 "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]"
@@ -201,7 +210,7 @@ fn beside(
         }
     }
     let Parameters { height, thickness, .. } = case.parameters;
-    let at = checks.hinge(governs).unwrap_or(0.5);
+    let at = hinge.unwrap_or(0.5);
     let shortest = height * at.min(1.0 - at);
     if shortest < thickness {
         warnings.push(format!(
@@ -209,8 +218,6 @@ fn beside(
              small rotations no longer hold"
         ));
     }
-    let some = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
-    Ok(Some(LeastAlpha0 { worst: some(lowest), worst_hinge: worst.hinge(of), ..found }))
 }
 
 /// `ζ_E` with half and twice a₁ (`law`) or E (`beam`); warns where that turns the verdict.

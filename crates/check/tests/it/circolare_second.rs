@@ -78,6 +78,7 @@ fn zetas(side: &SideVerdict) -> ([f64; 4], [f64; 4]) {
 }
 
 /// Examples 1 to 6: each check at its least favourable hinge, and at the hinge of the least α0.
+#[allow(clippy::too_many_lines, reason = "one list of cases")]
 #[test]
 fn hinges_that_are_searched() {
     let worst = |before: &str| format!("hinge = \"worst\"\n{before}");

@@ -72,6 +72,7 @@ fn pointer(name: &str) -> Option<String> {
 }
 
 /// The scene of a case.
+#[allow(clippy::too_many_lines, reason = "one list of cases")]
 fn scene(case: &Case<'_>) -> String {
     let mut text = String::new();
     let mut table = |head: &str, keys: &[(&str, &str)]| {

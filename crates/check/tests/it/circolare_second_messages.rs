@@ -260,7 +260,7 @@ fn walls_of_one_building() {
     };
     // examples 1 and 13
     let slv = zeta(found("strip"), "/negative/SLV/zeta_E");
-    assert!((slv - 0.974182).abs() < 1e-5, "{slv}");
+    assert!((slv - 0.974_182).abs() < 1e-5, "{slv}");
     let slv = zeta(found("facade"), "/positive/SLV/zeta_E");
     assert!((slv - 1.15475).abs() < 1e-5, "{slv}");
     // no default decides a verdict
