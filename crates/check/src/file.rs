@@ -139,7 +139,8 @@ impl<'a> CheckFile<'a> {
                 not_allowed(key, value.get_ref(), &|path| allowed.iter().any(|own| has(own, path)))
             {
                 let message = format!(
-                    "check.{path} is that of the building, not of a wall alone; state it in the file's [check]"
+                    "check.{path} is that of the building, not of a wall alone; state it in the file's \
+                     [check]"
                 );
                 return Err(self.place.error(value.span(), message));
             }

@@ -357,7 +357,7 @@ fn a_check_that_cannot_be_made_leaves_the_run() {
         (rigid, json!({}), "before_activation", "no elastic branch"),
         (loaded, json!({ "overburden_mass": "" }), "overburden_mass", "is missing"),
         (json!({}), json!({ "SLV.ag": "", "SLV.F0": null, "SLV.TC": null }), "SLV.ag", "needs its site"),
-        (json!({ "a1": "0.6" }), json!({}), "check", "the elastic branch reaches d_SLV"),
+        (json!({ "a1": "0.6" }), json!({}), "check", "the elastic branch ends at d_y"),
     ] {
         let answer = checked(&parameters, &more);
         let fault = answer["check"]["faults"][field].as_str();

@@ -13,5 +13,6 @@ mod circolare_refusals;
 mod circolare_second;
 mod circolare_second_cases;
 mod circolare_second_messages;
+mod circolare_second_ties;
 mod codes;
 mod messages;

@@ -202,7 +202,8 @@ fn every_kind_of_wall_and_demand_has_its_report() {
     ] {
         assert_has(&section(&page, title), &[words]);
     }
-    let strip = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\ndensity = 1800\n\
+    let strip = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\n\
+         density = 1800\n\
          overburden = 10e3\nhinge_ratio = 0.6\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n\
          before_activation = \"beam\"\nyoung_modulus = 0.75e9\n\
          SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
