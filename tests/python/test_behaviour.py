@@ -105,7 +105,7 @@ def test_every_limit_is_checked_and_named(unpacked):
                 unit.slave.reset()
                 unit.set(**{variable.name: limit})
         checked += 1
-    assert checked == 22
+    assert checked == 23
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
