@@ -202,16 +202,16 @@ impl Simulation {
         step: &mut Step,
     ) -> Result<(), SolverError> {
         let body = self.first.wall().body();
-        let before = self.progress;
-        let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
+        let Progress { time, state: State { velocity: velocity_before, departed, .. }, .. } = self.progress;
+        let drift = self.progress.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
         let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
-        let mut state = before.state;
-        let watch = demands.as_deref_mut().map(|demands| (demands, before.time, drift));
-        let report = self.first.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
+        let watch = demands.as_deref_mut().map(|demands| (demands, time, drift));
+        let state = &mut self.progress.state;
+        let report = self.first.advance_watched(state, segment, integral, &mut self.memo, watch)?;
         step.overturned |= report.overturning.is_some();
         step.departed |= report.departure.is_some();
         step.put_to_rest |= report.put_to_rest;
-        if !before.state.departed {
+        if !departed {
             let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
             // ∫ of a quantity linear over the segment, up to `length`
             let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
@@ -223,20 +223,20 @@ impl Simulation {
             } else {
                 0.0
             };
-            let Ends { bottom, top } = body.impulses(supports, velocity - before.state.velocity, couple);
+            let Ends { bottom, top } = body.impulses(supports, velocity - velocity_before, couple);
             step.impulses.bottom += bottom;
             step.impulses.top += top;
         }
         self.progress.time += segment.duration;
-        self.progress.state = state;
         self.progress.drift = drift;
         self.progress.work.add(report.work);
-        if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
-            self.progress.overturn_time = Some(before.time + offset);
+        if let (None, Some(offset)) = (self.progress.overturn_time, report.overturning) {
+            self.progress.overturn_time = Some(time + offset);
         }
         for (side, offset) in report.fractures.into_iter().enumerate() {
-            let Some(time) = offset.map(|offset| before.time + offset) else { continue };
-            (self.progress.tie_breaks[side], step.fractures[side]) = (Some(time), Some(time));
+            let Some(offset) = offset else { continue };
+            (self.progress.tie_breaks[side], step.fractures[side]) =
+                (Some(time + offset), Some(time + offset));
         }
         if let Some(demands) = demands {
             self.enter_yielding(demands);

@@ -69,7 +69,8 @@ impl Simulation {
     /// Accepts the present time and motion as those of a completed step.
     pub fn complete_step(&mut self, rising: bool, support: Support) {
         // what a tie that yields has reached is remembered even where the other side has gone farther
-        if rising || self.motion().yielding_side(self.progress.state.branch).is_some() {
+        let branch = &self.wall().branches()[self.progress.state.branch];
+        if rising || branch.yielding_side().is_some() {
             self.progress.state.include_peak();
         }
         self.progress.drift |= support.drift != 0.0;

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::solver::{Demands, Phase, State};
-use crate::wall::{Ends, Sides, Support, TieAction};
+use crate::wall::{Ends, Sides, Support};
 
 /// Outputs that follow from the state and the supports' present motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,8 +104,7 @@ impl Simulation {
         let tie_force = wall.tie_slope(branch) * displacement.signum() * du;
         let branch = &wall.branches()[branch];
         let mut tie_elongation = Sides::default();
-        if let (TieAction::Yields, Some(tie)) = (branch.tie, wall.tie()) {
-            let side = branch.side();
+        if let (Some(side), Some(tie)) = (branch.yielding_side(), wall.tie()) {
             // dp/du = ±2y/h
             *tie_elongation.of_mut(side) = tie.lever * side * du;
         }

@@ -9,7 +9,6 @@ use super::motion::Motion;
 use super::run::Run;
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
 use super::watch::Watch;
-use crate::wall::TieAction;
 
 impl Motion {
     /// Moves `state` through a segment. With `integral`, the report contains ∫u dt. `memo` keeps the
@@ -146,7 +145,7 @@ impl Motion {
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
         let is_one_piece = duration > 0.0 && duration <= oscillator.longest_piece();
         // what yields must be followed to the turning point, however near
-        let yields = branch.tie == TieAction::Yields;
+        let yields = branch.yielding_side().is_some();
         if phase != Phase::Moving || !is_one_piece || !self.takes_closed_form(index) || yields {
             return None;
         }
@@ -156,7 +155,7 @@ impl Motion {
         let acceleration = branch.acceleration(displacement, velocity, from);
         let start = KinematicState { displacement, velocity, acceleration };
         let rate = (to - from) / duration;
-        let end = memo.end(index, oscillator, start, rate, duration);
+        let end = memo.propagator.end(index, oscillator, start, rate, duration);
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
         let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Shape::Quiet);

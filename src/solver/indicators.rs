@@ -7,7 +7,6 @@
 use super::motion::Motion;
 use super::state::{Phase, State};
 use super::transition::{self, Event, Rebound};
-use crate::wall::TieAction;
 
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
@@ -39,7 +38,7 @@ impl Motion {
                 let relative = |corner: f64| (displacement - corner) / scale.max(corner.abs());
                 let mut ends =
                     [relative(corners[branch].displacement), -relative(corners[branch + 1].displacement)];
-                if let Some(side) = self.yielding_side(branch) {
+                if let Some(side) = self.wall.branches()[branch].yielding_side() {
                     // it ends where the wall turns back, not at its inner corner
                     ends[usize::from(side < 0.0)] = side * velocity / (scale * self.wall.rocking_rate());
                 }
@@ -60,12 +59,6 @@ impl Motion {
             Phase::Landed => return [1.0; INDICATORS],
         };
         [lower + MARGIN, upper + MARGIN, peak + MARGIN]
-    }
-
-    /// Returns the side of a branch on which a tie yields.
-    pub(crate) fn yielding_side(&self, branch: usize) -> Option<f64> {
-        let branch = &self.wall.branches()[branch];
-        (branch.tie == TieAction::Yields).then(|| branch.side())
     }
 
     /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising`
@@ -140,7 +133,8 @@ impl Motion {
     /// Returns whether the wall moves inwards on a branch on which its tie yields.
     fn has_turned_back(&self, state: &State) -> bool {
         let speed = self.wall.displacement_scale() * self.wall.rocking_rate();
-        self.yielding_side(state.branch).is_some_and(|side| side * state.velocity < -0.5 * MARGIN * speed)
+        let side = self.wall.branches()[state.branch].yielding_side();
+        side.is_some_and(|side| side * state.velocity < -0.5 * MARGIN * speed)
     }
 
     /// Returns the end at which the wall has left its branch: `true` for the upper one. `None` while it is on
@@ -153,7 +147,7 @@ impl Motion {
             let over = (state.displacement - corner) * direction;
             over > margin || (over >= 0.0 && state.velocity * direction > 0.0)
         };
-        let inner = self.yielding_side(state.branch).map(|side| side < 0.0);
+        let inner = self.wall.branches()[state.branch].yielding_side().map(|side| side < 0.0);
         let upwards = inner != Some(true) && beyond(state.branch + 1, 1.0);
         (upwards || inner != Some(false) && beyond(state.branch, -1.0)).then_some(upwards)
     }

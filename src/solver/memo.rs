@@ -12,7 +12,7 @@ use crate::wall::TieMemory;
 /// ties have yielded. Results do not depend on it, bit for bit.
 #[derive(Clone, Debug, Default)]
 pub struct Memo {
-    propagator: Propagator,
+    pub(super) propagator: Propagator,
     /// The motion with the present memory of the ties; `None` while it is that of the start.
     stretched: Option<Arc<Motion>>,
 }
@@ -41,19 +41,6 @@ impl Memo {
     pub(crate) fn motion<'a>(&'a self, first: &'a Motion) -> &'a Motion {
         self.stretched.as_deref().unwrap_or(first)
     }
-
-    /// Returns the end of a whole step on a branch, and remembers its propagator.
-    #[inline]
-    pub(super) fn end(
-        &mut self,
-        branch: usize,
-        oscillator: &Oscillator,
-        start: KinematicState,
-        forcing_rate: f64,
-        length: f64,
-    ) -> KinematicState {
-        self.propagator.end(branch, oscillator, start, forcing_rate, length)
-    }
 }
 
 /// The propagator of the last whole step on a branch. It is computed once for steps of the same length.
@@ -61,7 +48,7 @@ impl Memo {
 /// Lengths that differ only by the rounding of a clock share one propagator. It is computed for the length
 /// rounded to 40 bits, and a Taylor series covers the remainder of up to 5e-13 of the length.
 #[derive(Clone, Copy, Debug)]
-struct Propagator {
+pub(super) struct Propagator {
     branch: usize,
     duration: f64,
     matrix: Matrix3<f64>,
@@ -89,8 +76,9 @@ impl Propagator {
         Self { branch, duration, matrix: Matrix3::from_fn(|i, j| rows[i][j]) }
     }
 
+    /// Returns the end of a whole step on a branch, and remembers its propagator.
     #[inline]
-    fn end(
+    pub(super) fn end(
         &mut self,
         branch: usize,
         oscillator: &Oscillator,
@@ -141,7 +129,7 @@ mod tests {
         for apart in [2047, 1000, 1] {
             let length = f64::from_bits(rounded(0.7).to_bits() + apart);
             let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
-            let found = Memo::default().end(0, &oscillator, start, 90.0, length);
+            let found = Propagator::default().end(0, &oscillator, start, 90.0, length);
             let wanted = oscillator.propagate(start, 90.0, length);
             // a few roundings of the largest terms; without the remainder of the length it would be a
             // thousand

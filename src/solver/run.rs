@@ -11,7 +11,6 @@ use super::state::{Phase, Report, SolverError, State};
 use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
-use crate::wall::TieAction;
 
 /// Most impacts in one segment. A wall that can rest is put to rest when it reaches them.
 const MOST_IMPACTS: u64 = 100_000;
@@ -154,7 +153,7 @@ impl<'a> Run<'a> {
         // length, a part of one does not.
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if whole && !oscillator.is_spread(self.duration) {
-            piece.end_at(self.memo.end(index, oscillator, start, rate, remaining));
+            piece.end_at(self.memo.propagator.end(index, oscillator, start, rate, remaining));
         }
         piece
     }
@@ -167,7 +166,7 @@ impl<'a> Run<'a> {
         let branch = &self.motion.wall.branches()[self.state.branch];
         let (from, is_newmark) =
             (self.state.displacement, matches!(self.motion.method, Method::Newmark { .. }));
-        let yielding = Some(branch.side()).filter(|_| branch.tie == TieAction::Yields);
+        let yielding = branch.yielding_side();
         let ending = match yielding {
             Some(side) if !is_newmark => event::find_turn(piece, places, &mut peaks, side),
             _ => event::find_ending(piece, places, &mut peaks),

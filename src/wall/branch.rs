@@ -41,6 +41,11 @@ impl Branch {
         if self.upper > 0.0 { 1.0 } else { -1.0 }
     }
 
+    /// Returns the side on which a tie yields; `None` where none does.
+    pub fn yielding_side(&self) -> Option<f64> {
+        (self.tie == TieAction::Yields).then(|| self.side())
+    }
+
     /// C/`m_eff` \[1/s\].
     pub fn damping_at(&self, displacement: f64) -> f64 {
         self.damping.derivatives(&self.own, displacement)[0]

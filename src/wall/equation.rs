@@ -253,9 +253,9 @@ impl Wall {
         let Some(tie) = self.tie() else { return Sides::default() };
         let mut yielded = self.tie_memory.yielded;
         let branch = &self.branches[branch];
-        if branch.tie == TieAction::Yields {
-            let of_side = yielded.of_mut(branch.side());
-            *of_side = of_side.max(branch.side() * displacement);
+        if let Some(side) = branch.yielding_side() {
+            let of_side = yielded.of_mut(side);
+            *of_side = of_side.max(side * displacement);
         }
         yielded.map(|yielded| tie.elongation(yielded))
     }

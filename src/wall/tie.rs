@@ -164,8 +164,7 @@ impl Tie {
         let Some(hold) = self.hold(displacement, &TieMemory::default()) else { return 0.0 };
         let reach = displacement.abs();
         let is_held = reach < hold.breaks && reach < self.departure.of(displacement);
-        let force = if is_held { self.tension(&hold, displacement) } else { 0.0 };
-        if reach < hold.yields { force } else { self.strength.map_or(force, |most| force.min(most)) }
+        if is_held { self.tension(&hold, displacement) } else { 0.0 }
     }
 
     /// Returns the tie of the side of `sign` as it is with this memory; `None` on a side that it does not

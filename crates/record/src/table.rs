@@ -5,7 +5,7 @@ use std::ops::Range;
 use oscillator::Oscillator;
 use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
-use rocking_wall::wall::{Corner, TieAction};
+use rocking_wall::wall::Corner;
 
 use crate::affine::Affine;
 use crate::forcing::MOST_AT_ONCE;
@@ -332,7 +332,7 @@ fn stepping(motion: &Motion, branch: usize, step: f64) -> Stepping {
     let is_preparable = preparable(wall.branches().len()).contains(&branch);
     if !is_preparable || matches!(motion.method(), Method::Newmark { .. }) {
         Stepping::General
-    } else if wall.branches()[branch].tie == TieAction::Yields {
+    } else if wall.branches()[branch].yielding_side().is_some() {
         // it ends where the wall turns back
         Stepping::General
     } else if motion.secants()[branch].is_some() {
