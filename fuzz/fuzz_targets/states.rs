@@ -4,7 +4,7 @@
 use fmu_export::Model;
 use fmu_export::VariableId;
 use fmu_export::ffi::types::{CO_SIMULATION, Component, OK, Real};
-use fmu_export::ffi::{Kinds, co_simulation, common, states};
+use fmu_export::ffi::{Kinds, co_simulation, common, states, values};
 use libfuzzer_sys::fuzz_target;
 use rocking_wall_fuzz::importer::Importer;
 
@@ -60,7 +60,7 @@ fn check_values<M: Model>(component: Component) {
     for variable in M::Real::ALL {
         let mut value: Real = 0.0;
         // SAFETY: the instance lives; one reference, one value.
-        unsafe { common::get_real::<M>(component, &variable.variable().reference, 1, &mut value) };
+        unsafe { values::get_real::<M>(component, &variable.variable().reference, 1, &mut value, 1) };
         assert!(value.is_finite(), "{}", variable.variable().name);
     }
 }

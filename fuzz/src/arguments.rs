@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use fmu_export::ffi::types::{Component, EventInfo, OK, Status};
-use fmu_export::ffi::{co_simulation as cs, common, model_exchange as me};
+use fmu_export::ffi::{co_simulation as cs, common, model_exchange as me, values as ffi};
 use fmu_export::{Causality, Kind, Model, ModelExchange, Variable, VariableId};
 use std::ptr;
 
@@ -134,9 +134,9 @@ impl Arguments {
         // SAFETY: the instance lives; arrays are as long as stated.
         unsafe {
             match self.random.below(300) {
-                0 => common::set_real::<M>(c, ptr::null(), 1, values.as_ptr()),
-                1 => common::set_real::<M>(c, references.as_ptr(), MOST, values.as_ptr()),
-                _ => common::set_real::<M>(c, &references[from], 1, &values[from]),
+                0 => ffi::set_real::<M>(c, ptr::null(), 1, values.as_ptr(), 1),
+                1 => ffi::set_real::<M>(c, references.as_ptr(), MOST, values.as_ptr(), MOST),
+                _ => ffi::set_real::<M>(c, &references[from], 1, &values[from], 1),
             }
         }
     }
@@ -145,7 +145,7 @@ impl Arguments {
         let (references, mut values) = (self.references::<M::Real>(), [0.0; MOST]);
         let count = self.random.below(MOST + 1);
         // SAFETY: the instance lives; arrays are as long as stated.
-        let status = unsafe { common::get_real::<M>(c, references.as_ptr(), count, values.as_mut_ptr()) };
+        let status = unsafe { ffi::get_real::<M>(c, references.as_ptr(), count, values.as_mut_ptr(), count) };
         (status, not_finite("fmi2GetReal", status, &values))
     }
 
@@ -157,12 +157,12 @@ impl Arguments {
         // SAFETY: the instance lives; one reference and one value, or none.
         unsafe {
             match self.random.below(6) {
-                0 => common::get_integer::<M>(c, integers.as_ptr(), count, &mut number),
-                1 => common::set_integer::<M>(c, integers.as_ptr(), count, &number),
-                2 => common::get_boolean::<M>(c, booleans.as_ptr(), count, &mut number),
-                3 => common::set_boolean::<M>(c, booleans.as_ptr(), 0, &number),
-                4 => common::get_string::<M>(c, texts.as_ptr(), 0, &mut text),
-                _ => common::set_string::<M>(c, texts.as_ptr(), 0, &text),
+                0 => ffi::get_integer::<M>(c, integers.as_ptr(), count, &mut number, count),
+                1 => ffi::set_integer::<M>(c, integers.as_ptr(), count, &number, count),
+                2 => ffi::get_boolean::<M>(c, booleans.as_ptr(), count, &mut number, count),
+                3 => ffi::set_boolean::<M>(c, booleans.as_ptr(), 0, &number, 0),
+                4 => ffi::get_string::<M>(c, texts.as_ptr(), 0, &mut text, 0),
+                _ => ffi::set_string::<M>(c, texts.as_ptr(), 0, &text, 0),
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::arguments::{Arguments, MOST, not_finite};
 use fmu_export::ffi::types::{Component, OK, Status};
-use fmu_export::ffi::{common, fmi3, model_exchange as me};
+use fmu_export::ffi::{common, fmi3, model_exchange as me, values as ffi};
 use fmu_export::{FIRST_INDICATOR_REFERENCE, Model, ModelExchange, TIME_REFERENCE};
 use std::ptr;
 
@@ -35,7 +35,7 @@ impl Arguments {
                     self.time = 0.0;
                     common::reset::<M>(c)
                 }
-                38 => fmi3::enter_configuration_mode::<M>(c),
+                38 => fmi3::refuse::<M>(c, "fmi3EnterConfigurationMode", ptr::null(), 0),
                 _ => me::enter_event_mode::<M>(c),
             }
         }
@@ -78,11 +78,11 @@ impl Arguments {
         // SAFETY: the instance lives; one reference and one value, or none.
         unsafe {
             match self.random.below(5) {
-                0 => fmi3::get_int64::<M>(c, enumerations.as_ptr(), count, &mut number, count),
-                1 => fmi3::set_int64::<M>(c, enumerations.as_ptr(), count, &number, count),
-                2 => fmi3::get_boolean::<M>(c, booleans.as_ptr(), count, &mut is_true, count),
-                3 => fmi3::set_boolean::<M>(c, booleans.as_ptr(), 0, &is_true, 0),
-                _ => fmi3::get_string::<M>(c, ptr::null(), 0, ptr::null_mut(), 0),
+                0 => ffi::get_int64::<M>(c, enumerations.as_ptr(), count, &mut number, count),
+                1 => ffi::set_int64::<M>(c, enumerations.as_ptr(), count, &number, count),
+                2 => ffi::get_bool::<M>(c, booleans.as_ptr(), count, &mut is_true, count),
+                3 => ffi::set_bool::<M>(c, booleans.as_ptr(), 0, &is_true, 0),
+                _ => ffi::get_string::<M>(c, ptr::null(), 0, ptr::null_mut(), 0),
             }
         }
     }
@@ -101,7 +101,7 @@ impl Arguments {
                         unknowns[0] = self.random.one_of(&[TIME_REFERENCE, FIRST_INDICATOR_REFERENCE]);
                     }
                     let count = self.random.below(MOST + 1);
-                    fmi3::get_float64::<M>(c, unknowns.as_ptr(), count, room, count)
+                    ffi::get_float64::<M>(c, unknowns.as_ptr(), count, room, count)
                 }
                 10..14 => {
                     fmi3::get_output_derivatives::<M>(c, unknowns.as_ptr(), 1, orders.as_ptr(), room, 1)

@@ -6,7 +6,7 @@ use crate::random::Random;
 use fmu_export::ffi::types::{
     CO_SIMULATION, Component, DISCARD, ERROR, FmuState, MODEL_EXCHANGE, OK, Status,
 };
-use fmu_export::ffi::{Kinds, co_simulation as cs, common, fmi3, states};
+use fmu_export::ffi::{Kinds, co_simulation as cs, common, fmi3, states, values};
 use fmu_export::{ModelExchange, TIME_REFERENCE};
 use std::fmt;
 use std::ptr;
@@ -215,7 +215,7 @@ impl<M: ModelExchange> Instance<M> {
                     let status = states::set_fmu_state::<M>(c, state);
                     let time = &mut self.arguments.time;
                     if self.third {
-                        fmi3::get_float64::<M>(c, &TIME_REFERENCE, 1, time, 1);
+                        values::get_float64::<M>(c, &TIME_REFERENCE, 1, time, 1);
                     } else {
                         cs::get_real_status::<M>(c, 2, time);
                     }

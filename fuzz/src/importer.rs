@@ -6,7 +6,7 @@ use fmu_export::ffi::types::{
     CallbackFunctions, CallbackLogger, Component, ComponentEnvironment, ERROR, FmuState, OK, Status, Text,
     Type,
 };
-use fmu_export::ffi::{Kinds, common, fmi3, states};
+use fmu_export::ffi::{Kinds, common, fmi3, states, values};
 use fmu_export::{Causality, ModelExchange, Variability, VariableId};
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char};
@@ -179,7 +179,7 @@ unsafe extern "C" fn set_inputs<M: ModelExchange>(
     for reference in inputs::<M>() {
         let value = time % 3.0;
         // SAFETY: the instance lives: its step has not returned.
-        let status = unsafe { fmi3::set_float64::<M>(journal.component.get(), &reference, 1, &value, 1) };
+        let status = unsafe { values::set_float64::<M>(journal.component.get(), &reference, 1, &value, 1) };
         // refused where a change so large in a step so short overflows
         if status != OK && status != ERROR {
             journal.faults.borrow_mut().push(format!("status {status} in an intermediate update"));
