@@ -56,8 +56,8 @@ pub struct Step {
     pub overturned: bool,
     /// The wall left its supports in this step.
     pub departed: bool,
-    /// When the tie of each side, u > 0 first, broke in this step \[s\].
-    pub fractures: [Option<f64>; 2],
+    /// The tie of each side, u > 0 first, broke in this step; [`Progress::tie_breaks`] says when.
+    pub fractures: [bool; 2],
     /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
 }
@@ -235,8 +235,8 @@ impl Simulation {
         }
         for (side, offset) in report.fractures.into_iter().enumerate() {
             let Some(offset) = offset else { continue };
-            (self.progress.tie_breaks[side], step.fractures[side]) =
-                (Some(time + offset), Some(time + offset));
+            self.progress.tie_breaks[side] = Some(time + offset);
+            step.fractures[side] = true;
         }
         if let Some(demands) = demands {
             self.enter_yielding(demands);

@@ -175,8 +175,10 @@ impl Unit {
             let time = self.simulation.progress().overturn_time.unwrap_or(end);
             log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
         }
-        for time in done.fractures.into_iter().flatten() {
-            log.event(format_args!("a tie broke at t = {time} s"));
+        for (broke, time) in done.fractures.into_iter().zip(self.simulation.progress().tie_breaks) {
+            if broke {
+                log.event(format_args!("a tie broke at t = {} s", time.unwrap_or(end)));
+            }
         }
         if done.departed {
             log.event(format_args!(

@@ -4,7 +4,7 @@ use oscillator::KinematicState;
 
 use super::demand::Demands;
 use super::event::{self, Shape};
-use super::memo::Memo;
+use super::memo::{Memo, Propagator};
 use super::motion::Motion;
 use super::run::Run;
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
@@ -82,8 +82,8 @@ impl Motion {
         forcing: [f64; 2],
         memo: &mut Memo,
     ) -> Option<Report> {
-        let stretched = memo.prepare(self, &state.tie);
-        let end = stretched.as_deref().unwrap_or(self).quiet_end(state, duration, forcing, memo)?;
+        let (motion, propagator) = memo.prepare(self, &state.tie);
+        let end = motion.quiet_end(state, duration, forcing, propagator)?;
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
         Some(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() })
     }
@@ -100,12 +100,11 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         let (mut now, mut time, mut report) = (*state, 0.0, Report::default());
         loop {
-            let stretched = memo.prepare(self, &now.tie);
-            let motion = stretched.as_deref().unwrap_or(self);
+            let (motion, propagator) = memo.prepare(self, &now.tie);
             if now.tie != state.tie {
                 motion.find_branch(&mut now);
             }
-            let mut run = Run::new(motion, now, duration, forcing, integral, memo);
+            let mut run = Run::new(motion, now, duration, forcing, integral, propagator);
             (run.time, run.report) = (time, report);
             run.watch = watch.as_mut().map(|&mut (ref mut demands, segment, time, drift)| Watch {
                 demands,
@@ -115,11 +114,11 @@ impl Motion {
                 drift,
             });
             run.finish()?;
-            (now, time, report) = (run.state, run.time, run.report);
-            if now.tie == *motion.wall.tie_memory() {
-                *state = now;
-                return Ok(report);
+            if run.state.tie == *motion.wall.tie_memory() {
+                *state = run.state;
+                return Ok(run.report);
             }
+            (now, time, report) = (run.state, run.time, run.report);
         }
     }
 
@@ -139,7 +138,7 @@ impl Motion {
         state: &State,
         duration: f64,
         [from, to]: [f64; 2],
-        memo: &mut Memo,
+        propagator: &mut Propagator,
     ) -> Option<KinematicState> {
         let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
@@ -155,7 +154,7 @@ impl Motion {
         let acceleration = branch.acceleration(displacement, velocity, from);
         let start = KinematicState { displacement, velocity, acceleration };
         let rate = (to - from) / duration;
-        let end = memo.propagator.end(index, oscillator, start, rate, duration);
+        let end = propagator.end(index, oscillator, start, rate, duration);
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
         let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Shape::Quiet);
@@ -179,7 +178,7 @@ mod tests {
         let mut state = motion.start(0.3 * u_ins, 0.0, Support::default());
         state.peaks.include(0.4 * u_ins);
         let quiet = |state: &State, duration: f64| {
-            motion.quiet_end(state, duration, [0.0; 2], &mut Memo::default()).is_some()
+            motion.quiet_end(state, duration, [0.0; 2], &mut Propagator::default()).is_some()
         };
         assert!(quiet(&state, 0.01) && !quiet(&state, 100.0));
         assert!(!quiet(&State { phase: Phase::Resting, ..state }, 0.01));

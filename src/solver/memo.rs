@@ -12,28 +12,31 @@ use crate::wall::TieMemory;
 /// ties have yielded. Results do not depend on it, bit for bit.
 #[derive(Clone, Debug, Default)]
 pub struct Memo {
-    pub(super) propagator: Propagator,
+    propagator: Propagator,
     /// The motion with the present memory of the ties; `None` while it is that of the start.
     stretched: Option<Arc<Motion>>,
 }
 
 impl Memo {
-    /// Prepares the motion for what the ties remember now, and returns it; `None` where it is `first`.
+    /// Prepares the motion for what the ties remember now, and returns it with the propagator of its steps.
     #[inline]
-    pub(crate) fn prepare(&mut self, first: &Motion, memory: &TieMemory) -> Option<Arc<Motion>> {
-        let is_as_at_first = self.stretched.is_none() && first.wall().tie_memory() == memory;
-        if is_as_at_first { None } else { self.stretch(first, memory) }
+    pub(crate) fn prepare<'a>(
+        &'a mut self,
+        first: &'a Motion,
+        memory: &TieMemory,
+    ) -> (&'a Motion, &'a mut Propagator) {
+        if self.motion(first).wall().tie_memory() != memory {
+            self.stretch(first, memory);
+        }
+        (self.stretched.as_deref().unwrap_or(first), &mut self.propagator)
     }
 
-    #[inline(never)]
-    fn stretch(&mut self, first: &Motion, memory: &TieMemory) -> Option<Arc<Motion>> {
-        if self.motion(first).wall().tie_memory() != memory {
-            let is_first = first.wall().tie_memory() == memory;
-            self.stretched = (!is_first).then(|| Arc::new(first.with_tie_memory(*memory)));
-            // the branches have other numbers
-            self.propagator = Propagator::default();
-        }
-        self.stretched.clone()
+    #[cold]
+    fn stretch(&mut self, first: &Motion, memory: &TieMemory) {
+        let is_first = first.wall().tie_memory() == memory;
+        self.stretched = (!is_first).then(|| Arc::new(first.with_tie_memory(*memory)));
+        // the branches have other numbers
+        self.propagator = Propagator::default();
     }
 
     /// Returns the motion that was prepared last, of a run whose motion at the start is `first`.
@@ -48,7 +51,7 @@ impl Memo {
 /// Lengths that differ only by the rounding of a clock share one propagator. It is computed for the length
 /// rounded to 40 bits, and a Taylor series covers the remainder of up to 5e-13 of the length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Propagator {
+pub(crate) struct Propagator {
     branch: usize,
     duration: f64,
     matrix: Matrix3<f64>,

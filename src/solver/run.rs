@@ -5,7 +5,7 @@ use oscillator::KinematicState;
 use super::adaptive::{Series, Viscous, newmark_step};
 use super::event::{self, Ending, Exit, Piece};
 use super::exact::ClosedForm;
-use super::memo::Memo;
+use super::memo::Propagator;
 use super::motion::{Method, Motion};
 use super::state::{Phase, Report, SolverError, State};
 use super::transition::{self, Rebound};
@@ -25,7 +25,7 @@ pub(super) struct Run<'a> {
     forcing: f64,
     rate: f64,
     integral: bool,
-    memo: &'a mut Memo,
+    propagator: &'a mut Propagator,
     pub(super) watch: Option<Watch<'a>>,
     pub(super) report: Report,
 }
@@ -39,7 +39,7 @@ impl<'a> Run<'a> {
         duration: f64,
         [from, to]: [f64; 2],
         integral: bool,
-        memo: &'a mut Memo,
+        propagator: &'a mut Propagator,
     ) -> Self {
         let rate = if duration > 0.0 { (to - from) / duration } else { 0.0 };
         Self {
@@ -50,7 +50,7 @@ impl<'a> Run<'a> {
             forcing: from,
             rate,
             integral,
-            memo,
+            propagator,
             watch: None,
             report: Report::default(),
         }
@@ -149,11 +149,11 @@ impl<'a> Run<'a> {
         let (oscillator, rate, peaks) = (&motion.oscillators[index], self.rate, &self.state.peaks);
         let bounds = [branch.lower, branch.upper];
         let mut piece = ClosedForm::new(oscillator, start, rate, remaining, bounds, peaks);
-        // Only the propagator of a whole segment goes into the memo: the next segment usually has the same
+        // Only the propagator of a whole segment is kept: the next segment usually has the same
         // length, a part of one does not.
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if whole && !oscillator.is_spread(self.duration) {
-            piece.end_at(self.memo.propagator.end(index, oscillator, start, rate, remaining));
+            piece.end_at(self.propagator.end(index, oscillator, start, rate, remaining));
         }
         piece
     }
