@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `scenes` | the variables of a wall in scenes, and their references |
 //! | `studies` | numbers of spectra, capacity, fragilities |
+//! | `overturning` | rigid walls under pulses, and their steady rocking |
 //! | `circolare` | the worked examples of the check by Circolare 7/2019 |
 //! | `paper` | the paper's tables of damping ratios |
 //! | [`page`] | the manual: on a terminal, as JSON, as Markdown, as a page |
@@ -19,6 +20,7 @@
 //! ```
 
 mod circolare;
+mod overturning;
 pub mod page;
 mod paper;
 mod scenes;

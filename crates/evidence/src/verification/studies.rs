@@ -8,13 +8,11 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
-use super::{circolare, paper};
+use super::{circolare, overturning, paper};
 use crate::{Comparison, EvidenceError};
 use check::fractions::{Demand, Fractions, check};
-use run::bisection::first_true;
 use serde::Deserialize;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
-use study::spectrum::{PulseForm, over_pulses};
 
 /// What computes the numbers of a formula that no scene shows.
 #[derive(Clone, Copy, Deserialize)]
@@ -27,7 +25,9 @@ pub(super) enum Study {
     Demands,
     ResponseSpectrum,
     Storeys,
-    HalfSine,
+    StraightPulses,
+    Sines,
+    SteadyRocking,
     Fragility,
     Paper,
 }
@@ -44,7 +44,9 @@ impl Study {
             Self::Demands => demands(),
             Self::ResponseSpectrum => response_spectrum(),
             Self::Storeys => storeys(),
-            Self::HalfSine => half_sine(),
+            Self::StraightPulses => overturning::straight_pulses(),
+            Self::Sines => overturning::sines(),
+            Self::SteadyRocking => overturning::steady_rocking(),
             Self::Fragility => fragility(),
             Self::Paper => paper::tables(),
         }
@@ -67,7 +69,7 @@ pub(super) fn within<C: Into<String>, Q: Into<String>>(
     rows.into_iter().map(compare).collect()
 }
 
-fn rigid() -> Parameters {
+pub(super) fn rigid() -> Parameters {
     Parameters {
         force_law: ForceLaw::RigidLinear,
         damping_model: DampingModel::None,
@@ -216,20 +218,6 @@ fn storeys() -> Comparisons {
     comparisons.extend(within(1e-11, shaken));
     comparisons[2].scale = 2.0 / (frequency * frequency);
     Ok(comparisons)
-}
-
-/// Halvings of the bracket of a threshold.
-const HALVINGS: u32 = 16;
-
-fn half_sine() -> Comparisons {
-    // the root of the condition for ω_p/p = 2
-    let expected = 1.800_723_930_560_746;
-    let bracket = [expected * (1.0 - 1e-6), expected * (1.0 + 1e-6)];
-    let falls = first_true(bracket, HALVINGS, |amplitude| {
-        let spectrum = over_pulses(&rigid(), PulseForm::HalfSine, &[2.0], &[amplitude], 1);
-        spectrum.map(|spectrum| spectrum.points[0][0].overturning.is_some())
-    })?;
-    Ok(within(4e-10, [("ω_p/p = 2", "a_p/a0 that overturns", "-", falls, expected)]))
 }
 
 fn fragility() -> Comparisons {
