@@ -1,9 +1,9 @@
 //! Rigid-linear walls with small rotations, in closed form: which pulses overturn them, and their steady
 //! rocking.
 //!
-//! With y = u/u_ins, τ = p t and f = a/a₀, y″ = y − 1 + f while y > 0. Then c = y′ + y − 1 obeys c′ = c + f, so
-//! after a pulse the wall falls if c > 0 and returns if c < 0. All references come from that, in arithmetic
-//! of 40 digits.
+//! With y = `u/u_ins`, τ = p t and f = a/a₀, y″ = y − 1 + f while y > 0. Then c = y′ + y − 1 obeys
+//! c′ = c + f, so after a pulse the wall falls if c > 0 and returns if c < 0. All references come from that,
+//! in arithmetic of 40 digits.
 
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ fn restituted(restitution: f64) -> Parameters {
     Parameters { impact: Impact::Restitution, restitution, u_start: 0.0, ..rigid() }
 }
 
-/// Finds the a_p/a₀ from which on a wall falls, near a given one.
+/// Finds the `a_p/a₀` from which on a wall falls, near a given one.
 fn threshold<E>(given: f64, half: f64, falls: impl FnMut(f64) -> Result<bool, E>) -> Result<f64, E> {
     first_true([given * (1.0 - half), given * (1.0 + half)], HALVINGS, falls)
 }
@@ -47,7 +47,7 @@ fn threshold<E>(given: f64, half: f64, falls: impl FnMut(f64) -> Result<bool, E>
 pub(super) fn straight_pulses() -> Comparisons {
     // 1/(1 − e^−d); 1/(1 − (1 − e^−d)/d); the root of ∫ e^−s f(τ_u + s) ds = 1 with uplift at τ_u = d/(2η)
     const RECTANGLE: [f64; 3] = [2.541_494_082_536_798, 1.581_976_706_869_326_4, 1.156_517_642_749_665_7];
-    const FALLING: [f64; 3] = [4.693_484_498_723_19, 2.718_281_828_459_045, 1.761_594_155_955_765];
+    const FALLING: [f64; 3] = [4.693_484_498_723_19, std::f64::consts::E, 1.761_594_155_955_765];
     const ISOSCELES: [f64; 3] = [4.983_389_430_863_206, 2.972_590_911_909_553_7, 1.960_323_544_076_612_5];
     let pulses: [(_, &[[f64; 2]], _); 3] = [
         ("rectangle", &[[1.0, 1.0]], RECTANGLE),
