@@ -48,6 +48,8 @@ pub struct Entry {
     pub source: &'static str,
     /// Symbol of the ratio of capacity to demand, which names columns: `zeta_E`.
     pub symbol: &'static str,
+    /// g in which its ground accelerations are stated \[m/s²\].
+    pub gravity: f64,
     /// Names of the checks that tables of walls show.
     pub checks: &'static [&'static str],
     /// The smallest table `[check]` that it takes, in one line.
@@ -94,9 +96,51 @@ pub trait Code: fmt::Debug + Send + Sync {
         false
     }
 
+    /// The spectrum of the ground over its acceleration, `S_e`(T)/`a_g` at 5 % damping, at some periods
+    /// \[s\]: that of the limit state by which the wall must not fall. `None` where the table states no site.
+    fn spectral_shape(&self, _periods: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Whether the demand is that of a building which only the table `[check]` states.
+    fn states_building(&self) -> bool {
+        false
+    }
+
+    /// A number of the rule of a check; `None` where it has no part.
+    fn rule(&self, _check: &str, _rule: Rule) -> Option<f64> {
+        None
+    }
+
+    /// The same statements with another number in the rule of a check; `None` where it has no part.
+    fn with_rule(&self, _check: &str, _rule: Rule, _value: f64) -> Option<Box<dyn Code>> {
+        None
+    }
+
     /// The same statements without records that only inform; `None` where there are none.
     fn deciding(&self) -> Option<Box<dyn Code>> {
         None
+    }
+}
+
+/// A number in the rule of a check, which a study of reliability varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// Displacement capacity over the displacement at which the force vanishes \[-\].
+    Fraction,
+    /// Factor of π √(d/a) in the period of the demand \[-\].
+    PeriodFactor,
+    /// Behaviour factor q \[-\].
+    BehaviourFactor,
+}
+
+impl Rule {
+    /// Every variant.
+    pub const ALL: [Self; 3] = [Self::Fraction, Self::PeriodFactor, Self::BehaviourFactor];
+
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        ["fraction of d_0", "factor of the period", "q"][self as usize]
     }
 }
 
@@ -165,6 +209,8 @@ pub struct Row {
     pub ground: Option<[f64; 2]>,
     /// Capacity and demand.
     pub ends: Ends,
+    /// The capacity as u of the wall; `None` of a check of accelerations, and of runs \[m\].
+    pub displacement: Option<f64>,
     /// Where the code has it.
     pub clause: &'static str,
     /// What is to be said beside the numbers; empty where nothing is.

@@ -10,7 +10,7 @@ mod report;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read, schema};
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Rule, Subject, Verdict, how_to_write, read, schema};
 pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};

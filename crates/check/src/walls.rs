@@ -52,7 +52,8 @@ impl WallCodes {
         &*self.shared
     }
 
-    fn of(&self, wall: &NamedWall) -> &dyn Code {
+    /// The code of a wall.
+    pub fn of(&self, wall: &NamedWall) -> &dyn Code {
         self.own.get(&wall.entry).map_or(&*self.shared, |own| &**own)
     }
 }

@@ -13,6 +13,7 @@
 //! | [`results`] | the curves and the fragilities of each wall of a study |
 //! | [`tables`] | the rows of a study's tables, for CSV and Python |
 //! | [`folder`] | a study in a folder: runs in parts, tables and a page |
+//! | [`reliability`] | how safe a wall is that just passes a check by a code |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
 //! | [`tie`] | force and displacement over the stiffness of a tie |
@@ -25,6 +26,8 @@ pub mod folder;
 pub mod fragility;
 pub mod ida;
 pub mod loaded;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod reliability;
 pub mod results;
 pub mod spectrum;
 pub mod tables;

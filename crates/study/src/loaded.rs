@@ -10,7 +10,8 @@ use run::records::{NamedRecord, all_records, record_files};
 use run::walls::{Ignored, NamedWall, check_unique, wall_of_text, wall_text, walls};
 
 use crate::document::{ReportOptions, StudyFile};
-use crate::ida::{IntensityMeasure, Study};
+use crate::ida::{IntensityMeasure, Misfit, Study};
+use report::counted;
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -30,6 +31,8 @@ pub struct LoadedStudy {
     pub warnings: Vec<String>,
     /// Text of the study file.
     text: String,
+    /// Probability of a fall for which the numbers of a code are sought \[-\].
+    target: f64,
 }
 
 /// A study as plain values, to send it to a machine without its files.
@@ -83,6 +86,16 @@ impl LoadedStudy {
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
 
+    /// Returns the text of the study file.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
+    pub fn target(&self) -> f64 {
+        self.target
+    }
+
     /// Returns the study as plain values.
     pub fn sent(&self) -> Sent {
         let wall = |wall: &NamedWall| (wall.name.clone(), wall_text(wall));
@@ -121,19 +134,47 @@ impl LoadedStudy {
         walls: Vec<NamedWall>,
         records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
-        let StudyFile { title, models, measure, levels, tail, collapse, report, .. } = file;
+        let StudyFile { title, models, measure, select, levels, tail, collapse, report, target, .. } = file;
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
         check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
         for class in &report.classes {
             class.check(walls.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
         }
+        let records = match select {
+            Some(count) => best(records, count, &measure).map_err(in_file)?,
+            None => records,
+        };
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(tail))
             .map_err(|error| in_file(error.to_string()))?
             .with_collapse(collapse);
-        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text })
+        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text, target })
     }
+}
+
+/// Returns the `count` records whose spectra fit that of the site best, in their order; of two that fit alike
+/// the first.
+fn best(
+    records: Vec<NamedRecord>,
+    count: usize,
+    measure: &IntensityMeasure,
+) -> Result<Vec<NamedRecord>, String> {
+    if !(1..=records.len()).contains(&count) {
+        let found = counted(records.len(), "record");
+        return Err(format!("[intensity] select = {count}: found {found}; select from 1 to that many"));
+    }
+    let rms = |record: &NamedRecord| {
+        let ratios = measure.ratios(&record.motion);
+        let named = |error: GroundMotionError| format!("record {:?}: {error}", record.name);
+        Ok::<_, String>(Misfit::of(&ratios.map_err(named)?.unwrap_or_default()).rms)
+    };
+    let misfits = records.iter().map(rms).collect::<Result<Vec<_>, _>>()?;
+    let mut order: Vec<usize> = (0..records.len()).collect();
+    order.sort_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
+    order.truncate(count);
+    let chosen = records.into_iter().enumerate().filter(|(index, _)| order.contains(index));
+    Ok(chosen.map(|(_, record)| record).collect())
 }
 
 /// Returns the parameters of a wall that are set and have no effect with any of the models.
@@ -167,13 +208,10 @@ fn warn(
         let all = own.chain(found.map(|warning| warning.to_string())).chain(of_floors);
         warnings.extend(all.map(|warning| format!("wall {name:?}: {warning}")));
     }
-    let periods: &[f64] = match measure {
-        IntensityMeasure::Pga => &[],
-        IntensityMeasure::Sa { period } => std::slice::from_ref(period),
-        IntensityMeasure::AvgSa { periods } => periods,
-    };
-    let unusual =
-        periods.iter().filter_map(|period| Usual::period("period of the intensity").warning(*period));
+    let unusual = measure
+        .periods()
+        .iter()
+        .filter_map(|period| Usual::period("period of the intensity").warning(*period));
     warnings.extend(unusual.map(|warning| warning.to_string()));
     for model in models {
         warnings.extend(model.unusual().map(|warning| format!("model {:?}: {warning}", model.name)));

@@ -62,15 +62,7 @@ impl Fitting {
     /// # Panics
     /// If there is not one curve for each model and record.
     pub fn results(&self, curves: Vec<Curve>) -> WallResults {
-        assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
-        let samples = |crossing| -> Vec<Vec<Sample>> {
-            let of_model = |curves: &[Curve]| {
-                let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, self.grid.as_deref());
-                self.fractions.iter().copied().map(of_state).collect()
-            };
-            curves.chunks(self.records).map(of_model).collect()
-        };
-        let all = Crossing::ALL.map(|(_, crossing)| samples(crossing));
+        let all = Crossing::ALL.map(|(_, crossing)| self.samples(&curves, &self.fractions, crossing));
         let chosen =
             &all[Crossing::ALL.iter().position(|(_, crossing)| *crossing == self.crossing).unwrap_or(0)];
         let summaries = compare(chosen, self.reference, &self.estimator, &self.bootstrap);
@@ -88,6 +80,32 @@ impl Fitting {
         };
         let states = summaries.into_iter().enumerate().map(state).collect();
         WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states }
+    }
+
+    /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model, with
+    /// their resamples.
+    ///
+    /// # Panics
+    /// As [`results`](Self::results).
+    pub fn summaries(&self, curves: &[Curve], fractions: &[f64]) -> Vec<Vec<Summary>> {
+        let samples = self.samples(curves, fractions, self.crossing);
+        let estimator = Estimator::new(self.estimator.dispersion, fractions);
+        compare(&samples, self.reference, &estimator, &self.bootstrap)
+    }
+
+    /// Counts the records.
+    pub fn records(&self) -> usize {
+        self.records
+    }
+
+    /// Takes what the curves show of some fractions of `u_ins`, model by model.
+    fn samples(&self, curves: &[Curve], fractions: &[f64], crossing: Crossing) -> Vec<Vec<Sample>> {
+        assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
+        let of_model = |curves: &[Curve]| {
+            let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, self.grid.as_deref());
+            fractions.iter().copied().map(of_state).collect()
+        };
+        curves.chunks(self.records).map(of_model).collect()
     }
 }
 

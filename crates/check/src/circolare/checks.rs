@@ -8,7 +8,7 @@ use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
 use super::floor::Mode;
 use super::side_verdict::{ActivationCheck, DisplacementCheck, TieBreak};
-use super::statement::Statement;
+use super::statement::{Displacements, Statement};
 use super::states::StateStatement;
 use super::table::{AtActivation, Method, UseClass};
 use super::tie::TieAtLimit;
@@ -16,14 +16,6 @@ use super::verdict::{Checked, Deciding, DynamicCheck, Governs, Outcome, Side, Si
 use super::{ENTRY, LimitState};
 use crate::code::Subject;
 use crate::error::CheckError;
-
-/// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
-fn period_factor(state: LimitState) -> f64 {
-    match state {
-        LimitState::Sld | LimitState::Slv => 1.68,
-        LimitState::Slc => 1.56,
-    }
-}
 
 /// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
 /// C8.7.1.2.1.6 \[-\].
@@ -161,7 +153,8 @@ impl Checks {
             .transpose()?;
         let floor = sld.map(|sld| sld.ag);
         let by_displacement = |state: LimitState| {
-            of(state).map(|(given, demand)| displacement(curve, given, demand, floor)).transpose()
+            let rules = statement.rules(state);
+            of(state).map(|stated| displacement(curve, stated, rules, floor)).transpose()
         };
         let (slv, slc) = (by_displacement(LimitState::Slv)?, by_displacement(LimitState::Slc)?);
         if let (Some(slv), Some(slc)) = (slv, slc)
@@ -260,9 +253,9 @@ pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<
 }
 
 /// Returns the displacement u of a limit state, and whether the tie breaks there, C8.7.1.2.1.6 \[m\].
-fn limit(curve: &Curve, given: &StateStatement) -> Result<(f64, bool), CheckError> {
+fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, bool), CheckError> {
+    let of_curve = fraction * curve.zero;
     if given.state == LimitState::Slc {
-        let of_curve = 0.60 * curve.zero;
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
         if !(local > 0.0 && local < curve.zero) {
             let message =
@@ -271,7 +264,6 @@ fn limit(curve: &Curve, given: &StateStatement) -> Result<(f64, bool), CheckErro
         }
         return Ok((of_curve.min(local), false));
     }
-    let of_curve = 0.40 * curve.zero;
     Ok(match curve.tie_break() {
         Some(TieBreak { u, loss, .. }) if u < of_curve && loss > LARGEST_LOSS => (u, true),
         _ => (of_curve, false),
@@ -280,25 +272,25 @@ fn limit(curve: &Curve, given: &StateStatement) -> Result<(f64, bool), CheckErro
 
 fn displacement(
     curve: &Curve,
-    given: &StateStatement,
-    demand: &Demand,
+    (given, demand): (&StateStatement, &Demand),
+    rules: Displacements,
     floor: Option<f64>,
 ) -> Result<DisplacementCheck, CheckError> {
     let state = given.state;
-    let (u, limited_by_tie) = limit(curve, given)?;
+    let Displacements { fraction, period_factor } = rules;
+    let (u, limited_by_tie) = limit(curve, given, fraction)?;
     let (d, a) = (curve.stretch * u, curve.tied(u));
     if a <= 0.0 {
         return Err(CheckError::wall(format!("{state}: a is not positive at d = {d} m")));
     }
-    let share = if state == LimitState::Slc { 0.60 } else { 0.40 };
-    let (elastic, end) = (curve.elastic.displacement, share * curve.d0());
+    let (elastic, end) = (curve.elastic.displacement, fraction * curve.d0());
     if end <= elastic {
         return Err(CheckError::wall(format!(
-            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {share:.2} d_0 = {end} m: lower \
+            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {fraction:.2} d_0 = {end} m: lower \
              a1 or raise E"
         )));
     }
-    let period = Curve::period(period_factor(state), d, a);
+    let period = Curve::period(period_factor, d, a);
     let t0 = curve.tied_period().min(period);
     let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
         demand.displacement(state, [t0, period], given.damping)?;

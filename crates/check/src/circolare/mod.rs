@@ -47,7 +47,7 @@ mod warnings;
 use rocking_wall::scene::Described;
 use rocking_wall::wall::Parameters;
 
-use crate::code::{Code, Entry, Subject, Verdict};
+use crate::code::{Code, Entry, Rule, Subject, Verdict};
 use crate::error::CheckError;
 use crate::find::Sought;
 use crate::site::Records;
@@ -83,6 +83,7 @@ pub const ENTRY: Entry = Entry {
     source: "Check of a local out-of-plane mechanism by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
     symbol: "zeta_E",
+    gravity: G,
     checks: &["SLD", "SLV with q", "SLV", "SLC"],
     example: "check = { code = \"circolare-2019\", before_activation = \"rigid\", soil = \"B\", \
               SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }",
@@ -131,6 +132,41 @@ impl Code for Statement {
     fn takes_runs(&self) -> bool {
         let mut states = self.states.iter().flatten();
         self.table.method == Method::Dynamic || states.any(|given| given.source == Source::Records)
+    }
+
+    fn spectral_shape(&self, periods: &[f64]) -> Option<Vec<f64>> {
+        let given = self.state(LimitState::Slv).or(self.state(LimitState::Slc))?;
+        let Source::Code(ground) = &given.source else { return None };
+        let at = |period: &f64| ground.acceleration(*period, LimitState::Sld.damping()) / (given.ag * G);
+        Some(periods.iter().map(at).collect())
+    }
+
+    fn states_building(&self) -> bool {
+        self.table.building.is_some()
+    }
+
+    fn rule(&self, check: &str, rule: Rule) -> Option<f64> {
+        let state = Deciding::ALL.into_iter().find(|own| own.name() == check)?;
+        match (state, rule) {
+            (Deciding::SlvWithQ, Rule::BehaviourFactor) => Some(self.behaviour_factor),
+            (Deciding::Slv | Deciding::Slc, Rule::Fraction) => Some(self.rules(state.state()).fraction),
+            (Deciding::Slv | Deciding::Slc, Rule::PeriodFactor) => {
+                Some(self.rules(state.state()).period_factor)
+            }
+            _ => None,
+        }
+    }
+
+    fn with_rule(&self, check: &str, rule: Rule, value: f64) -> Option<Box<dyn Code>> {
+        self.rule(check, rule)?;
+        let mut varied = Self { records: Records::default(), ..self.clone() };
+        let rules = &mut varied.displacements[usize::from(check == LimitState::Slc.key())];
+        match rule {
+            Rule::Fraction => rules.fraction = value,
+            Rule::PeriodFactor => rules.period_factor = value,
+            Rule::BehaviourFactor => varied.behaviour_factor = value,
+        }
+        Some(Box::new(varied))
     }
 
     fn deciding(&self) -> Option<Box<dyn Code>> {

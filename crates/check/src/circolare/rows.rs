@@ -60,6 +60,7 @@ impl<'a> Checked<'a> {
                     decides,
                     ground: Some([found.ag, site(state)]),
                     ends: Ends::Accelerations([found.capacity, found.demand]),
+                    displacement: None,
                     clause,
                     remark: String::new(),
                 }));
@@ -74,6 +75,7 @@ impl<'a> Checked<'a> {
                     decides: method == Method::Nonlinear,
                     ground: Some([found.ag, site(state)]),
                     ends: Ends::Displacements([found.d, found.demand]),
+                    displacement: Some(found.d / verdict.d_per_u),
                     clause: "C8.7.1.2.1.8",
                     remark: remark(state, &found),
                 },
@@ -89,6 +91,7 @@ impl<'a> Checked<'a> {
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
                 ends: Ends::Displacements([found.ratio * found.d, found.d]),
+                displacement: None,
                 clause: "C8.7.1.2.1.9",
                 remark: String::new(),
             });

@@ -16,6 +16,21 @@ use super::{FEWEST_RECORDS, LimitState};
 /// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
 pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
 
+/// The rule of a limit state by displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Displacements {
+    /// `d_SLV` or `d_SLC` over `d_0`, C8.7.1.2.1.6 \[-\].
+    pub(super) fraction: f64,
+    /// Factor of π √(d/a), [C8.7.1.10] and [C8.7.1.11] \[-\].
+    pub(super) period_factor: f64,
+}
+
+impl Displacements {
+    /// Those of SLV and SLC.
+    const OF_CODE: [Self; 2] =
+        [Self { fraction: 0.40, period_factor: 1.68 }, Self { fraction: 0.60, period_factor: 1.56 }];
+}
+
 /// The table `[check]`, validated.
 #[derive(Clone, Debug)]
 pub struct Statement {
@@ -27,6 +42,8 @@ pub struct Statement {
     pub behaviour_factor: f64,
     /// SLD, SLV and SLC; `None` for a check that is not made.
     pub states: [Option<StateStatement>; 3],
+    /// Rules of SLV and SLC by displacement.
+    pub(super) displacements: [Displacements; 2],
     /// Records of the dynamic check, and of limit states without F0 and TC.
     pub records: Records,
     /// κ `f_d` of the masonry, for which hinges are set back \[Pa\].
@@ -115,8 +132,17 @@ impl Statement {
             return refused("record_range", message);
         }
         let records = Records::default();
-        let behaviour_factor = q;
-        Ok(Self { table, confidence_factor, behaviour_factor, states, records, masonry, hinge_range })
+        let (behaviour_factor, displacements) = (q, Displacements::OF_CODE);
+        Ok(Self {
+            table,
+            confidence_factor,
+            behaviour_factor,
+            states,
+            displacements,
+            records,
+            masonry,
+            hinge_range,
+        })
     }
 
     /// Returns where the hinge of a strip is; `assumed` names the parameters that nobody stated.
@@ -151,6 +177,11 @@ impl Statement {
     /// Returns whether accelerations at a height are bounded by that of the ground.
     pub(super) fn bounds_heights(&self) -> bool {
         self.table.height_demand == HeightDemand::NotBelowGround
+    }
+
+    /// Returns the rule by displacement of SLC, or that of SLV.
+    pub(super) fn rules(&self, state: LimitState) -> Displacements {
+        self.displacements[usize::from(state == LimitState::Slc)]
     }
 
     /// Returns the statements about a limit state; `None` where its check is not made.

@@ -41,6 +41,7 @@ pub const ENTRY: Entry = Entry {
     source: "Static capacity of a wall, read at fractions of the displacement at which its force vanishes, \
              against a response spectrum",
     symbol: "ratio",
+    gravity: ground_motion::STANDARD_GRAVITY,
     checks: &["onset", "displacement"],
     example: "check = { code = \"fractions\", spectrum = [[0, 2.0], [0.5, 5.0], [4, 0.6]], unit = \"m/s2\" }",
     of_wall: &[],
@@ -280,6 +281,7 @@ impl Checked<'_> {
         let of_side = |(side, found): (&'static str, &SideCheck)| {
             let accelerations = [found.onset_acceleration, found.peak_acceleration];
             let displacements = [found.displacement_capacity, found.displacement_demand];
+            let participation = self.wall.body().participation;
             let row = |check, zeta: f64, decides, ends, clause| Row {
                 check,
                 side,
@@ -288,6 +290,10 @@ impl Checked<'_> {
                 decides,
                 ground: None,
                 ends,
+                displacement: match ends {
+                    Ends::Displacements([capacity, _]) => Some(participation * capacity),
+                    Ends::Accelerations(_) => None,
+                },
                 clause,
                 remark: String::new(),
             };

@@ -3,12 +3,13 @@
 use toml::Spanned;
 
 use crate::ida::{IntensityMeasure, Levels};
+use check::{CheckFile, read};
 use ground_motion::Unit;
 use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::tables;
 
 /// Names of the intensity measures.
-const MEASURES: [&str; 3] = ["PGA", "Sa", "AvgSA"];
+const MEASURES: [&str; 4] = ["PGA", "Sa", "AvgSA", "code"];
 /// Names of the ways to choose levels.
 const METHODS: [&str; 3] = ["hunt", "step", "grid"];
 /// Resolution and gap of a hunt that states none.
@@ -24,8 +25,11 @@ tables! {
         measure: Spanned<String>,
         /// Period of Sa \[s\].
         period: Option<f64>,
-        /// Periods of AvgSA \[s\]; by default 0.2, 0.4 to 1.4 s.
+        /// Periods of AvgSA and of code \[s\]; by default 0.2, 0.4 to 1.4 s, and 0.2, 0.3 to 2 s.
         periods: Option<Vec<f64>>,
+        /// With code: takes so many of the records, those whose spectra fit that of the site best.
+        #[key(minimum = 1)]
+        pub(super) select: Option<Spanned<usize>>,
     }
 
     /// Levels of intensity: hunt, step (to the first overturning) or grid.
@@ -63,6 +67,11 @@ pub(super) fn measure(
     let Some(table) = table else { return Ok(IntensityMeasure::default()) };
     let spec = table.get_ref();
     let refuse = |message: &str| Err(place.error(table.span(), message));
+    if let Some(select) = spec.select.as_ref().filter(|_| spec.measure.get_ref() != "code") {
+        let message =
+            "select takes the records that fit the spectrum of the site; it needs measure = \"code\"";
+        return Err(place.error(select.span(), message));
+    }
     match (spec.measure.get_ref().as_str(), spec.period, &spec.periods) {
         ("PGA", None, None) => Ok(IntensityMeasure::Pga),
         ("PGA", ..) => refuse("PGA has no periods; leave them out"),
@@ -71,11 +80,37 @@ pub(super) fn measure(
         ("AvgSA", None, None) => Ok(IntensityMeasure::default()),
         ("AvgSA", None, Some(periods)) => Ok(IntensityMeasure::AvgSa { periods: periods.clone() }),
         ("AvgSA", ..) => refuse("AvgSA takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
+        ("code", None, periods) => {
+            let usual = || (2..=20).map(|tenth| f64::from(tenth) / 10.0).collect();
+            of_code(periods.clone().unwrap_or_else(usual), table, place)
+        }
+        ("code", ..) => refuse("code takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
             let message = format!("measure = {other:?} is not one of {}", MEASURES.join(", "));
             Err(place.error(spec.measure.span(), message))
         }
     }
+}
+
+/// The ground acceleration of the spectrum that the table `[check]` states.
+fn of_code(
+    periods: Vec<f64>,
+    table: &Spanned<IntensityTable>,
+    place: &Place<'_>,
+) -> Result<IntensityMeasure, SceneError> {
+    let file = CheckFile::parse(place.name(), place.text())?;
+    let code = read(&file).map_err(|error| file.located(error))?;
+    if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
+        return Err(place.error(table.span(), format!("periods: {period} s must be above 0")));
+    }
+    let missing = || {
+        place.error(
+            table.span(),
+            "measure = \"code\" needs the spectrum of the site: ag, F0 and TC of SLV in [check]",
+        )
+    };
+    let shape = code.spectral_shape(&periods).filter(|shape| !shape.is_empty()).ok_or_else(missing)?;
+    Ok(IntensityMeasure::Code { periods, shape })
 }
 
 pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<Levels, SceneError> {

@@ -33,7 +33,7 @@ use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
-use report::{ClassTable, ReportTable, chosen, report};
+use report::{ClassTable, ReliabilityTable, ReportTable, chosen, report, target};
 
 pub use report::{ReportOptions, WallClass};
 
@@ -50,6 +50,8 @@ pub struct StudyFile {
     pub models: Vec<Model>,
     /// Intensity measure.
     pub measure: IntensityMeasure,
+    /// How many of the records are taken, those that fit the spectrum of the site best; all where `None`.
+    pub select: Option<usize>,
     /// Levels \[m/s²\].
     pub levels: Levels,
     /// Free vibration after each record \[s\].
@@ -58,6 +60,8 @@ pub struct StudyFile {
     pub collapse: Collapse,
     /// Options of the report.
     pub report: ReportOptions,
+    /// Probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
+    pub target: f64,
 }
 
 tables! {
@@ -83,6 +87,8 @@ tables! {
         records: Option<Spanned<RecordsTable>>,
         /// What the results show.
         report: Option<Spanned<ReportTable>>,
+        /// What a study of reliability asks.
+        reliability: Option<Spanned<ReliabilityTable>>,
         /// Classes of walls that risk engines see as one.
         #[serde(default)]
         classes: Vec<Spanned<ClassTable>>,
@@ -143,6 +149,7 @@ impl StudyFile {
                 .transpose()?
                 .unwrap_or_default(),
             measure: measure(document.intensity.as_ref(), place)?,
+            select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
             tail,
             collapse: document
                 .collapse_is
@@ -151,6 +158,7 @@ impl StudyFile {
                 .transpose()?
                 .unwrap_or_default(),
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
+            target: target(document.reliability.as_ref(), place)?,
             levels,
             models,
         })

@@ -92,6 +92,32 @@ tables! {
     }
 }
 
+/// Probability of a fall that is not stated.
+const TARGET: f64 = 0.10;
+
+tables! {
+    /// What a study of reliability asks.
+    #[derive(Debug)]
+    pub(super) struct ReliabilityTable {
+        /// Probability of a fall, of a wall that just passes, for which the numbers of the code are sought.
+        #[key(exclusiveMinimum = 0, exclusiveMaximum = 1, default = TARGET)]
+        probability: Option<f64>,
+    }
+}
+
+/// Reads the probability for which the numbers of a code are sought.
+pub(super) fn target(
+    table: Option<&Spanned<ReliabilityTable>>,
+    place: &Place<'_>,
+) -> Result<f64, SceneError> {
+    let Some(table) = table else { return Ok(TARGET) };
+    let target = table.get_ref().probability.unwrap_or(TARGET);
+    if target > 0.0 && target < 1.0 {
+        return Ok(target);
+    }
+    Err(place.error(table.span(), format!("probability = {target} must be above 0 and below 1")))
+}
+
 impl WallClass {
     /// Returns the weights of all its `count` walls, scaled to the sum 1.
     pub fn shares(&self, count: usize) -> Vec<f64> {

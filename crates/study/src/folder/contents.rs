@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, Study};
+use crate::ida::{Case, IntensityMeasure, Study};
 use rocking_wall::scene::fingerprint;
 use run::walls::wall_text;
 use serde::{Deserialize, Serialize};
@@ -18,6 +18,9 @@ pub struct Contents {
     /// Name of the intensity measure.
     pub measure: String,
     pub(crate) measure_details: String,
+    /// Periods of the spectrum of the site \[s\], and its shape, where it is the measure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) spectrum: Option<[Vec<f64>; 2]>,
     pub(crate) levels: String,
     /// Levels \[m/s²\] where all records share them.
     pub(crate) grid: Option<Vec<f64>>,
@@ -72,6 +75,9 @@ pub struct RecordNote {
     pub step_s: f64,
     /// Intensity \[m/s²\].
     pub intensity: f64,
+    /// Its spectrum over that of the site, at each period of the measure; empty for other measures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ratios: Vec<f64>,
 }
 
 /// The description of a study in its folder.
@@ -124,6 +130,7 @@ impl Contents {
                 points: samples.len(),
                 step_s: record.motion.step(),
                 intensity: study.intensity(index),
+                ratios: study.measure().ratios(&record.motion).ok().flatten().unwrap_or_default(),
             }
         });
         Self {
@@ -131,6 +138,10 @@ impl Contents {
             sources: crate::SOURCES.to_owned(),
             measure: study.measure().name(),
             measure_details: study.measure().description(),
+            spectrum: match study.measure() {
+                IntensityMeasure::Code { periods, shape } => Some([periods.clone(), shape.clone()]),
+                _ => None,
+            },
             levels: study.levels().description(),
             grid: study.levels().shared(),
             tail_s: study.tail(),
@@ -198,7 +209,7 @@ impl Contents {
             let models =
                 contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));
             let records = contents.records.iter().map(|record| {
-                let RecordNote { name, fingerprint, points, step_s, intensity } = record;
+                let RecordNote { name, fingerprint, points, step_s, intensity, .. } = record;
                 format!(
                     "record {name}, {points} points of {step_s} s, intensity {intensity} m/s², fingerprint \
                      {fingerprint}"

@@ -57,6 +57,15 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
 /// The intensity measure in words, with its periods.
 fn measure_words(manifest: &Manifest) -> String {
     let contents = &manifest.contents;
+    if let Some([periods, _]) = &contents.spectrum {
+        let periods: Vec<_> = periods.iter().map(f64::to_string).collect();
+        return format!(
+            "a<sub>g</sub>, the ground acceleration of the site’s spectrum that a record is worth: the \
+             geometric mean of its 5&nbsp;%-damped Sa over that spectrum’s S<sub>e</sub>/a<sub>g</sub>, at \
+             {}&nbsp;s",
+            periods.join(", ")
+        );
+    }
     match contents.measure_details.split_once(" over ") {
         Some((measure, periods)) => {
             format!("{}, the geometric mean of 5&nbsp;%-damped Sa at {}", escaped(measure), escaped(periods))

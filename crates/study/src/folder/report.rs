@@ -60,7 +60,7 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     let grid = contents.grid.clone();
     let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report);
     let mut output = Output::new(folder, runs)?;
-    let mut curves = Curves { folder, part: 0, read: VecDeque::new() };
+    let mut curves = Curves::of(folder);
     let of_wall = models.len() * contents.records.len();
     for start in (0..contents.walls.len()).step_by(threads * WALLS_AT_ONCE) {
         let end = (start + threads * WALLS_AT_ONCE).min(contents.walls.len());
@@ -91,16 +91,20 @@ fn survey(folder: &Folder) -> Result<usize, FolderError> {
 }
 
 /// The curves of a folder in the order of their numbers.
-struct Curves<'a> {
+pub(crate) struct Curves<'a> {
     folder: &'a Folder,
     /// The next part to read.
     part: usize,
     read: VecDeque<Curve>,
 }
 
-impl Curves<'_> {
+impl<'a> Curves<'a> {
+    pub(crate) fn of(folder: &'a Folder) -> Self {
+        Self { folder, part: 0, read: VecDeque::new() }
+    }
+
     /// Returns the next `count` curves, and reads as many parts as this takes.
-    fn next_curves(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
+    pub(crate) fn next_curves(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
         while self.read.len() < count {
             let curves = self.folder.part(self.part);
             // it was found complete when the report began, and has been removed or damaged since

@@ -1,5 +1,7 @@
 //! Lognormal curve of maximum likelihood.
 
+use run::bisection::first_true;
+
 use super::normal::cumulative;
 use super::observation::Observation;
 use super::term::{Likelihood, Term};
@@ -17,6 +19,19 @@ impl Lognormal {
     /// Returns the probability of exceedance at an intensity.
     pub fn probability(&self, intensity: f64) -> f64 {
         cumulative(libm::log(intensity / self.median) / self.dispersion)
+    }
+
+    /// Returns the intensity at which the probability of exceedance is that given, between 0 and 1.
+    ///
+    /// ```
+    /// let curve = study::fragility::Lognormal { median: 2.0, dispersion: 0.5 };
+    /// assert!((curve.probability(curve.intensity(0.1)) - 0.1).abs() < 1e-12);
+    /// ```
+    pub fn intensity(&self, probability: f64) -> f64 {
+        // Φ is 0 and 1 at the ends in doubles
+        let reaches = |z: f64| Ok::<_, std::convert::Infallible>(cumulative(z) >= probability);
+        let Ok(z) = first_true([-40.0, 40.0], 64, reaches);
+        self.median * libm::exp(self.dispersion * z)
     }
 }
 

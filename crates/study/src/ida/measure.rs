@@ -18,6 +18,37 @@ pub enum IntensityMeasure {
         /// Periods \[s\].
         periods: Vec<f64>,
     },
+    /// Ground acceleration of the site's spectrum that a motion is worth: the geometric mean, over periods,
+    /// of Sa over the shape of that spectrum.
+    Code {
+        /// Periods \[s\].
+        periods: Vec<f64>,
+        /// Spectrum over its ground acceleration at each period, `S_e`(T)/`a_g` \[-\].
+        shape: Vec<f64>,
+    },
+}
+
+/// How a motion, scaled to the ground acceleration of a spectrum that it is worth, differs from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misfit {
+    /// Least ratio of Sa to the spectrum \[-\].
+    pub least: f64,
+    /// Largest ratio \[-\].
+    pub largest: f64,
+    /// Root of the mean square of the logarithms of the ratios \[-\].
+    pub rms: f64,
+}
+
+impl Misfit {
+    /// Takes the ratios of a motion, or the mean ratios of several.
+    pub fn of(ratios: &[f64]) -> Self {
+        let squares = ratios.iter().map(|ratio| libm::log(*ratio).powi(2)).sum::<f64>();
+        Self {
+            least: ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            largest: ratios.iter().copied().fold(0.0, f64::max),
+            rms: libm::sqrt(squares / ratios.len() as f64),
+        }
+    }
 }
 
 impl Default for IntensityMeasure {
@@ -37,6 +68,32 @@ impl IntensityMeasure {
             Self::Pga => Ok(motion.peak()),
             Self::Sa { period } => Spectrum::default().acceleration(motion, *period),
             Self::AvgSa { periods } => Spectrum::default().average(motion, periods),
+            Self::Code { periods, shape } => {
+                let mean =
+                    shape.iter().map(|ordinate| libm::log(*ordinate)).sum::<f64>() / shape.len() as f64;
+                Ok(Spectrum::default().average(motion, periods)? / libm::exp(mean))
+            }
+        }
+    }
+
+    /// Returns Sa of a motion over the spectrum of the ground acceleration that it is worth, at each period;
+    /// `None` for other measures.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn ratios(&self, motion: &GroundMotion) -> Result<Option<Vec<f64>>, GroundMotionError> {
+        let Self::Code { periods, shape } = self else { return Ok(None) };
+        let worth = self.of(motion)?;
+        let found = Spectrum::default().accelerations(motion, periods)?;
+        Ok(Some(found.iter().zip(shape).map(|(sa, ordinate)| sa / (worth * ordinate)).collect()))
+    }
+
+    /// Returns the periods at which it takes spectra \[s\].
+    pub fn periods(&self) -> &[f64] {
+        match self {
+            Self::Pga => &[],
+            Self::Sa { period } => std::slice::from_ref(period),
+            Self::AvgSa { periods } | Self::Code { periods, .. } => periods,
         }
     }
 
@@ -44,19 +101,24 @@ impl IntensityMeasure {
     pub fn description(&self) -> String {
         match self {
             Self::Pga | Self::Sa { .. } => self.name(),
-            Self::AvgSa { periods } => {
-                let periods: Vec<_> = periods.iter().map(f64::to_string).collect();
-                format!("{} over {} s", self.name(), periods.join(", "))
+            Self::AvgSa { periods } => format!("{} over {} s", self.name(), listed(periods)),
+            Self::Code { periods, shape } => {
+                format!("{} over {} s of a spectrum {}", self.name(), listed(periods), listed(shape))
             }
         }
     }
 
-    /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
+    /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`, `a_g`.
     pub fn name(&self) -> String {
         match self {
             Self::Pga => "PGA".into(),
             Self::Sa { period } => format!("Sa({period} s)"),
             Self::AvgSa { .. } => "AvgSA".into(),
+            Self::Code { .. } => "a_g".into(),
         }
     }
+}
+
+fn listed(values: &[f64]) -> String {
+    values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -47,7 +47,7 @@ use run::walls::NamedWall;
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
-pub use measure::IntensityMeasure;
+pub use measure::{IntensityMeasure, Misfit};
 
 /// Longest free vibration after a record of a study \[s\].
 pub const LONGEST_TAIL: f64 = 1000.0;

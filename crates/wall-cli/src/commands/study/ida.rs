@@ -1,4 +1,5 @@
-//! `wall study ida` and `merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+//! `wall study ida`, `reliability` and `merge`: incremental dynamic analyses, on all cores, interruptible, in
+//! shards.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -10,9 +11,10 @@ use clap::Args;
 use report::counted;
 use report::table::{Column, Digits, Table};
 use run::parallel;
-use study::folder::Folder;
+use study::folder::{Folder, Report};
 use study::ida::Study;
 use study::loaded::LoadedStudy;
+use study::reliability::{self, Reliability};
 
 use crate::output::progress::{self, Progress};
 use crate::output::{self, Console};
@@ -76,13 +78,30 @@ const FILES: [&str; 8] = [
 ];
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    analyse(console, arguments, LoadedStudy::read(&arguments.study)?, None)
+}
+
+/// The same analysis, and after it how safe its walls are where they just pass a check.
+pub(crate) fn reliability(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let loaded = LoadedStudy::read(&arguments.study)?;
+    let reliability = Reliability::of(&loaded)?;
+    analyse(console, arguments, loaded, Some(reliability))
+}
+
+fn analyse(
+    console: &Console<'_>,
+    arguments: &Arguments,
+    loaded: LoadedStudy,
+    reliability: Option<Reliability>,
+) -> Result<()> {
     let path = match (&arguments.output, arguments.study.file_stem()) {
         (Some(path), _) => checked(path)?.clone(),
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
-    console.check_distinct(&loaded.inputs, &FILES.map(|name| path.join(name)))?;
+    let files =
+        FILES.iter().chain(reliability.is_some().then_some(&reliability::FILES).into_iter().flatten());
+    console.check_distinct(&loaded.inputs, &files.map(|name| path.join(name)).collect::<Vec<_>>())?;
     let folder = Folder::of_study(&path, &loaded)?;
     console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
@@ -108,7 +127,13 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
             shard + 1
         ));
     }
-    finish(console, &folder, threads).and(told)
+    finish(console, &folder, threads).and(told)?;
+    let Some(reliability) = reliability else { return Ok(()) };
+    let walls = folder.contents().walls.len();
+    let report = progress::shown(|progress| {
+        reliability::finish(&folder, &reliability, threads, || progress.add(walls, 0))
+    })?;
+    told_of(console, &report)
 }
 
 pub(crate) fn merge(console: &Console<'_>, arguments: &MergeArguments) -> Result<()> {
@@ -222,8 +247,12 @@ fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> 
     let walls = folder.contents().walls.len();
     let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls, 0));
     let report = progress::shown(finished)?;
+    told_of(console, &report)
+}
+
+fn told_of(console: &Console<'_>, report: &Report) -> Result<()> {
     if let Some(warning) = &report.warning {
         console.warn(warning);
     }
-    console.print(&(report.summary + &output::written("written  ", &report.files)))
+    console.print(&(report.summary.clone() + &output::written("written  ", &report.files)))
 }

@@ -16,6 +16,8 @@ pub(crate) enum Command {
     Ida(ida::Arguments),
     /// Merge the shards of an incremental dynamic analysis
     Merge(ida::MergeArguments),
+    /// How safe a wall is that just passes a check by a code
+    Reliability(ida::Arguments),
     /// Rocking spectra: `u_max/u_ins` over walls, or over pulses
     #[command(allow_negative_numbers = true)]
     Spectrum(Box<spectrum::Arguments>),
@@ -28,6 +30,7 @@ pub(crate) enum Command {
 pub(crate) fn run(console: &Console<'_>, command: &Command) -> Result<()> {
     match command {
         Command::Ida(arguments) => ida::run(console, arguments),
+        Command::Reliability(arguments) => ida::reliability(console, arguments),
         Command::Merge(arguments) => ida::merge(console, arguments),
         Command::Spectrum(arguments) => spectrum::run(console, arguments),
         Command::Tie(arguments) => tie::run(console, arguments),

@@ -1,0 +1,127 @@
+//! All walls of a study together: what was found of each, and its fractiles.
+
+use rocking_wall::wall::Wall;
+use run::sample::fractile;
+use run::walls::NamedWall;
+
+use super::rules::Turned;
+use super::wall::WallReliability;
+
+/// Fractiles over the walls.
+pub(super) const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
+
+/// What a class is drawn over: a name, and the value of a wall.
+pub(super) const QUANTITIES: [&str; 4] = ["h/b", "h (m)", "overburden/W", "floor"];
+
+/// A wall among the others.
+#[derive(Clone, Debug)]
+pub(super) struct Member {
+    pub(super) name: String,
+    /// Of the [`QUANTITIES`].
+    pub(super) quantities: [f64; 4],
+    pub(super) found: Vec<Found>,
+    /// The check that governs.
+    pub(super) governs: &'static str,
+    pub(super) turned: Vec<Vec<Turned>>,
+}
+
+/// Margin and probability of an event with a model, where a check has ζ = 1.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) model: usize,
+    pub(super) check: &'static str,
+    pub(super) event: String,
+    pub(super) margin: f64,
+    pub(super) probability: f64,
+}
+
+/// The walls, and those without a check.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Class {
+    pub(super) members: Vec<Member>,
+    /// Names, and the reasons.
+    pub(super) refused: Vec<(String, String)>,
+    /// Walls whose hinge the check has elsewhere than the runs, with both places.
+    pub(super) hinges: Vec<(String, [f64; 2])>,
+}
+
+impl Class {
+    /// Adds a wall.
+    pub(super) fn add(&mut self, wall: &NamedWall, found: &Result<WallReliability, String>) {
+        let found = match found {
+            Ok(found) => found,
+            Err(reason) => return self.refused.push((wall.name.clone(), reason.clone())),
+        };
+        self.hinges.extend(found.hinges.map(|hinges| (wall.name.clone(), hinges)));
+        let mut all = Vec::new();
+        for check in &found.checks {
+            for event in &found.events {
+                for model in 0..event.fragilities.len() {
+                    let of_both = event.margin(model, check.code).zip(event.probability(model, check.code));
+                    all.extend(of_both.map(|(margin, probability)| Found {
+                        model,
+                        check: check.check,
+                        event: event.name.clone(),
+                        margin: margin.estimate,
+                        probability: probability.estimate,
+                    }));
+                }
+            }
+        }
+        self.members.push(Member {
+            name: wall.name.clone(),
+            quantities: quantities(wall),
+            found: all,
+            governs: found.checks.get(found.governs).map_or("", |check| check.check),
+            turned: found.turned.clone(),
+        });
+    }
+
+    /// Lists what was found, in the order of the first wall that has it: model, check, event.
+    pub(super) fn kinds(&self) -> Vec<(usize, &'static str, &str)> {
+        let mut kinds = Vec::new();
+        for found in self.members.iter().flat_map(|member| &member.found) {
+            let kind = (found.model, found.check, found.event.as_str());
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
+        }
+        kinds.sort_by_key(|kind| kind.0);
+        kinds
+    }
+
+    /// Returns what the walls have of a kind, sorted.
+    pub(super) fn sorted(
+        &self,
+        (model, check, event): (usize, &str, &str),
+        of: fn(&Found) -> f64,
+    ) -> Vec<f64> {
+        let is = |found: &&Found| found.model == model && found.check == check && found.event == event;
+        let mut values: Vec<f64> =
+            self.members.iter().flat_map(|member| &member.found).filter(is).map(of).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    /// Returns the fall of each wall with a model, where the check that governs has ζ = 1.
+    pub(super) fn falls(&self, model: usize) -> impl Iterator<Item = (&Member, &Found)> {
+        self.members.iter().filter_map(move |member| {
+            let is = |found: &&Found| {
+                found.model == model && found.check == member.governs && found.event == super::wall::FALL
+            };
+            Some((member, member.found.iter().find(is)?))
+        })
+    }
+}
+
+/// The fractiles of sorted values.
+pub(super) fn fractiles(sorted: &[f64]) -> [Option<f64>; 5] {
+    FRACTILES.map(|part| fractile(sorted, part))
+}
+
+fn quantities(wall: &NamedWall) -> [f64; 4] {
+    let p = &wall.parameters;
+    let weight = Wall::new(p).map_or(f64::NAN, |wall| wall.body().weight);
+    let floor = wall.floors.as_ref().and_then(|floors| floors.supports(p.mechanism).ok());
+    [p.height / p.thickness, p.height, p.overburden / weight, floor.map_or(0.0, |(bottom, _)| bottom as f64)]
+}

@@ -1,0 +1,124 @@
+//! All results of a complete folder: tables and page, made wall by wall.
+
+use std::convert::Infallible;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+use report::counted;
+use run::file::{self, Draft};
+use run::parallel;
+
+use super::class::Class;
+use super::{FILES, Reliability, page, table};
+use crate::document::ReportOptions;
+use crate::folder::{Curves, Folder, FolderError, Report};
+use crate::reliability::wall::WallReliability;
+use crate::results::Fitting;
+
+/// Walls that each thread takes before their rows are written.
+const WALLS_AT_ONCE: usize = 4;
+/// Most walls that a warning names.
+const NAMED: usize = 3;
+
+/// Writes the tables and the page of a study of reliability into a folder whose parts are complete. `done` is
+/// called for each wall.
+///
+/// # Errors
+/// [`FolderError`] if parts are missing, or a file cannot be written.
+pub fn finish(
+    folder: &Folder,
+    reliability: &Reliability,
+    threads: usize,
+    done: impl Fn() + Sync,
+) -> Result<Report, FolderError> {
+    let (manifest, contents) = (folder.manifest(), folder.contents());
+    let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
+    // the resamples are needed of every wall
+    let options: &ReportOptions = &manifest.report;
+    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), options);
+    let paths = FILES.map(|name| folder.path().join(name));
+    let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];
+    let (mut class, mut shown, mut is_begun) = (Class::default(), Vec::new(), false);
+    let mut curves = Curves::of(folder);
+    let of_wall = models.len() * contents.records.len();
+    let count = reliability.walls.len();
+    for start in (0..count).step_by(threads * WALLS_AT_ONCE) {
+        let end = (start + threads * WALLS_AT_ONCE).min(count);
+        let taken = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
+        let found = parallel::map(taken.len(), threads, |place| {
+            let wall = &reliability.walls[start + place];
+            let checked = (wall, reliability.codes.of(wall));
+            let found = WallReliability::of(checked, &taken[place], &fitting, reliability.target);
+            done();
+            Ok::<_, Infallible>(found)
+        });
+        let Ok(found) = found;
+        for (wall, found) in reliability.walls[start..end].iter().zip(&found) {
+            class.add(wall, found);
+            let Ok(found) = found else { continue };
+            let tables = [
+                (&mut rows, table::wall(&wall.name, &models, found)),
+                (&mut rules, table::rules(&wall.name, &models, found, reliability.target)),
+            ];
+            for (draft, table) in tables {
+                let text = if is_begun { table.csv_rows() } else { table.csv() };
+                draft.write(|file| file.write_all(text.as_bytes()))?;
+            }
+            is_begun = true;
+            shown.extend((count <= page::MOST_WALLS).then(|| table::wall(&wall.name, &models, found)));
+        }
+    }
+    let summary = table::summary(&class, &models, reliability.target);
+    file::to_file(&paths[2], summary.csv().as_bytes())?;
+    let html = page::page(manifest, reliability, &class, &shown);
+    file::to_file(&paths[3], html.as_bytes())?;
+    rows.commit(true)?;
+    rules.commit(true)?;
+    Ok(Report {
+        summary: words(&class, &models, reliability.target) + &summary.text(),
+        warning: warning(&class),
+        files: paths.into(),
+    })
+}
+
+/// Says how safe the walls are, model by model.
+pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
+    let mut text = String::new();
+    for (model, name) in models.iter().enumerate() {
+        let mut falls: Vec<f64> = class.falls(model).map(|(_, found)| found.probability).collect();
+        if falls.is_empty() {
+            continue;
+        }
+        falls.sort_by(f64::total_cmp);
+        let above = falls.iter().filter(|probability| **probability > target).count();
+        let [least, .., most] = super::class::fractiles(&falls).map(Option::unwrap_or_default);
+        let median = super::class::fractiles(&falls)[2].unwrap_or_default();
+        // writing to a String cannot fail
+        let _ = writeln!(
+            text,
+            "{name}: {} that just pass{} fall with a probability of {median:.4} in the median ({least:.4} to \
+             {most:.4} from 5 to 95 %); P > {target} for {above}",
+            counted(falls.len(), "wall"),
+            if falls.len() == 1 { "es" } else { "" },
+        );
+    }
+    text
+}
+
+fn warning(class: &Class) -> Option<String> {
+    let mut told = Vec::new();
+    if let Some((name, [own, checked])) = class.hinges.first() {
+        told.push(format!(
+            "{}: the runs have the hinge elsewhere than the check, wall {name:?} at {own} h and {checked:.4} h; \
+             state hinge_ratio in [geometry] for both",
+            counted(class.hinges.len(), "wall")
+        ));
+    }
+    if !class.refused.is_empty() {
+        let named = class.refused.iter().take(NAMED).map(|(name, reason)| format!("{name:?}: {reason}"));
+        let named: Vec<_> = named.collect();
+        let count = counted(class.refused.len(), "wall");
+        told.push(format!("{count} not checked, {}", named.join("; ")));
+    }
+    (!told.is_empty()).then(|| told.join("; "))
+}

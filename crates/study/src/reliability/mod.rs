@@ -1,0 +1,103 @@
+//! How safe a wall is that just passes a check by a code.
+//!
+//! The runs are those of an incremental dynamic analysis. Its intensity is the ground acceleration `a_g` of
+//! the site's spectrum that a record is worth, so that a fragility can be read where the check has ζ = 1:
+//!
+//! ```text
+//! a_g,code = ζ a_g                   the ground acceleration with which the wall just passes the check
+//! P(event | a_g,code) = Φ(ln(a_g,code/θ)/β)        margin = θ/a_g,code
+//! ```
+//!
+//! An event is that |u| exceeds the displacement capacity of a check, or that the wall falls.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `wall` | one wall: its checks, its events, their probabilities |
+//! | `rules` | the numbers of the code that would give a stated probability |
+//! | `class` | all walls together |
+//! | `table` | the tables |
+//! | `page` | the page |
+//! | `finish` | all results of a complete folder |
+
+mod class;
+mod finish;
+mod page;
+mod rules;
+mod table;
+mod wall;
+
+use check::{CheckFile, WallCodes};
+use rocking_wall::scene::SceneError;
+use run::walls::NamedWall;
+
+use crate::ida::IntensityMeasure;
+use crate::loaded::LoadedStudy;
+
+pub use finish::finish;
+pub use rules::Turned;
+pub use wall::{Checkpoint, Event, WallReliability};
+
+/// Files of the results, beside those of the analysis.
+pub const FILES: [&str; 4] =
+    ["reliability.csv", "reliability_rules.csv", "reliability_summary.csv", "reliability.html"];
+
+/// The question: the walls of a study, and the codes that check them.
+pub struct Reliability {
+    title: String,
+    codes: WallCodes,
+    walls: Vec<NamedWall>,
+    target: f64,
+}
+
+impl Reliability {
+    /// Reads the table `[check]` of a study, and sees that runs and checks concern the same buildings.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the table; of a measure that is not that of the code; of a check that takes runs; of
+    /// a building that only one of both sides has; of a tie that only the check has.
+    pub fn of(loaded: &LoadedStudy) -> Result<Self, SceneError> {
+        let name =
+            loaded.inputs.first().map_or_else(|| "the study".into(), |path| path.display().to_string());
+        let refused = |reason: String| Err(SceneError::File { file: name.clone(), reason });
+        let walls = loaded.study.walls().to_vec();
+        let codes = WallCodes::read(&CheckFile::parse(&name, loaded.text())?, &walls)?;
+        if !matches!(loaded.study.measure(), IntensityMeasure::Code { .. }) {
+            return refused(
+                "a study of reliability needs a_g of the site as intensity; set intensity = { measure = \
+                 \"code\" }"
+                    .into(),
+            );
+        }
+        for wall in &walls {
+            let code = codes.of(wall);
+            if code.takes_runs() {
+                return refused(
+                    "[check] takes runs; a study of reliability reads the static check: leave out method = \
+                     \"dynamic\", and give F0 and TC"
+                        .into(),
+                );
+            }
+            if code.states_building() && wall.floors.is_none() {
+                return refused(format!(
+                    "wall {:?}: the building of [check] is not in the runs; give [[storeys]] in place of \
+                     [check.building]",
+                    wall.name
+                ));
+            }
+            let prepared = code.prepared(&wall.parameters);
+            if prepared.is_ok_and(|prepared| prepared != wall.parameters) {
+                return refused(format!(
+                    "wall {:?}: the bar of [check.tie] is not in the runs; give it in [tie] of the wall",
+                    wall.name
+                ));
+            }
+        }
+        let title = loaded.title.clone();
+        Ok(Self { title, codes, walls, target: loaded.target() })
+    }
+
+    /// Returns the probability for which the numbers of the code are sought \[-\].
+    pub fn target(&self) -> f64 {
+        self.target
+    }
+}

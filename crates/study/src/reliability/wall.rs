@@ -1,0 +1,204 @@
+//! One wall: its checks, its events, and the probabilities of the ones where the others have ζ = 1.
+
+use check::{Code, Subject, Verdict};
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::Wall;
+use run::walls::NamedWall;
+
+use crate::fragility::{CONFIDENCE, Interval, Lognormal, Summary};
+use crate::ida::{Crossing, Curve, Exceedance};
+use crate::results::Fitting;
+
+use super::rules::{self, Turned};
+
+/// Fewest records whose mean demand counts, NTC 7.3.5; of fewer it is the largest.
+const MEAN_COUNTS_FROM: usize = check::circolare::MEAN_COUNTS_FROM;
+
+/// Name of the event that the wall falls.
+pub(super) const FALL: &str = "fall";
+
+/// Hinges that differ by less are the same, of h \[-\].
+const SAME_HINGE: f64 = 1e-6;
+
+/// A check of a wall, of its sides the less favourable one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// Name of the check, such as `SLV`.
+    pub check: &'static str,
+    /// Whether it decides.
+    pub decides: bool,
+    /// Capacity over demand \[-\].
+    pub zeta: f64,
+    /// Ground acceleration with which the wall just passes \[m/s²\].
+    pub code: f64,
+    /// That of the site \[m/s²\].
+    pub site: f64,
+}
+
+/// An event, with a fragility of each damping model.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Its name: `beyond d_SLV`, `fall`.
+    pub name: String,
+    /// The check whose capacity is exceeded; `None` of a fall.
+    pub check: Option<&'static str>,
+    /// |u|/`u_ins` that is exceeded \[-\].
+    pub fraction: f64,
+    /// The fragilities, model by model, over `a_g` \[m/s²\].
+    pub fragilities: Vec<Summary>,
+    /// `a_g` at which the mean demand of 7 records and more, or the largest of fewer, reaches the fraction,
+    /// model by model; infinite above the levels \[m/s²\].
+    pub dynamic: Vec<f64>,
+    /// Where each record exceeds the fraction, model by model.
+    exceedances: Vec<Vec<Exceedance>>,
+}
+
+/// The reliability of one wall.
+#[derive(Clone, Debug)]
+pub struct WallReliability {
+    /// What is checked, as the code has it.
+    pub checks: Vec<Checkpoint>,
+    /// Place of the check that governs.
+    pub governs: usize,
+    /// Events, the fall last.
+    pub events: Vec<Event>,
+    /// The numbers of the code that would give the target, model by model.
+    pub turned: Vec<Vec<Turned>>,
+    /// Where the hinge of a strip is in the runs and in the check, where it differs \[-\].
+    pub hinges: Option<[f64; 2]>,
+}
+
+impl WallReliability {
+    /// Asks how safe a wall is with which a code is content. `curves` has models outermost.
+    ///
+    /// # Errors
+    /// The reason why there is no check.
+    pub(super) fn of(
+        (wall, code): (&NamedWall, &dyn Code),
+        curves: &[Curve],
+        fitting: &Fitting,
+        target: f64,
+    ) -> Result<Self, String> {
+        let NamedWall { parameters, floors, assumed, .. } = wall;
+        let subject = Subject { parameters, floors: floors.as_ref(), assumed };
+        // records that only inform have no part here
+        let deciding = code.deciding();
+        let code = deciding.as_deref().unwrap_or(code);
+        let verdict = code.check(subject).map_err(|error| error.to_string())?;
+        let checks = checkpoints(&verdict);
+        let governs = checks.iter().position(|one| one.check == verdict.governs).unwrap_or(0);
+        let limits = limits(&verdict, verdict.details.wall());
+        let fractions: Vec<f64> = limits.iter().map(|(_, fraction)| *fraction).collect();
+        let (records, models) = (fitting.records(), curves.len() / fitting.records());
+        let of_model = |model: usize| &curves[model * records..(model + 1) * records];
+        let fitted = fitting.summaries(curves, &fractions);
+        let events = limits.into_iter().zip(fitted).map(|((check, fraction), fragilities)| Event {
+            name: check.map_or_else(|| FALL.into(), |check| format!("beyond d_{check}")),
+            check,
+            fraction,
+            fragilities,
+            dynamic: (0..models).map(|model| dynamic(of_model(model), fraction)).collect(),
+            exceedances: (0..models)
+                .map(|model| {
+                    let exceeds = |curve: &Curve| curve.exceedance(fraction, Crossing::First, false);
+                    of_model(model).iter().map(exceeds).collect()
+                })
+                .collect(),
+        });
+        let events: Vec<Event> = events.collect();
+        let fall = events.last().map_or(&[][..], |fall| &fall.fragilities);
+        let fall: Vec<Option<Lognormal>> = fall.iter().map(|summary| summary.fitted.ok()).collect();
+        let turned = rules::turned((code, subject), &checks, &fall, target);
+        let hinges = [parameters.hinge_ratio, verdict.details.parameters().hinge_ratio];
+        let differs =
+            parameters.mechanism == Mechanism::VerticalSpanning && (hinges[0] - hinges[1]).abs() > SAME_HINGE;
+        Ok(Self { checks, governs, events, turned, hinges: differs.then_some(hinges) })
+    }
+}
+
+impl Event {
+    /// The probability of the event at `a_g`, with its interval; `None` without a curve.
+    pub fn probability(&self, model: usize, ground: f64) -> Option<Interval> {
+        let summary = &self.fragilities[model];
+        let curve = summary.fitted.ok()?;
+        let of = |[median, dispersion]: &[f64; 2]| {
+            let curve = Lognormal { median: *median, dispersion: *dispersion };
+            curve.probability(ground)
+        };
+        Some(Interval::new(curve.probability(ground), summary.resamples.iter().map(of), CONFIDENCE))
+    }
+
+    /// θ over `a_g`, with its interval; `None` without a curve.
+    pub fn margin(&self, model: usize, ground: f64) -> Option<Interval> {
+        let summary = &self.fragilities[model];
+        let curve = summary.fitted.ok()?;
+        let medians = summary.resamples.iter().map(|[median, _]| median / ground);
+        Some(Interval::new(curve.median / ground, medians, CONFIDENCE))
+    }
+
+    /// How many of the records lead to the event at `a_g` or below it.
+    pub fn records(&self, model: usize, ground: f64) -> usize {
+        self.exceedances[model].iter().filter(|exceedance| exceedance.or_infinity() <= ground).count()
+    }
+}
+
+/// The checks of a verdict that state a ground acceleration, of the sides the less favourable one.
+fn checkpoints(verdict: &Verdict<'_>) -> Vec<Checkpoint> {
+    let mut checks: Vec<Checkpoint> = Vec::new();
+    for row in &verdict.rows {
+        let Some([code, site]) = row.ground.map(|ground| ground.map(|ag| ag * verdict.code.gravity)) else {
+            continue;
+        };
+        let one = Checkpoint { check: row.check, decides: row.decides, zeta: row.zeta, code, site };
+        match checks.iter_mut().find(|known| known.check == row.check) {
+            Some(known) if known.code <= one.code => {}
+            Some(known) => *known = one,
+            None => checks.push(one),
+        }
+    }
+    checks
+}
+
+/// The checks by displacement with |u|/`u_ins` at their capacities, of the sides the smaller one, and the
+/// fall.
+fn limits(verdict: &Verdict<'_>, wall: &Wall) -> Vec<(Option<&'static str>, f64)> {
+    let mut limits: Vec<(Option<&'static str>, f64)> = Vec::new();
+    for row in &verdict.rows {
+        let Some(u) = row.displacement else { continue };
+        let sign = if row.side == check::circolare::Side::Negative.name() { -1.0 } else { 1.0 };
+        let fraction = (u / wall.body().instability.of(sign)).min(1.0);
+        match limits.iter_mut().find(|known| known.0 == Some(row.check)) {
+            Some(known) => known.1 = known.1.min(fraction),
+            None => limits.push((Some(row.check), fraction)),
+        }
+    }
+    limits.push((None, 1.0));
+    limits
+}
+
+/// Returns the lowest intensity at which a wall fails under its records, NTC 7.3.5: the mean of the demands
+/// of 7 and more, or the largest of fewer, reaches `fraction`, or one record overturns it.
+fn dynamic(curves: &[Curve], fraction: f64) -> f64 {
+    let lowest = |fraction: f64| {
+        let first = |curve: &Curve| curve.exceedance(fraction, Crossing::First, false).or_infinity();
+        curves.iter().map(first).fold(f64::INFINITY, f64::min)
+    };
+    if curves.len() < MEAN_COUNTS_FROM || fraction >= 1.0 {
+        return lowest(fraction);
+    }
+    let falls = lowest(1.0);
+    let mut levels: Vec<f64> = curves.iter().flat_map(Curve::runs).map(|run| run.intensity).collect();
+    levels.sort_by(f64::total_cmp);
+    // the mean is straight between levels
+    let mut before = [0.0, 0.0];
+    for level in levels.into_iter().take_while(|level| *level < falls) {
+        let demands: Option<Vec<f64>> = curves.iter().map(|curve| curve.demand(level)).collect();
+        let Some(demands) = demands else { break };
+        let mean = demands.iter().sum::<f64>() / demands.len() as f64;
+        if mean >= fraction && mean.is_finite() {
+            return before[0] + (level - before[0]) * (fraction - before[1]) / (mean - before[1]);
+        }
+        before = [level, mean];
+    }
+    falls
+}
