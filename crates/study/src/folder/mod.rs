@@ -26,7 +26,7 @@ mod comparison;
 mod compute;
 mod contents;
 mod error;
-pub(crate) mod legend;
+mod legend;
 mod nrml;
 mod page;
 mod part;

@@ -149,7 +149,7 @@ impl Levels {
                 top(highest)?;
                 check_range("first", first, acceleration, [f64::MIN_POSITIVE, highest])?;
                 check_range("increase", increase, acceleration, [0.0, highest])?;
-                check_range("resolution", resolution, number, [1e-6, 1.0])?;
+                check_range("resolution", resolution, number, [1e-12, 1.0])?;
                 check_range("gap", gap, number, [0.01, 1.0])?;
                 count(hunt([first, increase, highest]).count() as f64)
             }

@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use report::page::Page;
-use report::palette::{GREY, PALE, RED, SERIES, sign};
+use report::palette::{BLUE, GREY, PALE, RED, SERIES, sign};
 use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
 use report::{counted, escaped};
 
 use super::class::{Class, QUANTITIES};
 use super::{Reliability, finish, table};
-use crate::folder::{Manifest, legend};
+use crate::folder::Manifest;
 use crate::ida::Misfit;
 use crate::tables::in_g;
 
@@ -176,7 +176,7 @@ fn records(manifest: &Manifest) -> Option<String> {
     series.extend(
         BAND.map(|bound| Series { look: Look::Dashed, ..Series::stroke(GREY, 1.0, over(&|_| bound)) }),
     );
-    series.push(Series::stroke(legend::looks(manifest)[0].0, 2.0, over(&|place| means[place])));
+    series.push(Series::stroke(BLUE, 2.0, over(&|place| means[place])));
     series.push(Series::stroke(RED, 2.0, over(&|_| 1.0)));
     let plot = Plot::new(SIZE, [Axis::new("T (s)"), Axis::new("S_a/a_g")], series);
     let Misfit { least, largest, .. } = misfit(&means);

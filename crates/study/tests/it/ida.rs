@@ -267,7 +267,7 @@ fn what_cannot_run_is_refused() {
     refused(walls(), records(1), cr(), Levels::Grid(vec![]), &["number", "0", "2000"]);
     refused(walls(), records(1), cr(), Levels::ToOverturning { step: 1e-4, top: 10.0 }, &["number", "2000"]);
     let coarse = Levels::HuntAndFill { first: 0.1, increase: 0.1, top: 9.0, resolution: 0.0, gap: 0.1 };
-    refused(walls(), records(1), cr(), coarse, &["resolution", "1e-6 to 1"]);
+    refused(walls(), records(1), cr(), coarse, &["resolution", "1e-12 to 1"]);
     let error = study(HUNT, cr()).with_tail(-1.0).unwrap_err();
     assert!(matches!(error, IdaError::Tail { value } if value == -1.0));
 }

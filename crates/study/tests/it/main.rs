@@ -13,6 +13,7 @@ mod fragility;
 mod ida;
 mod messages;
 mod record_files;
+mod reliability;
 mod rocking_spectrum;
 mod storeys;
 mod ties;
