@@ -7,16 +7,17 @@
 use check::{Code, Rule, Subject};
 
 use crate::fragility::Lognormal;
-use run::bisection::first_true;
 
 use super::wall::Checkpoint;
 
-/// Numbers at which a rule is tried first, on each side of that of the code.
-const TRIED: i32 = 24;
-/// Fractions of `d_0` that are tried, by their number.
-const FRACTIONS: i32 = 50;
-/// Halvings of a step between two of them: to 1e-9 of it.
-const HALVINGS: u32 = 30;
+/// Numbers at which a factor is tried, on each side of that of the code, and how many double it.
+const TRIED: i32 = 9;
+const TO_DOUBLE: f64 = 3.0;
+/// Fractions of `d_0` that are tried: the first, in equal steps to below 1.
+const FIRST: f64 = 0.05;
+/// How near ln `a_g` comes to what is wanted, and the bound on the steps to it; six are usual.
+const NEAR: f64 = 1e-10;
+const MOST_STEPS: usize = 60;
 
 /// A number of the code, and the one that would give the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +52,7 @@ pub(super) fn turned(
                 least.is_finite().then(|| libm::log(least * verdict.code.gravity))
             };
             let tried: Vec<(f64, f64)> =
-                candidates(rule, own).filter_map(|value| Some((value, ground(value)?))).collect();
+                candidates(rule, own).into_iter().filter_map(|value| Some((value, ground(value)?))).collect();
             for (of_model, curve) in turned.iter_mut().zip(fall) {
                 let wanted = curve.map(|curve| libm::log(curve.intensity(target)));
                 let value = wanted.and_then(|wanted| nearest(&tried, own, wanted, &ground));
@@ -63,12 +64,12 @@ pub(super) fn turned(
 }
 
 /// Numbers at which a rule is tried, in rising order.
-fn candidates(rule: Rule, own: f64) -> Box<dyn Iterator<Item = f64>> {
+fn candidates(rule: Rule, own: f64) -> Vec<f64> {
     match rule {
-        Rule::Fraction => Box::new((1..FRACTIONS).map(|k| f64::from(k) / f64::from(FRACTIONS))),
+        Rule::Fraction => (1..20).map(|k| FIRST * f64::from(k)).collect(),
         // an eighth to eight times the number of the code
         Rule::PeriodFactor | Rule::BehaviourFactor => {
-            Box::new((-TRIED..=TRIED).map(move |k| own * libm::exp2(f64::from(k) / 8.0)))
+            (-TRIED..=TRIED).map(|k| own * libm::exp2(f64::from(k) / TO_DOUBLE)).collect()
         }
     }
 }
@@ -81,9 +82,28 @@ fn nearest(tried: &[(f64, f64)], own: f64, wanted: f64, ground: &impl Fn(f64) ->
         of(pair[0]).min(of(pair[1]))
     };
     let pair = crosses.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let rises = pair[0].1 < wanted;
-    first_true([pair[0].0, pair[1].0], HALVINGS, |value| {
-        ground(value).map(|found| (found >= wanted) == rises).ok_or(())
+    between([pair[0], pair[1]].map(|(value, found)| (libm::log(value), found - wanted)), |logarithm| {
+        Some(ground(libm::exp(logarithm))? - wanted)
     })
-    .ok()
+    .map(libm::exp)
+}
+
+/// Finds a zero between two places at which a function has different signs, by false positions; where one end
+/// stays, its value is halved (Illinois). M. Dowell, P. Jarratt: A modified regula falsi method for computing
+/// the root of an equation. BIT 11, 1971, 168–174.
+fn between([mut a, mut b]: [(f64, f64); 2], f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    for _ in 0..MOST_STEPS {
+        let x = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
+        let found = f(x)?;
+        if found.abs() <= NEAR {
+            return Some(x);
+        }
+        if (found < 0.0) == (b.1 < 0.0) {
+            a.1 *= 0.5;
+        } else {
+            a = b;
+        }
+        b = (x, found);
+    }
+    None
 }
