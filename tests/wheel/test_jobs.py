@@ -519,3 +519,23 @@ def test_what_is_no_study(record, parts, error, words):
     }
     with pytest.raises(error, match=words):
         rw.Study(**{**whole, **parts})
+
+
+def test_reliability_is_that_of_the_program(program, tmp_path):
+    text = (ROOT / "docs/tutorials/reliability.md").read_text(encoding="utf-8")
+    path = tmp_path / "study.toml"
+    path.write_text(text.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    program("study", "reliability", path, "-o", tmp_path / "results")
+    found = rw.Study.from_toml(path).reliability(progress=False)
+    assert repr(found) == "ReliabilityResults(3 walls)"
+    for table, name in ((found.walls, ""), (found.rules, "_rules"), (found.summary, "_summary")):
+        assert_table(table, tmp_path / "results" / f"reliability{name}.csv")
+    site = {"ag": 0.15, "F0": 2.45, "TC": 0.32}
+    check = {"code": "circolare-2019", "before_activation": "law", "soil": "B", "SLV": site}
+    levels = {"method": "step", "step": 0.05, "top": 2}
+    parts = {"walls": [rw.Wall(height=1.5, thickness=0.3, a1=0.05)], "models": ["CR"], "levels": levels}
+    motions = [rw.synthetic_record(seed) for seed in range(1, 9)]
+    study = rw.Study(records=motions, intensity={"measure": "code"}, check=check, **parts)
+    assert study.measure == "a_g" and len(study.reliability(progress=False).walls["wall"]) == 4
+    with pytest.raises(ValueError, match='measure = "code"'):
+        rw.Study(records=motions, intensity={"measure": "PGA"}, check=check, **parts).reliability(progress=False)

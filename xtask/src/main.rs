@@ -22,6 +22,7 @@ mod playground;
 mod portable;
 mod python;
 mod release;
+mod reliability;
 mod test;
 mod wheel;
 
@@ -67,6 +68,8 @@ The jobs of the project.
                                    write docs/accuracy.md, docs/validation.md, docs/verification.md, the
                                    pages, and the pictures of docs/images
   cargo xtask figures --images     only the pictures of README and docs
+  cargo xtask figures --reliability
+                                   only docs/reliability.md; with ROCKING_WALL_RECORDS under recorded motions too
   cargo xtask figures --validation only docs/validation.md and its pictures
   cargo xtask figures --verification
                                    only docs/verification.md
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", "--images"] => images::run(),
+        ["figures", "--reliability"] => reliability::run(),
         ["figures", "--validation"] => figures::validation(),
         ["figures", "--verification"] => figures::verification(),
         ["figures", record] => figures::run(Some(record)),

@@ -17,6 +17,7 @@ use study::document::ReportOptions;
 use study::folder::{Contents, encode};
 use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
+use study::reliability::Reliability;
 use study::results::Fitting;
 use study::tables::{KINDS, Kind, Names};
 
@@ -179,6 +180,23 @@ impl Study {
         };
         let [levels, collapses, fragilities] = KINDS.map(of);
         Ok([levels?, collapses?, fragilities?])
+    }
+
+    /// Runs the study and returns how safe its walls are where they just pass their check: its tables, and
+    /// the walls without a check with the reasons. `progress` is called with the number of combinations done.
+    fn reliability<'py>(
+        &self,
+        py: Python<'py>,
+        threads: Option<&Bound<'py, PyAny>>,
+        progress: &Bound<'py, PyAny>,
+    ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<(String, String)>)> {
+        let LoadedStudy { study, report, .. } = &self.loaded;
+        let question = Reliability::of(&self.loaded).map_err(of_scene)?;
+        let threads = threads_of(threads)?.get();
+        let curves = self.curves(py, threads, progress)?;
+        let found = || study::reliability::tables(&question, (study, report), &curves, threads);
+        let ([rows, rules, summary], refused) = py.detach(found);
+        Ok(([table(py, rows)?, table(py, rules)?, table(py, summary)?], refused))
     }
 }
 

@@ -27,7 +27,7 @@ from ._records import (
 )
 from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict, verify
-from ._studies import Study, StudyResults
+from ._studies import ReliabilityResults, Study, StudyResults
 from ._tables import Table
 from ._walls import Description, Storey, Wall, package
 
@@ -44,6 +44,7 @@ __all__ = [
     "Parameters",
     "Peaks",
     "Record",
+    "ReliabilityResults",
     "Response",
     "RockingSpectrum",
     "Storey",

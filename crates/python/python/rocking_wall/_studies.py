@@ -49,6 +49,28 @@ class StudyResults(Tabular):
         return self.fragilities._repr_html_()
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class ReliabilityResults(Tabular):
+    """How safe the walls of a study are where they just pass their check, as the tables that
+    `wall study reliability` writes."""
+
+    _main = "walls"
+
+    walls: Table
+    """A row for each wall, damping model, check and event: a_g with which the wall just passes, θ and β of the
+    event, margin θ/a_g and probability P, with 95 % intervals."""
+    rules: Table
+    """The numbers of the code that would give the stated probability of a fall."""
+    summary: Table
+    """Fractiles of margins and probabilities over the walls."""
+
+    def __repr__(self) -> str:
+        return f"ReliabilityResults({len(set(self.walls['wall']))} walls)"
+
+    def _repr_html_(self) -> str:
+        return self.summary._repr_html_()
+
+
 class Study:
     """An incremental dynamic analysis: walls, records, damping models, intensity measure and levels.
 
@@ -86,6 +108,8 @@ class Study:
         collapse_is: str | None = None,
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
+        check: Mapping[str, Any] | None = None,
+        reliability: Mapping[str, Any] | None = None,
     ) -> None:
         """Reads a study file, or makes a study of its parts.
 
@@ -97,11 +121,14 @@ class Study:
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
+            `{"measure": "code"}` is a_g of the site that `check` states.
         :param tail: Free vibration after each record [s]; by default 10.
         :param collapse_is: Which runs have collapsed: those that exceed u_ins ("exceeds", the default), or
             those that do not come back ("falls").
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
+        :param check: The table `[check]`, for `reliability`.
+        :param reliability: What `reliability` asks, such as `{"probability": 0.1}`.
 
         Raises `ValueError` and `TypeError` for what cannot be used, `FileNotFoundError` for a file that is
         missing.
@@ -109,6 +136,7 @@ class Study:
         parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
         options["classes"], options["collapse_is"] = classes, collapse_is
+        options["check"], options["reliability"] = check, reliability
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:
@@ -159,6 +187,18 @@ class Study:
         with bar(len(self), progress) as report:
             tables = self._native.run(threads, report)
         return StudyResults(*(Table(table) for table in tables))
+
+    def reliability(self, *, threads: int | None = None, progress: bool = True) -> ReliabilityResults:
+        """Runs the study and asks how safe its walls are where they just pass their check.
+
+        The study needs `check`, and `intensity={"measure": "code"}`. Walls that cannot be checked are left
+        out, with a warning. Otherwise as `run`.
+        """
+        with bar(len(self), progress) as report:
+            tables, refused = self._native.reliability(threads, report)
+        for name, reason in refused:
+            warn(f"wall {name!r} is not checked: {reason}", stacklevel=2)
+        return ReliabilityResults(*(Table(table) for table in tables))
 
 
 def named_walls(walls: Any) -> list[tuple[str, Any]]:

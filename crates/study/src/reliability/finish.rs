@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 use report::counted;
+use report::table::Table;
 use run::file::{self, Draft};
 use run::parallel;
 
@@ -12,6 +13,7 @@ use super::class::Class;
 use super::{FILES, Reliability, page, table};
 use crate::document::ReportOptions;
 use crate::folder::{Curves, Folder, FolderError, Report};
+use crate::ida::{Curve, Study};
 use crate::reliability::wall::WallReliability;
 use crate::results::Fitting;
 
@@ -33,9 +35,7 @@ pub fn finish(
 ) -> Result<Report, FolderError> {
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
-    // the resamples are needed of every wall
-    let options: &ReportOptions = &manifest.report;
-    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), options);
+    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), &manifest.report);
     let paths = FILES.map(|name| folder.path().join(name));
     let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];
     let (mut class, mut shown, mut is_begun) = (Class::default(), Vec::new(), false);
@@ -79,6 +79,38 @@ pub fn finish(
         warning: warning(&class),
         files: paths.into(),
     })
+}
+
+/// Returns the tables of the curves of all walls in memory: wall by wall, the numbers of the code, and the
+/// summary. Walls without a check are left out, with their names and the reasons.
+pub fn tables(
+    reliability: &Reliability,
+    (study, report): (&Study, &ReportOptions),
+    curves: &[Curve],
+    threads: usize,
+) -> ([Table; 3], Vec<(String, String)>) {
+    let models: Vec<_> = study.models().iter().map(|model| model.name.as_str()).collect();
+    let fitting = Fitting::new(study.records().len(), &models, study.levels().shared(), report);
+    let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
+    let found = parallel::map(of_wall.len(), threads, |place| {
+        let wall = &reliability.walls[place];
+        let checked = (wall, reliability.codes.of(wall));
+        Ok::<_, Infallible>(WallReliability::of(checked, of_wall[place], &fitting, reliability.target))
+    });
+    let Ok(found) = found;
+    let (mut class, mut rows, mut rules) = (Class::default(), Table::default(), Table::default());
+    for (wall, found) in reliability.walls.iter().zip(&found) {
+        class.add(wall, found);
+        let Ok(found) = found else { continue };
+        let of_wall = table::wall(&wall.name, &models, found);
+        let turned = table::rules(&wall.name, &models, found, reliability.target);
+        for (all, own) in [(&mut rows, of_wall), (&mut rules, turned)] {
+            all.columns = own.columns;
+            all.rows.extend(own.rows);
+        }
+    }
+    let summary = table::summary(&class, &models, reliability.target);
+    ([rows, rules, summary], class.refused)
 }
 
 /// Says how safe the walls are, model by model.

@@ -33,7 +33,7 @@ use run::walls::NamedWall;
 use crate::ida::IntensityMeasure;
 use crate::loaded::LoadedStudy;
 
-pub use finish::finish;
+pub use finish::{finish, tables};
 pub use rules::Turned;
 pub use wall::{Checkpoint, Event, WallReliability};
 

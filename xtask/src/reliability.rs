@@ -1,0 +1,217 @@
+//! `cargo xtask figures --reliability`: how safe walls are that just pass the Italian check, for
+//! `docs/reliability.md`. About 1,000 walls on soils A to D, on the ground and on a building of three storeys.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::command::{Result, make_folder, read, remove_folder, root, write};
+use crate::figures::write_marked;
+use crate::images::wall;
+
+const DOCUMENT: &str = "docs/reliability.md";
+const FOLDER: &str = "target/reliability";
+/// Walls of a kind on one soil at one place.
+const WALLS: u32 = 42;
+const SOILS: [&str; 4] = ["A", "B", "C", "D"];
+/// Generators of the R4 sequence, which fills four dimensions evenly. M. Roberts: The unreasonable
+/// effectiveness of quasirandom sequences, 2018.
+const SEQUENCE: [f64; 4] =
+    [0.856_674_883_854_503, 0.733_891_856_627_126, 0.628_706_721_503_856, 0.538_597_255_722_361];
+/// Probability of a fall above which walls are counted.
+const LIMIT: f64 = 0.10;
+
+/// A kind of wall.
+struct Kind {
+    name: &'static str,
+    /// Damping models: viscous ones do not go with one-sided rocking.
+    models: &'static str,
+    /// What the check states of it.
+    check: &'static str,
+    /// Its floors in the building.
+    supports: &'static str,
+    /// Height \[m\] and slenderness.
+    ranges: [[f64; 2]; 2],
+}
+
+const KINDS: [Kind; 3] = [
+    Kind {
+        name: "parapets",
+        models: "[\"CR\", \"CDR\"]",
+        check: "before_activation = \"law\"",
+        supports: "{ bottom = 3 }",
+        ranges: [[0.6, 3.0], [3.0, 12.0]],
+    },
+    Kind {
+        name: "façades",
+        models: "[\"CR\"]",
+        check: "before_activation = \"rigid\"\noverburden_mass = 0",
+        supports: "{ bottom = 2 }",
+        ranges: [[4.0, 12.0], [8.0, 16.0]],
+    },
+    Kind {
+        name: "strips",
+        models: "[\"CR\", \"CDR\"]",
+        check: "before_activation = \"law\"",
+        supports: "{ bottom = 2, top = 3 }",
+        ranges: [[2.5, 5.0], [8.0, 16.0]],
+    },
+];
+
+/// Computes the tables under the program's own motions, and, where `ROCKING_WALL_RECORDS` names their folder,
+/// under recorded ones; writes them into the document.
+pub(crate) fn run() -> Result<()> {
+    let mut figures = vec![("synthetic", tables("synthetic", "synthetic = { count = 30 }")?)];
+    if let Some(folder) = std::env::var_os("ROCKING_WALL_RECORDS") {
+        let files = Path::new(&folder).join("RSN*.AT2");
+        figures
+            .push(("recorded", tables("recorded", &format!("files = [{:?}]", files.display().to_string()))?));
+    } else {
+        println!("the table of recorded motions stays as it is: name their folder in ROCKING_WALL_RECORDS");
+    }
+    write_marked(DOCUMENT, &figures)?;
+    println!("written {DOCUMENT}");
+    Ok(())
+}
+
+/// Margin and probability of the fall of a wall.
+type Fall = [f64; 2];
+
+fn tables(motions: &str, records: &str) -> Result<String> {
+    let folder = root().join(FOLDER).join(motions);
+    // the folder of a study by another build would be refused
+    remove_folder(&folder)?;
+    make_folder(&folder)?;
+    // by kind, place, check and model; and by kind, place, soil
+    let (mut all, mut by_soil) = (BTreeMap::<_, Vec<Fall>>::new(), BTreeMap::<_, Vec<Fall>>::new());
+    for (order, kind) in KINDS.iter().enumerate() {
+        write(folder.join(format!("{}.csv", kind.name)), walls(order, kind))?;
+        for soil in SOILS {
+            for place in ["ground", "storeys"] {
+                let name = format!("{}_{soil}_{place}", kind.name);
+                let file = folder.join(format!("{name}.toml"));
+                write(&file, study(kind, soil, place, records))?;
+                let [file, results] = [file, folder.join(&name)].map(|path| path.display().to_string());
+                wall(&["study", "reliability", &file, "-o", &results])?;
+                for ((check, model), falls) in falls(&Path::new(&results).join("reliability.csv"))? {
+                    if model == "CR" && check != "SLV with q" {
+                        by_soil.entry((order, place, check.clone(), soil)).or_default().extend(&falls);
+                    }
+                    all.entry((order, place, check, model)).or_default().extend(falls);
+                }
+            }
+        }
+    }
+    let mut text = String::from(
+        "\n| walls | place | check | model | θ/a_g,code: 5 % | 50 % | 95 % | P(fall): 50 % | 95 % | P > 0.1 |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for ((kind, place, check, model), falls) in &all {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "| {} | {place} | {check} | {model} | {} |", KINDS[*kind].name, shown(falls));
+    }
+    text.push_str(
+        "\nWith CR, soil by soil:\n\n| walls | place | check | soil | θ/a_g,code: 5 % | 50 % | 95 % | P(fall): \
+         50 % | 95 % | P > 0.1 |\n|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for ((kind, place, check, soil), falls) in &by_soil {
+        let _ = writeln!(text, "| {} | {place} | {check} | {soil} | {} |", KINDS[*kind].name, shown(falls));
+    }
+    Ok(text + "\n")
+}
+
+/// Fractiles of margins and probabilities, and the share of walls above the limit.
+fn shown(falls: &[Fall]) -> String {
+    let sorted = |of: usize| {
+        let mut values: Vec<f64> = falls.iter().map(|fall| fall[of]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let [margins, probabilities] = [sorted(0), sorted(1)];
+    // the values that 5, 50 and 95 % of the walls do not exceed
+    let at = |values: &[f64], percent: usize| values[(percent * values.len()).div_ceil(100).max(1) - 1];
+    let above = probabilities.iter().filter(|probability| **probability > LIMIT).count();
+    let margins: Vec<_> = [5, 50, 95].map(|percent| format!("{:.2}", at(&margins, percent))).into();
+    format!(
+        "{} | {:.3} | {:.3} | {:.0} %",
+        margins.join(" | "),
+        at(&probabilities, 50),
+        at(&probabilities, 95),
+        100.0 * above as f64 / probabilities.len() as f64
+    )
+}
+
+/// Returns margin and probability of the fall of each wall, by check and model.
+fn falls(path: &Path) -> Result<BTreeMap<(String, String), Vec<Fall>>> {
+    let text = read(path)?;
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let place = |name: &str| names.iter().position(|own| *own == name).unwrap_or(usize::MAX);
+    let [check, model, event, margin, probability] =
+        ["check", "model", "event", "margin", "probability"].map(place);
+    let mut found = BTreeMap::<_, Vec<Fall>>::new();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |place: usize| cells.get(place).and_then(|cell| cell.parse::<f64>().ok());
+        if cells.get(event) == Some(&"fall")
+            && let Some((margin, probability)) = number(margin).zip(number(probability))
+        {
+            let key = (cells[check].to_owned(), cells[model].to_owned());
+            found.entry(key).or_default().push([margin, probability]);
+        }
+    }
+    Ok(found)
+}
+
+/// Makes the walls of a kind as CSV: heights and slendernesses of its ranges, evenly spread. Half of the
+/// façades have no overburden, the others up to their weight; strips have up to five times theirs, and their
+/// hinge at the least α0, x = 1/(1 + √(O/(2 (W + O)))), at most 0.9.
+fn walls(order: usize, kind: &Kind) -> String {
+    let mut text = String::from(
+        "name,mechanism,height,thickness,density,overburden,hinge_ratio,a1,rocking,restitution_source\n",
+    );
+    for k in 1..=WALLS {
+        let part = |dimension: usize| (0.5 + f64::from(k) * SEQUENCE[dimension]).fract();
+        let [height, slenderness] = [0, 1].map(|place| {
+            let [from, to] = kind.ranges[place];
+            from + part(place) * (to - from)
+        });
+        let over = [0.0, (2.0 * part(2) - 1.0).max(0.0), 5.0 * part(2)][order];
+        let thickness = height / slenderness;
+        let overburden = over * 1800.0 * 9.81 * height * thickness;
+        let hinge = (1.0 / (1.0 + (over / (2.0 * (1.0 + over))).sqrt())).min(0.9);
+        let (mechanism, rocking, source, hinge) = match order {
+            0 => ("parapet", "two_sided", "", String::new()),
+            1 => ("parapet", "one_sided_positive", "analytic", String::new()),
+            _ => ("vertical_spanning", "two_sided", "", hinge.to_string()),
+        };
+        // writing to a String cannot fail
+        let _ = writeln!(
+            text,
+            "{} {k},{mechanism},{height},{thickness},1800,{overburden},{hinge},0.05,{rocking},{source}",
+            kind.name
+        );
+    }
+    text
+}
+
+/// Makes the study of a kind on a soil, on the ground or in a building of T₁ = 0.3 s.
+fn study(kind: &Kind, soil: &str, place: &str, records: &str) -> String {
+    let Kind { name, models, check, supports, .. } = kind;
+    let storey = "[[storeys]]\nmass = 1e5\nstiffness = 2.2e8\ndamping_ratio = 0.1\n";
+    let (storeys, damping, supports) = match place {
+        "ground" => (String::new(), "", String::new()),
+        _ => (storey.repeat(3), ", building_damping = 0.1", format!("supports = {supports}\n")),
+    };
+    format!(
+        "models = {models}\n\
+         levels = {{ method = \"hunt\", first = 0.05, increase = 0.05, top = 50 }}\n\
+         records = {{ {records} }}\n\
+         intensity = {{ measure = \"code\" }}\n\
+         report = {{ resamples = 100 }}\n\
+         [check]\ncode = \"circolare-2019\"\n{check}\nsoil = \"{soil}\"\n\
+         SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32{damping} }}\n\
+         SLC = {{ ag = 0.20, F0 = 2.45, TC = 0.33{damping} }}\n\
+         {storeys}[[walls]]\ntable = \"{name}.csv\"\n{supports}"
+    )
+}
