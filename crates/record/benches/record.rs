@@ -34,6 +34,12 @@ fn main() {
     let samples = record.samples().len() - 1;
     let bare = least(samples, || oscillator(black_box(record.samples())));
     println!("{:<44}{bare:>8.2} ns a sample", "bare linear oscillator");
+    println!(
+        "runs/s: runs of {:.0} s at {:.0} ms with every corner located, a second and core: {BATCH} at once on \
+         one thread, over its time",
+        record.duration(),
+        1e3 * record.step(),
+    );
     for (number, height, thickness, a1) in
         [(6, 6.0, 0.6, 0.018), (5, 3.0, 0.6, 0.0024), (2, 1.5, 0.3, 0.0012)]
     {
@@ -87,10 +93,11 @@ fn measure(
         outcomes.expect("bounded motions")[0].state.displacement
     });
     println!(
-        "wall {number}, {:<23} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
-         {:>4} corners, u_max/u_ins {:.3}{}",
+        "wall {number}, {:<23} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run, \
+         {:>6.0} runs/s; {:>4} corners, u_max/u_ins {:.3}{}",
         model,
         one / bare,
+        1e9 / (many * count as f64),
         outcome.work.corners,
         outcome.state.peaks.largest() / motion.wall().displacement_scale(),
         if outcome.overturning.is_some() { ", overturned" } else { "" },
