@@ -15,6 +15,7 @@
 //! # Ok::<(), rocking_wall::scene::SceneError>(())
 //! ```
 
+mod hazard;
 mod levels;
 mod model;
 mod report;
@@ -31,10 +32,12 @@ use toml::{Spanned, Value};
 
 use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
 
+use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
 use report::{ClassTable, ReportTable, chosen, report};
 
+pub use hazard::HazardEntry;
 pub use report::{ReportOptions, WallClass};
 
 /// Content of a study file, in SI units.
@@ -56,8 +59,10 @@ pub struct StudyFile {
     pub tail: f64,
     /// Which runs have overturned.
     pub collapse: Collapse,
-    /// Options of the report.
+    /// Options of the report, without the hazard.
     pub report: ReportOptions,
+    /// The hazard.
+    pub hazard: Option<HazardEntry>,
 }
 
 tables! {
@@ -83,6 +88,8 @@ tables! {
         records: Option<Spanned<RecordsTable>>,
         /// What the results show.
         report: Option<Spanned<ReportTable>>,
+        /// Annual rates of intensities.
+        hazard: Option<Spanned<HazardTable>>,
         /// Classes of walls that risk engines see as one.
         #[serde(default)]
         classes: Vec<Spanned<ClassTable>>,
@@ -150,6 +157,7 @@ impl StudyFile {
                 .map(|word| chosen("collapse_is", word, &Collapse::ALL, place))
                 .transpose()?
                 .unwrap_or_default(),
+            hazard: document.hazard.as_ref().map(|table| hazard(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
             levels,
             models,

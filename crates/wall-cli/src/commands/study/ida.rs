@@ -64,7 +64,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 8] = [
+const FILES: [&str; 10] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -72,6 +72,8 @@ const FILES: [&str; 8] = [
     "fragility_curves.csv",
     "fragilities.xml",
     "fragilities.svg",
+    "rates.csv",
+    "rate_shares.csv",
     "study.html",
 ];
 
