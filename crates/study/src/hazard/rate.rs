@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// Numbers to 12 digits of docs/model.md, in arithmetic of 40 digits.
+    /// Numbers in arithmetic of 40 digits, printed with 12.
     #[test]
     fn the_example_has_its_numbers() {
         let rate = italian().rate(0.4, 0.45);
