@@ -8,6 +8,7 @@ use rocking_wall::wall::ParameterError;
 use run::rotations::RotationsError;
 use study::calibration::CalibrationError;
 use study::fragility::FitError;
+use study::hazard::HazardError;
 use study::spectrum::SpectrumError;
 
 /// Why something could not be computed or compared.
@@ -33,6 +34,8 @@ pub enum EvidenceError {
     Spectrum(#[from] SpectrumError),
     #[error(transparent)]
     Fit(#[from] FitError),
+    #[error(transparent)]
+    Hazard(#[from] HazardError),
     /// A run of a problem failed.
     #[error("{name}: {source}")]
     Run { name: String, source: SolverError },

@@ -152,8 +152,8 @@ impl Study {
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
-            // classes would keep the resamples of all walls in memory
-            let report = ReportOptions { classes: Vec::new(), ..report.clone() };
+            // classes and a hazard would keep the resamples of all walls in memory
+            let report = ReportOptions { classes: Vec::new(), hazard: None, ..report.clone() };
             let fitting = Fitting::new(study.records().len(), &self.models(), grid, &report);
             let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
             let fitted = parallel::map(of_wall.len(), threads, |wall| {

@@ -150,6 +150,8 @@ struct WallsDocument {
     _records: Option<IgnoredAny>,
     #[serde(rename = "report")]
     _report: Option<IgnoredAny>,
+    #[serde(rename = "hazard")]
+    _hazard: Option<IgnoredAny>,
     #[serde(rename = "reliability")]
     _reliability: Option<IgnoredAny>,
     #[serde(rename = "classes")]

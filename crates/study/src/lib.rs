@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
+//! | [`hazard`] | hazard curves, and the annual rate of a fragility |
 //! | [`document`] | study files |
 //! | [`loaded`] | studies read from files, with their scenes and records |
 //! | [`results`] | the curves and the fragilities of each wall of a study |
@@ -24,6 +25,7 @@ pub mod document;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod folder;
 pub mod fragility;
+pub mod hazard;
 pub mod ida;
 pub mod loaded;
 #[cfg(not(target_arch = "wasm32"))]

@@ -65,6 +65,7 @@ impl LoadedStudy {
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
+        open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
         let study = Self::assemble(&name, text, file, all, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings, ..study })
@@ -80,8 +81,9 @@ impl LoadedStudy {
         records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
         let name = "the study";
-        let file = StudyFile::parse(name, &text)?;
+        let mut file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
+        open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
         warn(&walls, &[], (&file.models, &file.measure), &mut warnings);
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
@@ -175,6 +177,21 @@ fn best(
     order.truncate(count);
     let chosen = records.into_iter().enumerate().filter(|(index, _)| order.contains(index));
     Ok(chosen.map(|(_, record)| record).collect())
+}
+
+/// Opens the hazard of a study for its report.
+fn open_hazard(
+    file: &mut StudyFile,
+    folder: &Path,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> Result<(), SceneError> {
+    if let Some(entry) = file.hazard.take() {
+        let (hazard, told) = entry.open(&file.measure, folder, inputs)?;
+        file.report.hazard = Some(hazard);
+        warnings.extend(told);
+    }
+    Ok(())
 }
 
 /// Returns the parameters of a wall that are set and have no effect with any of the models.

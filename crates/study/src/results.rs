@@ -52,7 +52,7 @@ impl Fitting {
             grid,
             crossing: report.collapse,
             estimator: Estimator::new(report.beta, &report.fractions),
-            keeps_resamples: !report.classes.is_empty(),
+            keeps_resamples: !report.classes.is_empty() || report.hazard.is_some(),
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
         }
     }

@@ -13,6 +13,7 @@ use crate::{Comparison, EvidenceError};
 use check::fractions::{Demand, Fractions, check};
 use serde::Deserialize;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
+use study::hazard::HazardCurve;
 
 /// What computes the numbers of a formula that no scene shows.
 #[derive(Clone, Copy, Deserialize)]
@@ -29,6 +30,7 @@ pub(super) enum Study {
     Sines,
     SteadyRocking,
     Fragility,
+    AnnualRates,
     Paper,
 }
 
@@ -48,6 +50,7 @@ impl Study {
             Self::Sines => overturning::sines(),
             Self::SteadyRocking => overturning::steady_rocking(),
             Self::Fragility => fragility(),
+            Self::AnnualRates => annual_rates(),
             Self::Paper => paper::tables(),
         }
     }
@@ -218,6 +221,29 @@ fn storeys() -> Comparisons {
     comparisons.extend(within(1e-11, shaken));
     comparisons[2].scale = 2.0 / (frequency * frequency);
     Ok(comparisons)
+}
+
+/// A power law, and four points of a site: θ = 0.4 and β = 0.45, in decimal arithmetic of 40 digits and by
+/// quadrature.
+fn annual_rates() -> Comparisons {
+    let curve = |points: &[[f64; 2]]| HazardCurve::new(points.to_vec()).map(|curve| curve.rate(0.4, 0.45));
+    let power = curve(&[1e-4, 1e4].map(|x: f64| [x, 1e-4 * x.powf(-2.5)]))?;
+    let site = curve(&[[0.05, 1.0 / 30.0], [0.1, 1.0 / 101.0], [0.2, 1.0 / 475.0], [0.4, 1.0 / 2475.0]])?;
+    let given = [2.795_769_941_38e-6, 8.594_124_532_53e-5, 3.142_512_950_23e-4];
+    let segment = |(k, given): (usize, f64)| {
+        ("four points", format!("rate of segment {}", k + 1), "1/year", site.segments[k], given)
+    };
+    let rows = given.into_iter().enumerate().map(segment).chain([
+        (
+            "four points",
+            "rate beyond, continued".to_owned(),
+            "1/year",
+            site.beyond_continued,
+            3.038_573_345_53e-4,
+        ),
+        ("power law", "rate".to_owned(), "1/year", power.within(), 1.860_702_745_8e-3),
+    ]);
+    Ok(within(1e-10, rows))
 }
 
 fn fragility() -> Comparisons {

@@ -15,6 +15,7 @@
 //! # Ok::<(), rocking_wall::scene::SceneError>(())
 //! ```
 
+mod hazard;
 mod levels;
 mod model;
 mod report;
@@ -31,10 +32,12 @@ use toml::{Spanned, Value};
 
 use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
 
+use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, chosen, report, target};
 
+pub use hazard::HazardEntry;
 pub use report::{ReportOptions, WallClass};
 
 /// Content of a study file, in SI units.
@@ -58,10 +61,12 @@ pub struct StudyFile {
     pub tail: f64,
     /// Which runs have overturned.
     pub collapse: Collapse,
-    /// Options of the report.
+    /// Options of the report, without the hazard.
     pub report: ReportOptions,
     /// Probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
     pub target: f64,
+    /// The hazard.
+    pub hazard: Option<HazardEntry>,
 }
 
 tables! {
@@ -89,6 +94,8 @@ tables! {
         report: Option<Spanned<ReportTable>>,
         /// What a study of reliability asks.
         reliability: Option<Spanned<ReliabilityTable>>,
+        /// Annual rates of intensities.
+        hazard: Option<Spanned<HazardTable>>,
         /// Classes of walls that risk engines see as one.
         #[serde(default)]
         classes: Vec<Spanned<ClassTable>>,
@@ -157,6 +164,7 @@ impl StudyFile {
                 .map(|word| chosen("collapse_is", word, &Collapse::ALL, place))
                 .transpose()?
                 .unwrap_or_default(),
+            hazard: document.hazard.as_ref().map(|table| hazard(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
             target: target(document.reliability.as_ref(), place)?,
             levels,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use crate::fragility::Dispersion;
+use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
@@ -36,6 +37,9 @@ pub struct ReportOptions {
     pub modelling_uncertainty: f64,
     /// Classes of walls.
     pub classes: Vec<WallClass>,
+    /// Hazard of the site.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hazard: Option<Hazard>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -166,6 +170,7 @@ pub(super) fn report(
         seed: 1,
         modelling_uncertainty: 0.0,
         classes: read_classes(classes, place)?,
+        hazard: None,
     };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();

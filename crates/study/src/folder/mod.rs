@@ -17,6 +17,7 @@
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
 //! | `nrml` | fragility functions in the format of risk engines |
+//! | `rates` | annual rates of walls and classes |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
@@ -32,6 +33,7 @@ mod page;
 mod part;
 mod plots;
 mod population;
+mod rates;
 mod report;
 mod risk;
 mod store;

@@ -234,7 +234,8 @@ impl<'a> Output<'a> {
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
         let (summary, warning) = (self.summary(manifest, is_large), self.warning(manifest));
-        let (mut files, about_risk) = self.risk.finish()?;
+        let (mut files, about_risk, rates) = self.risk.finish()?;
+        self.sections.insert_str(0, &rates);
         for (_, draft) in self.tables {
             files.push(draft.commit(true)?);
         }

@@ -16,6 +16,7 @@ use run::file::{self, Draft};
 use super::contents::Manifest;
 use super::error::FolderError;
 use super::nrml;
+use super::rates::{Fitted, Rates};
 use report::table::{Cell, Table};
 
 /// Names of the files.
@@ -35,6 +36,7 @@ pub(crate) struct Risk<'a> {
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
     /// Resamples of each class, of each model and limit state.
     resamples: Vec<Vec<Vec<ClassResamples>>>,
+    rates: Option<Rates<'a>>,
     /// Number of functions without a curve, and of those that NRML cannot hold.
     left_out: [usize; 2],
 }
@@ -61,6 +63,7 @@ impl<'a> Risk<'a> {
         let of_class = vec![vec![ClassResamples::default(); states.len()]; manifest.contents.models.len()];
         Ok(Self {
             manifest,
+            rates: Rates::new(folder, manifest)?,
             resamples: vec![of_class; classes.len()],
             states,
             table: Draft::new(&table, b"")?,
@@ -84,6 +87,10 @@ impl<'a> Risk<'a> {
                 curves.map(|curves| FragilityFunction::new(curves.as_slice(), report.modelling_uncertainty));
             let known: Vec<_> = summaries.iter().map(|summary| Known::of_wall(summary, report)).collect();
             self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &known)?;
+            if let Some(rates) = &mut self.rates {
+                let states = summaries.iter().map(|summary| of_summary(summary, report));
+                rates.add(&note.name, false, model, &states.collect::<Vec<_>>())?;
+            }
             for (class, (of, walls)) in self.classes.iter().enumerate() {
                 let Some(place) = walls.iter().position(|member| *member == wall) else { continue };
                 let share = of.shares(walls.len())[place];
@@ -98,8 +105,9 @@ impl<'a> Risk<'a> {
         Ok(())
     }
 
-    /// Adds the classes, and completes the files; returns their paths and what is to be said of them.
-    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String), FolderError> {
+    /// Adds the classes, and completes the files; returns their paths, what is to be said of them, and a
+    /// section of the page.
+    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
         let contents = &self.manifest.contents;
         let mut told = String::new();
         for (number, (class, walls)) in std::mem::take(&mut self.classes).into_iter().enumerate() {
@@ -116,6 +124,16 @@ impl<'a> Risk<'a> {
                 };
                 let known: Vec<_> = self.resamples[number][model].iter().enumerate().map(known).collect();
                 self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &known)?;
+                if let Some(rates) = &mut self.rates {
+                    let beta_modelling = self.manifest.report.modelling_uncertainty;
+                    let state = |(k, resamples): (usize, &ClassResamples)| {
+                        let curve = function.as_ref().map(|f| [f.states[k].median, f.dispersion(k)]);
+                        Fitted { curve, resamples: resamples.curves(beta_modelling) }
+                    };
+                    let states: Vec<_> =
+                        self.resamples[number][model].iter().enumerate().map(state).collect();
+                    rates.add(&class.name, true, model, &states)?;
+                }
                 told.extend(function.map(|function| self.line(class, model, &function)));
             }
         }
@@ -126,7 +144,15 @@ impl<'a> Risk<'a> {
             drafts.push(draft);
         }
         let paths = drafts.into_iter().map(|draft| draft.commit(true));
-        Ok((paths.collect::<Result<_, _>>()?, told))
+        let mut paths: Vec<_> = paths.collect::<Result<_, _>>()?;
+        let mut section = String::new();
+        if let Some(rates) = self.rates {
+            let (files, words, html) = rates.finish()?;
+            paths.extend(files);
+            told.push_str(&words);
+            section = html;
+        }
+        Ok((paths, told, section))
     }
 
     /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
@@ -258,6 +284,15 @@ impl Known {
         };
         let covariance = covariance(resamples);
         Self { theta: interval(theta, 0), beta: interval(beta, 1), covariance, misfit: None }
+    }
+}
+
+/// Returns the curve of a limit state of a wall and its resamples, with the β of the model.
+fn of_summary(summary: &Summary, report: &ReportOptions) -> Fitted {
+    let total = |theta: f64, beta: f64| [theta, beta.hypot(report.modelling_uncertainty)];
+    Fitted {
+        curve: summary.fitted.ok().map(|curve| total(curve.median, curve.dispersion)),
+        resamples: summary.resamples.iter().map(|[theta, beta]| total(*theta, *beta)).collect(),
     }
 }
 

@@ -36,6 +36,7 @@ pub fn finish(
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), &manifest.report);
+    let hazard = manifest.report.hazard.as_ref().map(|hazard| &hazard.curve);
     let paths = FILES.map(|name| folder.path().join(name));
     let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];
     let (mut class, mut shown, mut is_begun) = (Class::default(), Vec::new(), false);
@@ -57,7 +58,7 @@ pub fn finish(
             class.add(wall, found);
             let Ok(found) = found else { continue };
             let tables = [
-                (&mut rows, table::wall(&wall.name, &models, found)),
+                (&mut rows, table::wall(&wall.name, &models, found, hazard)),
                 (&mut rules, table::rules(&wall.name, &models, found, reliability.target)),
             ];
             for (draft, table) in tables {
@@ -65,7 +66,8 @@ pub fn finish(
                 draft.write(|file| file.write_all(text.as_bytes()))?;
             }
             is_begun = true;
-            shown.extend((count <= page::MOST_WALLS).then(|| table::wall(&wall.name, &models, found)));
+            shown
+                .extend((count <= page::MOST_WALLS).then(|| table::wall(&wall.name, &models, found, hazard)));
         }
     }
     let summary = table::summary(&class, &models, reliability.target);
@@ -91,6 +93,7 @@ pub fn tables(
 ) -> ([Table; 3], Vec<(String, String)>) {
     let models: Vec<_> = study.models().iter().map(|model| model.name.as_str()).collect();
     let fitting = Fitting::new(study.records().len(), &models, study.levels().shared(), report);
+    let hazard = report.hazard.as_ref().map(|hazard| &hazard.curve);
     let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
     let found = parallel::map(of_wall.len(), threads, |place| {
         let wall = &reliability.walls[place];
@@ -102,7 +105,7 @@ pub fn tables(
     for (wall, found) in reliability.walls.iter().zip(&found) {
         class.add(wall, found);
         let Ok(found) = found else { continue };
-        let of_wall = table::wall(&wall.name, &models, found);
+        let of_wall = table::wall(&wall.name, &models, found, hazard);
         let turned = table::rules(&wall.name, &models, found, reliability.target);
         for (all, own) in [(&mut rows, of_wall), (&mut rules, turned)] {
             all.columns = own.columns;

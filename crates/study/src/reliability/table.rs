@@ -6,6 +6,7 @@ use report::table::{Cell, Column, Digits, Table};
 use super::class::{Class, FRACTILES, fractiles};
 use super::wall::{Event, WallReliability};
 use crate::fragility::Interval;
+use crate::hazard::HazardCurve;
 use crate::tables::in_g;
 
 const THREE: Digits = Digits::AtMost(3);
@@ -15,7 +16,12 @@ const OF_PROBABILITY: Digits = Digits::Decimals(4);
 const SHOWN: [usize; 3] = [0, 2, 4];
 
 /// The checks and events of a wall, with every model; accelerations in g as of records, 9.80665 m/s².
-pub(super) fn wall(name: &str, models: &[&str], found: &WallReliability) -> Table {
+pub(super) fn wall(
+    name: &str,
+    models: &[&str],
+    found: &WallReliability,
+    hazard: Option<&HazardCurve>,
+) -> Table {
     let rows = (0..models.len()).flat_map(|model| {
         let of_check = move |check| found.events.iter().map(move |event| (model, check, event));
         found.checks.iter().flat_map(of_check)
@@ -49,6 +55,13 @@ pub(super) fn wall(name: &str, models: &[&str], found: &WallReliability) -> Tabl
         let name = format!("probability{end}");
         table = table.number(name, heading, OF_PROBABILITY, move |(model, check, event)| {
             interval(event.probability(*model, check.code), part)
+        });
+    }
+    if let Some(hazard) = hazard {
+        // the wall has ζ = 1 at the site: its θ is as far above a_g of the site as here above a_g,code
+        table = table.number("annual_rate", "rate\n[1/year]", THREE, |(model, check, event)| {
+            let curve = event.fragilities[*model].fitted.ok()?;
+            Some(hazard.rate(curve.median * check.site / check.code, curve.dispersion).within())
         });
     }
     table

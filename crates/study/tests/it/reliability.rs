@@ -289,3 +289,21 @@ fn what_cannot_be_answered_is_refused() {
     let message = refusal("refused_unchecked", format!("{unchecked}{WALLS}"));
     assert!(message.contains("the table [check] is missing"), "{message}");
 }
+
+/// Over a hazard that is one power law, k₀ x^−k, the rate of a wall that just passes at the site is
+/// k₀ θ^−k exp(k²β²/2), θ = margin a_g,site; between 1e-4 g and 1e4 g to 1e-9.
+#[test]
+fn annual_rates_are_those_of_a_power_law() {
+    let [k0, k]: [f64; 2] = [1e-4, 2.0];
+    let point = |x: f64| format!("[{x:e}, {:e}]", k0 * x.powf(-k));
+    let hazard = format!("hazard = {{ points = [{}, {}] }}\n", point(1e-4), point(1e4));
+    let loaded = load("hazard", &text(&format!("{hazard}{MEASURE}"))).unwrap();
+    let rows = rows(&run("hazard", &loaded).join(FILES[0]));
+    for row in &rows {
+        let site = if row["check"] == "SLC" { 0.25 } else { 0.2 } * G / STANDARD_GRAVITY;
+        let [margin, beta] = [number(row, "margin"), number(row, "beta")];
+        let expected = k0 * (margin * site).powf(-k) * (0.5 * (k * beta).powi(2)).exp();
+        assert!((number(row, "annual_rate") / expected - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    assert_eq!(rows.len(), 36);
+}

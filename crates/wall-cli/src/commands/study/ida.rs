@@ -66,7 +66,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 8] = [
+const FILES: [&str; 10] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -74,6 +74,8 @@ const FILES: [&str; 8] = [
     "fragility_curves.csv",
     "fragilities.xml",
     "fragilities.svg",
+    "rates.csv",
+    "rate_shares.csv",
     "study.html",
 ];
 

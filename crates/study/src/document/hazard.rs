@@ -1,0 +1,122 @@
+//! The table `[hazard]`: annual rates of intensities, and what is asked of a limit state.
+
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+
+use crate::hazard::{Hazard, HazardCurve, YEARS, read};
+use crate::ida::IntensityMeasure;
+use ground_motion::Unit;
+use rocking_wall::scene::{Place, SceneError, read_text};
+use rocking_wall::tables;
+
+/// Largest file of a hazard curve that is read.
+const MAX_FILE_BYTES: u64 = 64 << 20;
+
+tables! {
+    /// Annual rates at which intensities of the study's measure are exceeded, and what is asked of them.
+    #[derive(Debug)]
+    pub(super) struct HazardTable {
+        /// Points: intensity and annual rate of exceedance \[1/year\]; intensities rise, rates fall.
+        #[key(minItems = 2)]
+        points: Option<Spanned<Vec<[f64; 2]>>>,
+        /// A file instead of points: CSV with a measure and `annual_rate`, or hazard curves of `OpenQuake`.
+        file: Option<Spanned<String>>,
+        /// Number of the site in a file of `OpenQuake`, from 1.
+        #[key(minimum = 1)]
+        site: Option<Spanned<u32>>,
+        /// Unit of the intensities of points and of a CSV: m/s2, cm/s2, mm/s2 or g.
+        #[key(default = "g")]
+        unit: Option<Spanned<String>>,
+        /// Years of the probabilities.
+        #[key(exclusiveMinimum = 0, default = YEARS)]
+        years: Option<Spanned<f64>>,
+        /// Annual rate that each limit state should not exceed \[1/year\].
+        #[key(exclusiveMinimum = 0)]
+        target: Option<Spanned<f64>>,
+    }
+}
+
+/// The hazard that a study names; its curve may be in a file.
+#[derive(Clone, Debug)]
+pub struct HazardEntry {
+    curve: Source,
+    years: f64,
+    target: Option<f64>,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    Points(HazardCurve),
+    File { file: String, unit: Unit, site: Option<u32> },
+}
+
+impl HazardEntry {
+    /// Returns the hazard of the study's measure, with warnings. A file is looked up in a folder, and added
+    /// to the inputs.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the file cannot be read, is of another measure, or holds no hazard curve.
+    pub fn open(
+        self,
+        measure: &IntensityMeasure,
+        folder: &Path,
+        inputs: &mut Vec<PathBuf>,
+    ) -> Result<(Hazard, Vec<String>), SceneError> {
+        let Self { curve, years, target } = self;
+        let (curve, warnings) = match curve {
+            Source::Points(curve) => (curve, Vec::new()),
+            Source::File { file, unit, site } => {
+                let path = folder.join(file);
+                let name = path.display().to_string();
+                let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
+                let table = read(&text, measure, unit, site).map_err(|error| match error.line {
+                    Some(line) => {
+                        SceneError::Line { file: name.clone(), line, key: None, message: error.message }
+                    }
+                    None => SceneError::File { file: name.clone(), reason: error.message },
+                })?;
+                inputs.push(path);
+                (table.curve, table.warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
+            }
+        };
+        Ok((Hazard { curve, years, target }, warnings))
+    }
+}
+
+/// Reads the hazard of a study.
+pub(super) fn hazard(table: &Spanned<HazardTable>, place: &Place<'_>) -> Result<HazardEntry, SceneError> {
+    let HazardTable { points, file, site, unit, years, target } = table.get_ref();
+    let unit = unit.as_ref().map_or(Ok(Unit::StandardGravity), |text| {
+        text.get_ref().parse::<Unit>().map_err(|error| place.error(text.span(), error.to_string()))
+    })?;
+    let positive = |name: &str, value: &Spanned<f64>| {
+        let number = *value.get_ref();
+        if number > 0.0 && number.is_finite() {
+            return Ok(number);
+        }
+        Err(place.error(value.span(), format!("{name} = {number} must be positive and finite")))
+    };
+    let curve = match (points, file) {
+        (Some(points), None) => {
+            if let Some(site) = site {
+                return Err(place.error(site.span(), "site belongs to a file of OpenQuake; leave it out"));
+            }
+            let in_si = points.get_ref().iter().map(|[x, rate]| [unit.to_si(*x), *rate]).collect();
+            // the message has the numbers of the file
+            let checked = HazardCurve::new(points.get_ref().clone()).and(HazardCurve::new(in_si));
+            Source::Points(checked.map_err(|error| place.error(points.span(), error.to_string()))?)
+        }
+        (None, Some(file)) => Source::File {
+            file: file.get_ref().clone(),
+            unit,
+            site: site.as_ref().map(|site| *site.get_ref()),
+        },
+        _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
+    };
+    Ok(HazardEntry {
+        curve,
+        years: years.as_ref().map_or(Ok(YEARS), |years| positive("years", years))?,
+        target: target.as_ref().map(|target| positive("target", target)).transpose()?,
+    })
+}
