@@ -45,6 +45,11 @@ fn schema(file: File) -> Schema {
             all.extend(tables);
         }
     }
+    if let File::Scene = file {
+        schema["properties"]
+            .as_table_mut()
+            .map(|own| own.insert("report".into(), check::report_schema().into()));
+    }
     schema
 }
 
@@ -74,7 +79,9 @@ mod tests {
     /// The documents explain every key of studies and buildings.
     #[test]
     fn documents_name_every_key() {
-        for (name, file) in [("model.md", File::Study), ("coupling.md", File::Building)] {
+        for (name, file) in
+            [("model.md", File::Scene), ("model.md", File::Study), ("coupling.md", File::Building)]
+        {
             let path = format!("{}/../../docs/{name}", env!("CARGO_MANIFEST_DIR"));
             let text = std::fs::read_to_string(path).unwrap();
             let schema = schema(file);
