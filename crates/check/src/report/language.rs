@@ -226,10 +226,10 @@ mod tests {
 
     #[test]
     fn gaps_are_translated_and_what_users_write_is_not() {
-        let page = "<p title=\"tie\">the tie breaks</p><td>Overburden</td><b class=\"x\">tie</b>\
+        let page = "<p title=\"tie\">the tie breaks</p><td>Overburden</td><small>tie</small>\
                     <span translate=\"no\">overburden</span><style>tie {}</style>";
         let italian = "<p title=\"tie\">rottura della catena</p><td>Carico in sommità</td>\
-                       <b class=\"x\">catena, tirante</b><span translate=\"no\">overburden</span>\
+                       <small>catena, tirante</small><span translate=\"no\">overburden</span>\
                        <style>tie {}</style>";
         assert_eq!(translated(page.to_owned(), Language::It), italian);
         assert_eq!(translated(page.to_owned(), Language::En), page);

@@ -79,14 +79,17 @@ mod tests {
     /// The documents explain every key of studies and buildings.
     #[test]
     fn documents_name_every_key() {
-        for (name, file) in
-            [("model.md", File::Scene), ("model.md", File::Study), ("coupling.md", File::Building)]
-        {
+        for (name, file) in [("model.md", File::Study), ("coupling.md", File::Building)] {
             let path = format!("{}/../../docs/{name}", env!("CARGO_MANIFEST_DIR"));
             let text = std::fs::read_to_string(path).unwrap();
             let schema = schema(file);
             for key in keys(&schema) {
                 assert!(text.contains(&format!("`{key}`")), "docs/{name} has no `{key}`");
+            }
+            for key in
+                check::report_schema()["properties"].as_table().unwrap().keys().filter(|_| name == "model.md")
+            {
+                assert!(text.contains(&format!("`{key}`")), "docs/{name} has no `{key}` of [report]");
             }
         }
     }

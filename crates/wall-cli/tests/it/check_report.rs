@@ -238,3 +238,29 @@ fn a_report_is_refused_without_one_wall_and_the_code() {
     refuses(&["scene.toml", "--find", "thickness"], &["--report covers the wall as given"]);
     refused(&folder, &["check", "scene.toml", "--report", "scene.toml"], &["scene.toml"]);
 }
+
+/// The project stands in the report, which is Italian by the file, and English by the option.
+#[test]
+fn the_project_and_the_language_are_stated() {
+    let folder = folder("report_project");
+    let project = "[report]\nlanguage = \"it\"\nproject = \"Tie & tower\"\nnominal_life = 50\n\
+                   use_coefficient = 1.5\n";
+    let scene = TIED.to_owned() + project;
+    let page = report(&folder, &scene, &[]);
+    assert!(page.contains("<html lang=\"it\">"));
+    // V_R = 75 years; 75/-ln(0.9) = 711.8
+    assert_has(&plain(&page), &["CommessaTie & tower", "75 anni", "711.8 anni", "Timbro e firma"]);
+    assert_has(&plain(&page), &["VERIFICA NON SODDISFATTA", "SLV è determinante con ζE = 0.728"]);
+    let english = report(&folder, &scene, &["--lang", "en"]);
+    assert_has(&plain(&english), &["ProjectTie & tower", "711.8 years", "Stamp and signature", "NOT PASSED"]);
+    for (key, words) in [
+        ("coordinates = [142.3, 13.4]", "must be latitude and longitude in degrees"),
+        ("nominal_life = -1", "nominal_life = -1 must be above 0, such as 50 (years)"),
+        ("engineer = \"X\"", "engineer"),
+    ] {
+        std::fs::write(folder.join("scene.toml"), format!("{TIED}[report]\n{key}\n")).unwrap();
+        refused(&folder, &["check", "scene.toml", "--report", "report.html"], &["scene.toml", "line", words]);
+    }
+    refused(&folder, &["check", "scene.toml", "--report", "r.html", "--lang", "de"], &["expected en or it"]);
+    refused(&folder, &["check", "scene.toml", "--report", "r.pdf"], &["no output is a PDF", "browser"]);
+}
