@@ -155,7 +155,8 @@ impl Phrases {
     /// Returns the Italian of a text: that of the phrase that fits with most words. A phrase of small letters
     /// fits with a capital first letter, too.
     fn said(&self, text: &str) -> Option<String> {
-        if !text.contains(char::is_alphabetic) {
+        // numbers, and abbreviations of the code, which are Italian
+        if !text.contains(char::is_lowercase) {
             return None;
         }
         let lower = lowered(text);

@@ -76,14 +76,14 @@ pub(crate) fn as_written(text: &str) -> String {
 impl ReportTable {
     /// Says which key has a number that cannot be, and why.
     pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
-        if let Some([latitude, longitude]) = self.coordinates {
-            if !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0) {
-                let message = format!(
-                    "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such \
-                     as [42.35, 13.40]"
-                );
-                return Some(("coordinates", message));
-            }
+        if let Some([latitude, longitude]) = self.coordinates
+            && !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0)
+        {
+            let message = format!(
+                "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
+                 [42.35, 13.40]"
+            );
+            return Some(("coordinates", message));
         }
         let positive = [("nominal_life", self.nominal_life), ("use_coefficient", self.use_coefficient)];
         let bad = |value: f64| !(value > 0.0 && value.is_finite());
