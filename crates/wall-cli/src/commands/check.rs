@@ -174,3 +174,14 @@ fn sought(name: &str) -> Result<Sought, String> {
         .find(|sought| sought.name() == name)
         .ok_or_else(|| format!("expected {}", Sought::ALL.map(Sought::name).join(", ")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Language, language};
+
+    #[test]
+    fn languages_go_by_their_names() {
+        assert_eq!(language("it"), Ok(Language::It));
+        assert_eq!(language("de"), Err("expected en or it".to_owned()));
+    }
+}
