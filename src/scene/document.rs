@@ -70,6 +70,8 @@ tables! {
         pub motion: Option<Spanned<MotionTable>>,
         /// A check by a code, which a run does not need.
         pub check: Option<IgnoredAny>,
+        /// What the report of that check says of the project.
+        pub report: Option<IgnoredAny>,
     }
 }
 

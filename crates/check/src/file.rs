@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use rocking_wall::scene::{Place, SceneError, parse_document, refusal};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use crate::error::CheckError;
+use crate::report::ReportTable;
 use crate::site::Records;
 
 /// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
@@ -218,6 +220,26 @@ impl<'a> CheckFile<'a> {
             keys.drain(..keys.len().min(1));
             CheckError::Unread { keys, message }
         })
+    }
+
+    /// Reads the table `[report]`; that of a study says what the study shows.
+    ///
+    /// # Errors
+    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used.
+    pub fn report(&self) -> Result<ReportTable, SceneError> {
+        let is_study = self.document.contains_key("levels") || self.document.contains_key("models");
+        let Some(given) = self.document.get("report").filter(|_| !is_study) else {
+            return Ok(ReportTable::default());
+        };
+        let table = ReportTable::deserialize(ValueDeserializer::from(given.clone())).map_err(|error| {
+            let (_, message) = refusal(&self.place, &self.document, &error);
+            self.place.error(error.span().unwrap_or(given.span()), message)
+        })?;
+        if let Some((key, message)) = table.fault() {
+            let span = given.get_ref().get(key).map_or(given.span(), Spanned::span);
+            return Err(self.place.error(span, format!("[report] {message}")));
+        }
+        Ok(table)
     }
 
     /// Reads the records that a table names, or takes those that were handed over.

@@ -14,6 +14,6 @@ pub use code::{CODES, Code, Details, Ends, Entry, Row, Rule, Subject, Verdict, h
 pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
-pub use report::{Figure, Origin, page};
+pub use report::{Figure, Language, Origin, ReportTable, page, report_schema, terms};
 pub use site::Records;
 pub use walls::{WallCodes, WallVerdicts, check_walls};

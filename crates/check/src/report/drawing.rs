@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::markup::{formula, number};
+use super::markup::{formula, stated};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
 const SIZE: [f64; 2] = [500.0, 410.0];
@@ -68,7 +68,7 @@ pub(super) fn figure(of: &Wall, parameters: &Parameters) -> String {
             said,
             " Hinges are set back from the edges: {} = {}.",
             formula("a3"),
-            number(parameters.a3)
+            stated(parameters.a3)
         );
     }
     format!(
@@ -185,7 +185,7 @@ impl Drawing<'_> {
             self.weight([x, top], 36.0);
             let mut text = format!("O = {} kN", ::report::number(1e-3 * overburden, 4));
             if c != 0.0 {
-                let _ = write!(text, ", c = {} m", number(c));
+                let _ = write!(text, ", c = {} m", stated(c));
             }
             self.text([x + 10.0, top - 20.0], "start", &text);
         }
@@ -204,9 +204,9 @@ impl Drawing<'_> {
                 self.line([far, y - 9.0], [far, y + 9.0], look);
             }
         }
-        let mut texts = vec![format!("K = {} kN/m", number(1e-3 * tie.stiffness))];
-        texts.extend(tie.strength.map(|strength| format!("N_s = {} kN", number(1e-3 * strength))));
-        texts.push(format!("g₀ = {} mm", number(1000.0 * tie.slack)));
+        let mut texts = vec![format!("K = {} kN/m", stated(1e-3 * tie.stiffness))];
+        texts.extend(tie.strength.map(|strength| format!("N_s = {} kN", stated(1e-3 * strength))));
+        texts.push(format!("g₀ = {} mm", stated(1000.0 * tie.slack)));
         let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
         for (index, text) in texts.iter().enumerate() {
             let text = text.replace("N_s", "Nₛ");
@@ -229,7 +229,7 @@ impl Drawing<'_> {
     fn height(&mut self, x: f64, height: f64, name: &str) {
         let y = self.y(height);
         self.dimension([x, FOOT], [x, y]);
-        let text = format!("{name} = {} m", number(height));
+        let text = format!("{name} = {} m", stated(height));
         self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
     }
 
@@ -244,12 +244,12 @@ impl Drawing<'_> {
         }
         let (half, y) = (self.half(), FOOT + 24.0);
         self.dimension([AXIS - half, y], [AXIS + half, y]);
-        let text = format!("b = {} m", number(self.parameters.thickness));
+        let text = format!("b = {} m", stated(self.parameters.thickness));
         self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
         let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);
         let y = SIZE[1] - 12.0;
         self.rect([12.0, 12.0 + self.scale * bar], [y - 5.0, y], "fill=\"#555\"");
-        self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", number(bar)));
+        self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", stated(bar)));
         let y = y - 3.0;
         self.line([INNER, y], [INNER + 44.0, y], "stroke=\"#1f5fa8\" stroke-width=\"2\"");
         let _ = writeln!(self.svg, "<path d=\"M{:.1} {y:.1}l-9 -4.5v9z\" fill=\"#1f5fa8\"/>", INNER + 50.0);

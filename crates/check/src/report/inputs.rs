@@ -6,7 +6,7 @@ use rocking_wall::scene::{GROUPS, parameter_text};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::{COMPUTABLE, Parameters, Wall, usage};
 
-use super::markup::{formula, number, table};
+use super::markup::{formula, stated, table};
 use super::{Origin, drawing};
 
 impl Origin<'_> {
@@ -43,7 +43,7 @@ pub(crate) fn the_wall(
     }
     if let Some(points) = &parameters.multilinear {
         let points: Vec<_> =
-            points.iter().map(|[u, f]| format!("({}, {})", number(*u), number(*f))).collect();
+            points.iter().map(|[u, f]| format!("({}, {})", stated(*u), stated(*f))).collect();
         let name = format!("Corners of the force law, {}", formula("u/u_ins, F/F0"));
         rows.push([name, points.join(" "), "scene".into()]);
     }
@@ -65,7 +65,7 @@ fn parameter(
     let (value, from) = if computed {
         (computed_value(wall, parameters, name), "computed".to_owned())
     } else {
-        let value = text.parse().map_or_else(|_| text.trim_matches('"').replace('_', " "), number);
+        let value = text.parse().map_or_else(|_| text.trim_matches('"').replace('_', " "), stated);
         (value, origin.of_parameter(group, name).to_owned())
     };
     let unit = unit.replace("m3", "m³");
@@ -78,8 +78,8 @@ fn parameter(
 /// The number that the geometry gives where a parameter leaves it to that.
 fn computed_value(wall: &Wall, parameters: &Parameters, name: &str) -> String {
     match name {
-        "restitution" => number(wall.restitution()),
-        _ if parameters.damping_model.ratio_name() == Some(name) => number(wall.damping_ratio()),
+        "restitution" => stated(wall.restitution()),
+        _ if parameters.damping_model.ratio_name() == Some(name) => stated(wall.damping_ratio()),
         _ => "–".to_owned(),
     }
 }

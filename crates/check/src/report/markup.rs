@@ -20,9 +20,17 @@ pub(crate) fn result(is_passed: bool) -> &'static str {
     if is_passed { "passed" } else { "<span class=\"fails\">not passed</span>" }
 }
 
-/// A number as people write it, with six digits.
-pub(crate) fn number(value: f64) -> String {
-    ::report::number(value, 6)
+/// A number as people write it, with at most so many digits.
+pub(crate) use ::report::number;
+
+/// A number that is computed, as a report has it: with four digits.
+pub(crate) fn shown(value: f64) -> String {
+    number(value, 4)
+}
+
+/// A number that the engineer states, as it was written.
+pub(crate) fn stated(value: f64) -> String {
+    number(value, 6)
 }
 
 /// A table of markup; without heads if there are none.
@@ -93,7 +101,7 @@ impl Calculation {
             self.0,
             "<tr><td>{words}{source}</td><td>{}{numbers} = <b>{}</b>{unit}</td></tr>",
             formula(left),
-            number(value)
+            shown(value)
         );
     }
 

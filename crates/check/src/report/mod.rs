@@ -2,7 +2,11 @@
 
 pub(crate) mod drawing;
 pub(crate) mod inputs;
+pub(crate) mod language;
 pub(crate) mod markup;
+pub(crate) mod project;
+
+use std::path::Path;
 
 use ::report::escaped;
 use ::report::page::Page;
@@ -15,7 +19,11 @@ use crate::file::CheckFile;
 use crate::site::Records;
 
 pub(crate) use inputs::the_wall;
+use language::translated;
+pub use language::{Language, terms};
 use markup::{formula, list, table};
+use project::as_written;
+pub use project::{ReportTable, report_schema};
 
 /// Width of a figure on a phone \[px\].
 const NARROW: f64 = 390.0;
@@ -30,8 +38,8 @@ pub struct Origin<'a> {
     pub set: &'a [String],
     /// The records that were read.
     pub records: &'a Records,
-    /// Date or place of the report, as the user gives it.
-    pub date: Option<&'a str>,
+    /// What the report says of the project, with its date and language.
+    pub report: &'a ReportTable,
 }
 
 /// A picture with its caption.
@@ -69,9 +77,11 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
         "<p class=\"subtitle\">{}</p>\n<p class=\"subtitle\">{}</p>\n<p class=\"verdict \
          {passed}\">{headline}</p>",
         escaped(verdict.code.source),
-        origin.date.map_or_else(String::new, escaped)
+        origin.date()
     );
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&head);
+    let project = origin.report.project_data();
+    let page = if project.is_empty() { page } else { page.section("Project", &project) };
     let mut page = page.section(
         "Verdict",
         &format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&verdict.notes)),
@@ -81,29 +91,45 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     }
     let warnings: Vec<_> = verdict.warnings.iter().chain(&origin.records.warnings).cloned().collect();
     let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
-    Ok(page.section("Warnings", &warnings).section("Document", &document(origin)?).html())
+    let page = page.section("Warnings", &warnings).section("Document", &document(origin)?).text(SIGNED);
+    let title = format!("<h1>{}</h1>", escaped(origin.title));
+    let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
+    Ok(translated(page, origin.report.language))
+}
+
+/// The box for stamp and signature.
+const SIGNED: &str = "<div class=\"signed\"><p>Date</p><p>Stamp and signature</p></div>";
+
+impl Origin<'_> {
+    /// The date as markup, as the user gives it.
+    fn date(&self) -> String {
+        self.report.date.as_deref().map_or_else(String::new, as_written)
+    }
 }
 
 /// Program, version, date, and the fingerprints of what was read.
 fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
-    let mut files = vec![(origin.file.name().to_owned(), fingerprint(origin.file.text().as_bytes()))];
+    // names of folders are the machine's
+    let name = |path: &Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let own = name(Path::new(origin.file.name()));
+    let mut files = vec![(own, fingerprint(origin.file.text().as_bytes()))];
     for path in &origin.records.files {
         let bytes = std::fs::read(path).map_err(|error| SceneError::File {
             file: path.display().to_string(),
             reason: format!("{error}; the file could be read earlier in this run"),
         })?;
-        files.push((path.display().to_string(), fingerprint(&bytes)));
+        files.push((name(path), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
     let inputs: Vec<&str> =
         files.iter().map(|(_, hash)| hash.as_str()).chain(origin.set.iter().map(String::as_str)).collect();
     let mut rows = vec![
         ["program".to_owned(), format!("wall (rocking-wall) {}", env!("CARGO_PKG_VERSION"))],
-        ["date".to_owned(), origin.date.map_or_else(|| "not given".to_owned(), escaped)],
+        ["date".to_owned(), origin.report.date.as_deref().map_or_else(|| "not given".to_owned(), as_written)],
         ["fingerprint of the inputs".to_owned(), fingerprint(inputs.join("\n").as_bytes())],
     ];
-    rows.extend(files.into_iter().map(|(file, hash)| [escaped(&file), hash]));
-    rows.extend(origin.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
+    rows.extend(files.into_iter().map(|(file, hash)| [as_written(&file), hash]));
+    rows.extend(origin.set.iter().map(|set| ["--set".to_owned(), as_written(set)]));
     Ok(table(&[], &rows)
         + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
            against deliberate changes.</p>\n")

@@ -1,6 +1,6 @@
 //! What every code has: an entry, its rule in the manual, and a verdict from its example.
 
-use check::{CODES, CheckFile, Ends, Origin, Sought, WallCodes, check_walls, find, page, read};
+use check::{CODES, CheckFile, Ends, Origin, ReportTable, Sought, WallCodes, check_walls, find, page, read};
 use rocking_wall::scene::Scene;
 use run::walls::NamedWall;
 
@@ -56,7 +56,8 @@ fn every_code_gives_all_of_a_verdict() {
         let text = verdict.text("a wall");
         assert!(text.starts_with(&format!("a wall\n{}\n\ncheck", verdict.headline())), "{text}");
         let records = stated.records();
-        let origin = Origin { title: "a wall", file: &file, set: &[], records, date: None };
+        let origin =
+            Origin { title: "a wall", file: &file, set: &[], records, report: &ReportTable::default() };
         let page = page(&verdict, &origin).unwrap();
         for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {
             assert!(page.contains(part), "{name}: the report lacks {part}");
@@ -69,4 +70,12 @@ fn every_code_gives_all_of_a_verdict() {
         let shown = table.columns.iter().filter(|column| code.checks.contains(&&*column.heading)).count();
         assert_eq!(shown, code.checks.len(), "{name}");
     }
+}
+
+/// The glossary of the manual has the terms of reports, all of them and no others.
+#[test]
+fn the_glossary_is_the_table_of_terms() {
+    let rows: String =
+        check::terms().map(|(english, italian)| format!("| {english} | {italian} |\n")).collect();
+    assert!(source("../../docs/glossary.md").ends_with(&format!("| English | Italian |\n|---|---|\n{rows}")));
 }

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use check::{
-    CheckFile, Code, Origin, Sought, Subject, WallCodes, check_walls, find, how_to_write, page, read,
-    with_assignments,
+    CheckFile, Code, Language, Origin, Sought, Subject, WallCodes, check_walls, find, how_to_write, page,
+    read, with_assignments,
 };
 use clap::Args;
 use rocking_wall::scene::{Scene, read_text};
@@ -42,6 +42,9 @@ pub(crate) struct Arguments {
     /// With --report: the date to print in it, in any form
     #[arg(long, value_name = "TEXT", requires = "report")]
     date: Option<String>,
+    /// With --report: its language, in place of that of [report]
+    #[arg(long, value_name = "LANGUAGE", requires = "report", value_parser = language)]
+    lang: Option<Language>,
 }
 
 /// Largest file that is looked into for its tables.
@@ -105,9 +108,11 @@ fn one(
     }
     let verdict = code.check(subject).map_err(|error| file.located(error))?;
     if let Some(path) = report {
-        let date = arguments.date.as_deref();
-        let origin =
-            Origin { title: &scene.title, file, set: &arguments.scene.set, records: code.records(), date };
+        let mut report = file.report()?;
+        report.date = arguments.date.clone().or(report.date);
+        report.language = arguments.lang.unwrap_or(report.language);
+        let (set, records) = (&arguments.scene.set, code.records());
+        let origin = Origin { title: &scene.title, file, set, records, report: &report };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
     console.save(csv.as_ref(), || verdict.table().csv())?;
@@ -157,9 +162,26 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
     }
 }
 
+fn language(name: &str) -> Result<Language, String> {
+    let names = Language::ALL.map(Language::name);
+    let found = Language::ALL.into_iter().find(|language| language.name() == name);
+    found.ok_or_else(|| format!("expected {}", names.join(" or ")))
+}
+
 fn sought(name: &str) -> Result<Sought, String> {
     Sought::ALL
         .into_iter()
         .find(|sought| sought.name() == name)
         .ok_or_else(|| format!("expected {}", Sought::ALL.map(Sought::name).join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Language, language};
+
+    #[test]
+    fn languages_go_by_their_names() {
+        assert_eq!(language("it"), Ok(Language::It));
+        assert_eq!(language("de"), Err("expected en or it".to_owned()));
+    }
 }

@@ -45,6 +45,11 @@ fn schema(file: File) -> Schema {
             all.extend(tables);
         }
     }
+    if let File::Scene = file {
+        schema["properties"]
+            .as_table_mut()
+            .map(|own| own.insert("report".into(), check::report_schema().into()));
+    }
     schema
 }
 
@@ -80,6 +85,11 @@ mod tests {
             let schema = schema(file);
             for key in keys(&schema) {
                 assert!(text.contains(&format!("`{key}`")), "docs/{name} has no `{key}`");
+            }
+            for key in
+                check::report_schema()["properties"].as_table().unwrap().keys().filter(|_| name == "model.md")
+            {
+                assert!(text.contains(&format!("`{key}`")), "docs/{name} has no `{key}` of [report]");
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::report::Figure;
 use ::report::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 
-use crate::report::markup::{Calculation, formula, number as n, side_head};
+use crate::report::markup::{Calculation, formula, shown as n, side_head};
 
 pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut text = String::new();

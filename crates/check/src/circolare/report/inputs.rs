@@ -6,7 +6,7 @@ use crate::circolare::{
 use crate::report::Origin;
 use rocking_wall::variables::Mechanism;
 
-use crate::report::markup::{formula, number, table};
+use crate::report::markup::{formula, stated, table};
 
 /// Describes the statements of the engineer, and where each comes from.
 pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
@@ -28,7 +28,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     };
     state(compression.into(), &["compression_considered"]);
     state(
-        format!("Behaviour factor {} = {}.", formula("q"), number(statement.behaviour_factor)),
+        format!("Behaviour factor {} = {}.", formula("q"), stated(statement.behaviour_factor)),
         &["behaviour_factor"],
     );
     if let Some(class) = statement.table.use_class {
@@ -47,12 +47,12 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
     {
         let said =
-            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), number(xi), given.state);
+            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), stated(xi), given.state);
         state(said, &[given.state.key(), "building_damping"]);
     }
     if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
         let said =
-            format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), number(u));
+            format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), stated(u));
         rows.push([said, "[check] SLC displacement".to_owned()]);
     }
     let missing = LimitState::ALL.into_iter().filter(|state| statement.state(*state).is_none());
@@ -97,7 +97,7 @@ fn activation(case: &Checked<'_>) -> String {
             "The wall is a free element (C8.7.1.2.1.5); before it rocks it is a uniform beam with {} = {} \
              MPa.",
             formula("E"),
-            number(1e-6 * statement.table.young_modulus.unwrap_or(f64::NAN))
+            stated(1e-6 * statement.table.young_modulus.unwrap_or(f64::NAN))
         ),
         Some(Activation::Rigid) => {
             "The wall is held by transverse walls before it rocks (C8.7.1.2.1.5): it is rigid.".into()
@@ -117,7 +117,7 @@ fn overburden(case: &Checked<'_>) -> String {
     format!(
         "The share {} = {} of the overburden's mass moves with the wall{meaning}.",
         formula("r"),
-        number(r)
+        stated(r)
     )
 }
 
@@ -133,5 +133,5 @@ fn confidence(case: &Checked<'_>) -> String {
     } else {
         "that of LC1, which applies where the compressive strength is neglected (C8.7.1.2.1.3)"
     };
-    format!("FC = {}{level}: {why}.", number(factor))
+    format!("FC = {}{level}: {why}.", stated(factor))
 }

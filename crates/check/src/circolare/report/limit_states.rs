@@ -5,7 +5,7 @@ use crate::circolare::{
     StateStatement,
 };
 
-use crate::report::markup::{Calculation, formula, number as n, result, side_head};
+use crate::report::markup::{Calculation, formula, result, shown as n, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;

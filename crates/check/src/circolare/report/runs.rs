@@ -3,12 +3,12 @@
 use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
 use ::report::escaped;
 
-use crate::report::markup::{Calculation, formula, number, result, table};
+use crate::report::markup::{Calculation, formula, result, shown, table};
 
 /// The section of the dynamic check, if there is one.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
     case.outcome.dynamic.as_ref()?;
-    let factor = number(case.statement.confidence_factor);
+    let factor = shown(case.statement.confidence_factor);
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
          record, with both signs unless stated otherwise. FC = {factor} divides its forces (gravity, \
@@ -37,9 +37,9 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         let said = format!(
             "{} = <b>{}</b> m, {} = <b>{}</b> m",
             formula(&format!("d_{name}")),
-            number(check.d),
+            shown(check.d),
             formula("d_0"),
-            number(verdict.d0)
+            shown(verdict.d0)
         );
         lines.say(&words, &said);
     }
@@ -48,7 +48,7 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     lines.line([words, "NTC 7.3.5"], ["d", ""], (state.d, "m"));
     // with sides of different thresholds the ratio is no quotient of these numbers
     let put = match thresholds[..] {
-        [threshold] => format!("{}/{}", number(threshold), number(state.d)),
+        [threshold] => format!("{}/{}", shown(threshold), shown(state.d)),
         _ => String::new(),
     };
     lines.line(

@@ -9,7 +9,7 @@ use crate::error::CheckError;
 use crate::report::Figure;
 use ::report::palette::sign;
 
-use crate::report::markup::{formula, number, table};
+use crate::report::markup::{formula, shown, table};
 
 /// A limit state that is checked, with its demand.
 fn checked<'a>(case: &'a Checked<'_>) -> impl Iterator<Item = (&'a StateStatement, &'a Demand)> {
@@ -66,16 +66,16 @@ pub(super) fn values(case: &Checked<'_>) -> String {
                 rows.push([name, values.join("</td><td>")]);
             }
         };
-    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), number);
-    row("a_g", "[check]", "g", &|(given, _)| number(given.ag));
+    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), shown);
+    row("a_g", "[check]", "g", &|(given, _)| shown(given.ag));
     for (name, source, unit, value) in GROUND {
         row(name, source, unit, &|(_, demand)| some(ground(demand).map(value)));
     }
     row("a_g S", "[3.2.2]", "m/s²", &|(_, demand)| {
         some(ground(demand).map(|ground| ground.acceleration(0.0, 0.05)))
     });
-    row("ξ", "C8.7.1.2.1.5, .8", "", &|(given, _)| number(given.damping));
-    let each = |values: &[f64]| values.iter().copied().map(number).collect::<Vec<_>>().join("; ");
+    row("ξ", "C8.7.1.2.1.5, .8", "", &|(given, _)| shown(given.damping));
+    let each = |values: &[f64]| values.iter().copied().map(shown).collect::<Vec<_>>().join("; ");
     let modes = |demand: &Demand, value: fn(&Mode) -> f64| {
         let values = |floor: &FloorSpectrum| each(&floor.modes().iter().map(value).collect::<Vec<_>>());
         floor(demand).map_or_else(|| "–".to_owned(), values)
@@ -103,7 +103,7 @@ fn place(case: &Checked<'_>) -> String {
         let topography = match topography {
             None => "T1 (default)".to_owned(),
             Some(Topography::Category(name)) => name.clone(),
-            Some(Topography::Factor(factor)) => number(*factor),
+            Some(Topography::Factor(factor)) => shown(*factor),
         };
         said.push(::report::escaped(&format!("Soil {soil}, topography {topography}")));
     }
@@ -114,7 +114,7 @@ fn place(case: &Checked<'_>) -> String {
         ..
     }) = building
     {
-        let [period, ratio] = [*period, *ratio].map(number);
+        let [period, ratio] = [*period, *ratio].map(shown);
         said.push(format!(
             "building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
              {} = {ratio}",
@@ -135,7 +135,7 @@ fn place(case: &Checked<'_>) -> String {
             Source::Points(points, xi) => said.push(format!(
                 "{state}: spectrum at the wall's place, given by {} points at {} % damping",
                 points.len(),
-                number(100.0 * xi)
+                shown(100.0 * xi)
             )),
             Source::Records => said.push(format!("{state}: {} of the records", combined(case))),
         }
@@ -201,7 +201,7 @@ fn key(drawn: &[Drawn<'_>], has_marks: bool) -> String {
         let color = color(drawn.state);
         let line = format!("<i class=\"chip line\" style=\"border-top:2px solid {color}\"></i>");
         let mark = if has_marks { sign(color, DEMAND) } else { String::new() };
-        format!("<span>{line}{mark}{}, {} %</span>", drawn.state, number(100.0 * drawn.damping))
+        format!("<span>{line}{mark}{}, {} %</span>", drawn.state, shown(100.0 * drawn.damping))
     };
     format!("<span class=\"key\">{}</span>", drawn.iter().map(one).collect::<String>())
 }

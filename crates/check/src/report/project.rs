@@ -1,0 +1,145 @@
+//! What a report says of the project: the table `[report]`.
+
+use ::report::escaped;
+use rocking_wall::scene::{Described, Schema};
+use rocking_wall::{choices, tables};
+
+use super::language::Language;
+use super::markup::{number, table};
+
+tables! {
+    /// What the report of a check says of the project. What is left out is left out of the report.
+    #[derive(Clone, Debug, Default)]
+    pub struct ReportTable {
+        /// Language of the report.
+        #[serde(default)]
+        #[key(default = "en")]
+        pub language: Language,
+        /// Project.
+        pub project: Option<String>,
+        /// Client.
+        pub client: Option<String>,
+        /// Owner.
+        pub owner: Option<String>,
+        /// Designer.
+        pub designer: Option<String>,
+        /// Place.
+        pub place: Option<String>,
+        /// Municipality.
+        pub municipality: Option<String>,
+        /// Entry in the land register.
+        pub cadastral: Option<String>,
+        /// Latitude and longitude \[°\].
+        pub coordinates: Option<[f64; 2]>,
+        /// Date, in any form; `--date` replaces it.
+        pub date: Option<String>,
+        /// Revision.
+        pub revision: Option<String>,
+        /// Nominal life `V_N` \[years\], NTC 2.4.1.
+        #[key(exclusiveMinimum = 0)]
+        pub nominal_life: Option<f64>,
+        /// Use coefficient `C_U` (-), NTC 2.4.3.
+        #[key(exclusiveMinimum = 0)]
+        pub use_coefficient: Option<f64>,
+        /// Source of the hazard.
+        pub hazard_source: Option<String>,
+        /// Notes.
+        pub notes: Option<String>,
+    }
+}
+
+choices!(Language);
+
+/// Describes the table for a JSON schema; it refers to no other.
+pub fn report_schema() -> Schema {
+    let mut tables = Schema::new();
+    let described = ReportTable::describe("report", &mut tables);
+    match tables.remove("ReportTable") {
+        Some(toml::Value::Table(table)) => table,
+        _ => described,
+    }
+}
+
+/// Limit states and their probabilities of exceedance in `V_R`, NTC Tab. 3.2.I \[-\].
+const EXCEEDED: [(&str, f64); 3] = [("SLD", 0.63), ("SLV", 0.10), ("SLC", 0.05)];
+
+/// Returns `T_R` = −`V_R`/ln(1 − P) of NTC 2.4.3, in the unit of `V_R`.
+fn return_period(reference: f64, exceeded: f64) -> f64 {
+    -reference / libm::log1p(-exceeded)
+}
+
+/// What the user writes stands as it is in every language.
+pub(crate) fn as_written(text: &str) -> String {
+    format!("<span translate=\"no\">{}</span>", escaped(text))
+}
+
+impl ReportTable {
+    /// Says which key has a number that cannot be, and why.
+    pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
+        if let Some([latitude, longitude]) = self.coordinates
+            && !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0)
+        {
+            let message = format!(
+                "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
+                 [42.35, 13.40]"
+            );
+            return Some(("coordinates", message));
+        }
+        let positive = [("nominal_life", self.nominal_life), ("use_coefficient", self.use_coefficient)];
+        let bad = |value: f64| !(value > 0.0 && value.is_finite());
+        let (key, value) =
+            positive.into_iter().find_map(|(key, value)| Some((key, value.filter(|v| bad(*v))?)))?;
+        let such = if key == "nominal_life" { "50 (years)" } else { "1.0" };
+        Some((key, format!("{key} = {value} must be above 0, such as {such}")))
+    }
+
+    /// The data of the project as a table, without those that are not given; empty without any.
+    pub(crate) fn project_data(&self) -> String {
+        let texts = [
+            ("Project", &self.project),
+            ("Client", &self.client),
+            ("Owner", &self.owner),
+            ("Designer", &self.designer),
+            ("Place", &self.place),
+            ("Municipality", &self.municipality),
+            ("Land register", &self.cadastral),
+            ("Revision", &self.revision),
+            ("Source of the hazard", &self.hazard_source),
+            ("Notes", &self.notes),
+        ];
+        let of = |(name, text): (&str, &Option<String>)| Some([name.to_owned(), as_written(text.as_ref()?)]);
+        let mut rows: Vec<_> = texts.into_iter().filter_map(of).collect();
+        if let Some([latitude, longitude]) = self.coordinates {
+            let place = format!("{}°, {}°", number(latitude, 8), number(longitude, 8));
+            rows.push(["Coordinates (latitude, longitude)".into(), place]);
+        }
+        let years = |value: f64| format!("{} years", number(value, 4));
+        rows.extend(self.nominal_life.map(|life| ["Nominal life V_N".into(), years(life)]));
+        rows.extend(self.use_coefficient.map(|factor| ["Use coefficient C_U".into(), number(factor, 4)]));
+        if let (Some(life), Some(factor)) = (self.nominal_life, self.use_coefficient) {
+            let reference = life * factor;
+            rows.push(["Reference period V_R = V_N C_U".into(), years(reference)]);
+            rows.extend(EXCEEDED.map(|(state, exceeded)| {
+                let name = format!("Return period T_R of {state} (probability of exceedance {} %)", {
+                    number(100.0 * exceeded, 3)
+                });
+                [name, years(return_period(reference, exceeded))]
+            }));
+        }
+        if rows.is_empty() { String::new() } else { table(&[], &rows) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::return_period;
+
+    /// NTC 2.4.3: the years of ordinary buildings, `V_R` = 50 years, are printed as 50, 475 and 975.
+    #[test]
+    fn return_periods_are_those_of_the_code() {
+        for (exceeded, years) in [(0.63, 50.0), (0.10, 475.0), (0.05, 975.0)] {
+            // printed without decimals
+            assert!((return_period(50.0, exceeded) - years).abs() < 0.5, "{exceeded}");
+        }
+    }
+}
