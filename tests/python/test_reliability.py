@@ -1,4 +1,4 @@
-"""`wall study reliability` beside a script that reads `wall check --json` and the tables of `wall study ida`."""
+"""`wall study reliability` beside a script that reads `wall check --json` and the tables of `ida`."""
 
 import csv
 import re

@@ -538,4 +538,5 @@ def test_reliability_is_that_of_the_program(program, tmp_path):
     study = rw.Study(records=motions, intensity={"measure": "code"}, check=check, **parts)
     assert study.measure == "a_g" and len(study.reliability(progress=False).walls["wall"]) == 4
     with pytest.raises(ValueError, match='measure = "code"'):
-        rw.Study(records=motions, intensity={"measure": "PGA"}, check=check, **parts).reliability(progress=False)
+        other = rw.Study(records=motions, intensity={"measure": "PGA"}, check=check, **parts)
+        other.reliability(progress=False)

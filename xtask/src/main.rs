@@ -69,7 +69,8 @@ The jobs of the project.
                                    pages, and the pictures of docs/images
   cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --reliability
-                                   only docs/reliability.md; with ROCKING_WALL_RECORDS under recorded motions too
+                                   only docs/reliability.md; under recorded motions too if
+                                   ROCKING_WALL_RECORDS names their folder
   cargo xtask figures --validation only docs/validation.md and its pictures
   cargo xtask figures --verification
                                    only docs/verification.md

@@ -102,22 +102,22 @@ fn tables(motions: &str, records: &str) -> Result<String> {
             }
         }
     }
-    let mut text = String::from(
-        "\n| walls | place | check | model | θ/a_g,code: 5 % | 50 % | 95 % | P(fall): 50 % | 95 % | P > 0.1 |\n\
-         |---|---|---|---|---|---|---|---|---|---|\n",
-    );
+    let mut text = head("model");
     for ((kind, place, check, model), falls) in &all {
         // writing to a String cannot fail
         let _ = writeln!(text, "| {} | {place} | {check} | {model} | {} |", KINDS[*kind].name, shown(falls));
     }
-    text.push_str(
-        "\nWith CR, soil by soil:\n\n| walls | place | check | soil | θ/a_g,code: 5 % | 50 % | 95 % | P(fall): \
-         50 % | 95 % | P > 0.1 |\n|---|---|---|---|---|---|---|---|---|---|\n",
-    );
+    let _ = writeln!(text, "\nWith CR, soil by soil:\n{}", head("soil").trim_end());
     for ((kind, place, check, soil), falls) in &by_soil {
         let _ = writeln!(text, "| {} | {place} | {check} | {soil} | {} |", KINDS[*kind].name, shown(falls));
     }
     Ok(text + "\n")
+}
+
+/// The first lines of a table whose fourth column is `varied`.
+fn head(varied: &str) -> String {
+    let columns = ["walls", "place", "check", varied, "θ/a_g,code: 5 %", "50 %", "95 %", "P(fall): 50 %"];
+    format!("\n| {} | 95 % | P > {LIMIT} |\n|{}\n", columns.join(" | "), "---|".repeat(10))
 }
 
 /// Fractiles of margins and probabilities, and the share of walls above the limit.

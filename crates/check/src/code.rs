@@ -31,6 +31,7 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::find::Sought;
 use crate::report::{Figure, Origin, the_wall};
+use crate::rule::Rule;
 use crate::site::Records;
 use crate::{circolare, fractions};
 
@@ -120,27 +121,6 @@ pub trait Code: fmt::Debug + Send + Sync {
     /// The same statements without records that only inform; `None` where there are none.
     fn deciding(&self) -> Option<Box<dyn Code>> {
         None
-    }
-}
-
-/// A number in the rule of a check, which a study of reliability varies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// Displacement capacity over the displacement at which the force vanishes \[-\].
-    Fraction,
-    /// Factor of π √(d/a) in the period of the demand \[-\].
-    PeriodFactor,
-    /// Behaviour factor q \[-\].
-    BehaviourFactor,
-}
-
-impl Rule {
-    /// Every variant.
-    pub const ALL: [Self; 3] = [Self::Fraction, Self::PeriodFactor, Self::BehaviourFactor];
-
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        ["fraction of d_0", "factor of the period", "q"][self as usize]
     }
 }
 

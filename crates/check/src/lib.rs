@@ -7,13 +7,15 @@ mod file;
 mod find;
 pub mod fractions;
 mod report;
+mod rule;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Rule, Subject, Verdict, how_to_write, read, schema};
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read, schema};
 pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
 pub use report::{Figure, Language, Origin, ReportTable, page, report_schema, terms};
+pub use rule::Rule;
 pub use site::Records;
 pub use walls::{WallCodes, WallVerdicts, check_walls};

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`loaded`] and [`folder`] open files. Each module uses only modules above it in
+//! Nothing here prints. Only [`document`], [`loaded`] and [`folder`] open files. Each module uses only modules above it in
 //! this table:
 //!
 //! | module | holds |

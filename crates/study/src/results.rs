@@ -82,8 +82,8 @@ impl Fitting {
         WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states }
     }
 
-    /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model, with
-    /// their resamples.
+    /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model,
+    /// with their resamples.
     ///
     /// # Panics
     /// As [`results`](Self::results).

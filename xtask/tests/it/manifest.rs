@@ -132,7 +132,10 @@ const KNOWN: [(&str, &str); 17] = [
     ("rocking-record", "rocking-oscillator rocking-wall"),
     ("rocking-run", "ground-motion rocking-record rocking-report rocking-wall"),
     ("rocking-check", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
-    ("rocking-study", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
+    (
+        "rocking-study",
+        "fmu-export ground-motion rocking-check rocking-record rocking-report rocking-run rocking-wall",
+    ),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
         "rocking-building",

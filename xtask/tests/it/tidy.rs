@@ -120,7 +120,11 @@ fn files_are_opened_where_the_heads_say() {
             &["file.rs", "records.rs", "wall_table.rs", "walls.rs"],
             "Only [`mod@file`], [`walls`] and [`records`] open files",
         ),
-        ("study", &["loaded.rs"], "Only [`loaded`] and [`folder`] open files"),
+        (
+            "study",
+            &["document/hazard.rs", "loaded.rs"],
+            "Only [`document`], [`loaded`] and [`folder`] open files",
+        ),
         ("evidence", &["validation/case.rs"], "Only [`validation`] opens files"),
     ];
     for (name, expected, words) in lists {

@@ -286,8 +286,8 @@ fn displacement(
     let (elastic, end) = (curve.elastic.displacement, fraction * curve.d0());
     if end <= elastic {
         return Err(CheckError::wall(format!(
-            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {fraction:.2} d_0 = {end} m: lower \
-             a1 or raise E"
+            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {fraction:.2} d_0 = {end} m: \
+             lower a1 or raise E"
         )));
     }
     let period = Curve::period(period_factor, d, a);

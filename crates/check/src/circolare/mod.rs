@@ -47,9 +47,10 @@ mod warnings;
 use rocking_wall::scene::Described;
 use rocking_wall::wall::Parameters;
 
-use crate::code::{Code, Entry, Rule, Subject, Verdict};
+use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
 use crate::find::Sought;
+use crate::rule::Rule;
 use crate::site::Records;
 
 pub use checks::LARGEST_LOSS;

@@ -57,8 +57,8 @@ class ReliabilityResults(Tabular):
     _main = "walls"
 
     walls: Table
-    """A row for each wall, damping model, check and event: a_g with which the wall just passes, θ and β of the
-    event, margin θ/a_g and probability P, with 95 % intervals."""
+    """A row for each wall, damping model, check and event: a_g with which the wall just passes, θ and β of
+    the event, margin θ/a_g and probability P, with 95 % intervals."""
     rules: Table
     """The numbers of the code that would give the stated probability of a fall."""
     summary: Table

@@ -83,8 +83,8 @@ struct End {
 /// Returns the rate from a segment, with kβ.
 ///
 /// The last term of the closed form is too large for a number where k is. But `λ_a (a/θ)^k exp(k²β²/2) φ(w)`
-/// = λ φ(z) at every x, with w = z + kβ, and so it is a difference of λ φ(z) M(|w|) with Mills' ratio M. Where
-/// w changes its sign the factor is at most `λ_a`.
+/// = λ φ(z) at every x, with w = z + kβ, and so it is a difference of λ φ(z) M(|w|) with Mills' ratio M.
+/// Where w changes its sign the factor is at most `λ_a`.
 fn part(a: End, b: End, slope: f64) -> f64 {
     let [wa, wb] = [a, b].map(|end| end.z + slope);
     let tail = |end: End, w: f64| if end.rate > 0.0 { end.rate * density(end.z) * mills(w) } else { 0.0 };

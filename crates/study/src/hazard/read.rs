@@ -89,8 +89,8 @@ fn two_columns(
     Ok(Table { curve: HazardCurve::new(points).map_err(place)?, warnings: warnings.into_iter().collect() })
 }
 
-/// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t years
-/// is a rate of −ln(1 − P)/t; levels are in g.
+/// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
+/// years is a rate of −ln(1 − P)/t; levels are in g.
 fn open_quake(
     (line, comment): (usize, &str),
     rest: &[(usize, &str)],

@@ -144,8 +144,8 @@ fn warning(class: &Class) -> Option<String> {
     let mut told = Vec::new();
     if let Some((name, [own, checked])) = class.hinges.first() {
         told.push(format!(
-            "{}: the runs have the hinge elsewhere than the check, wall {name:?} at {own} h and {checked:.4} h; \
-             state hinge_ratio in [geometry] for both",
+            "{}: the runs have the hinge elsewhere than the check, wall {name:?} at {own} h and {checked:.4} \
+             h; state hinge_ratio in [geometry] for both",
             counted(class.hinges.len(), "wall")
         ));
     }

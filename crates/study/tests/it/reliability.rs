@@ -72,8 +72,8 @@ fn margins_under_pulses_are_those_of_closed_forms() {
         NamedRecord { name: format!("rectangle {length}"), motion }
     };
     let text = format!(
-        "models = [\"CR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.02, top = 3, resolution \
-         = 1e-12, gap = 0.5 }}\nintensity = {{ measure = \"code\", periods = [0.2, 0.3] }}\n{CHECK}"
+        "models = [\"CR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.02, top = 3, \
+         resolution = 1e-12, gap = 0.5 }}\nintensity = {{ measure = \"code\", periods = [0.2, 0.3] }}\n{CHECK}"
     );
     let walls = vec![NamedWall::new("a", wall)];
     let loaded = LoadedStudy::of_parts(text, walls, lengths.iter().map(record).collect()).unwrap();
@@ -112,8 +112,9 @@ const WALLS: &str = "[[walls]]\nname = \"low\"\ngeometry = { height = 1, thickne
 /// A study of two parapets under eight motions; `more` is put above all tables.
 fn text(more: &str) -> String {
     format!(
-        "models = [\"CR\", \"CDR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.05, top = 5 }}\n\
-         records = {{ synthetic = {{ count = 8 }} }}\nreport = {{ fractions = [0.4, 1.0], resamples = 200 }}\n\
+        "models = [\"CR\", \"CDR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.05, top = 5 \
+         }}\nrecords = {{ synthetic = {{ count = 8 }} }}\nreport = {{ fractions = [0.4, 1.0], resamples = \
+         200 }}\n\
          {more}{CHECK}SLC = {{ ag = 0.25, F0 = 2.4, TC = 0.3 }}\n{WALLS}"
     )
 }
@@ -217,8 +218,8 @@ fn runs_are_those_of_the_analysis() {
     }
 }
 
-/// The intensity is linear in the scale, 1 for a motion with the spectrum of a_g = 1, and `select` takes those
-/// that fit best.
+/// The intensity is linear in the scale, 1 for a motion with the spectrum of a_g = 1, and `select` takes
+/// those that fit best.
 #[test]
 fn records_that_fit_best_are_selected() {
     let all = load("all", &text(MEASURE)).unwrap();
@@ -256,7 +257,8 @@ fn what_cannot_be_answered_is_refused() {
     };
     let with = |intensity: &str| text(&format!("intensity = {intensity}\n"));
     let own = |change: [&str; 2]| text(MEASURE).replace(change[0], change[1]);
-    let building = "SLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\nbuilding = { height_ratio = 0.8, period = 0.3, storeys = 2 }\n";
+    let building = "SLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\n\
+                    building = { height_ratio = 0.8, period = 0.3, storeys = 2 }\n";
     for (name, text, parts) in [
         ("pga", with("{ measure = \"PGA\" }"), &["a_g of the site", "measure = \"code\""][..]),
         ("select", with("{ measure = \"PGA\", select = 2 }"), &["line ", "select", "measure = \"code\""]),
