@@ -56,5 +56,6 @@ if __name__ == "__main__":
     for found in main(*sys.argv[1:4]):
         print(
             f"{found['wall']:<10} {found['model']:<5} {found['check']:<10} "
-            f"a_g,code {found['ag_code_g']:.4f} g, margin {found['margin']:.3f}, P(fall) {found['probability']:.4f}"
+            f"a_g,code {found['ag_code_g']:.4f} g, margin {found['margin']:.3f}, "
+            f"P(fall) {found['probability']:.4f}"
         )

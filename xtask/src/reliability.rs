@@ -1,5 +1,6 @@
 //! `cargo xtask figures --reliability`: how safe walls are that just pass the Italian check, for
-//! `docs/reliability.md`. About 1,000 walls on soils A to D, on the ground and on a building of three storeys.
+//! `docs/reliability.md`. About 1,000 walls on soils A to D, on the ground and on a building of three
+//! storeys.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

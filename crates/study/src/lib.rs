@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`document`], [`loaded`] and [`folder`] open files. Each module uses only modules above it in
-//! this table:
+//! Nothing here prints. Only [`document`], [`loaded`] and [`folder`] open files. Each module uses
+//! only modules above it in this table:
 //!
 //! | module | holds |
 //! |---|---|

@@ -73,7 +73,8 @@ fn margins_under_pulses_are_those_of_closed_forms() {
     };
     let text = format!(
         "models = [\"CR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.02, top = 3, \
-         resolution = 1e-12, gap = 0.5 }}\nintensity = {{ measure = \"code\", periods = [0.2, 0.3] }}\n{CHECK}"
+         resolution = 1e-12, gap = 0.5 }}\nintensity = {{ measure = \"code\", periods = [0.2, 0.3] \
+         }}\n{CHECK}"
     );
     let walls = vec![NamedWall::new("a", wall)];
     let loaded = LoadedStudy::of_parts(text, walls, lengths.iter().map(record).collect()).unwrap();
