@@ -27,6 +27,9 @@ use crate::study_walls::named_walls;
 use crate::tables::table;
 use crate::watch::{threads_of, watched};
 
+/// Three tables of how safe walls are, and the walls without a check with the reasons.
+type Safe<'py> = ([Bound<'py, PyDict>; 3], Vec<(String, String)>);
+
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
 pub(crate) struct Study {
@@ -189,7 +192,7 @@ impl Study {
         py: Python<'py>,
         threads: Option<&Bound<'py, PyAny>>,
         progress: &Bound<'py, PyAny>,
-    ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<(String, String)>)> {
+    ) -> PyResult<Safe<'py>> {
         let LoadedStudy { study, report, .. } = &self.loaded;
         let question = Reliability::of(&self.loaded).map_err(of_scene)?;
         let threads = threads_of(threads)?.get();

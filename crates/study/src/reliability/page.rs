@@ -8,7 +8,7 @@ use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
 use report::{counted, escaped};
 
-use super::class::{Class, QUANTITIES};
+use super::class::{Class, Found, QUANTITIES};
 use super::{Reliability, finish, table};
 use crate::folder::Manifest;
 use crate::ida::Misfit;
@@ -30,7 +30,8 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
     let target = reliability.target;
     let code = reliability.codes.shared().entry().title;
     let told = finish::words(class, &models, target);
-    let told: String = told.lines().map(|line| format!("<li>{}</li>", escaped(line))).collect();
+    let told: Vec<_> = told.lines().map(|line| format!("<li>{}</li>", escaped(line))).collect();
+    let told = told.concat();
     let mut page = Page::new(&format!("{}: how safe is a wall that passes?", reliability.title))
         .styled(STYLE)
         .text(&format!(
@@ -86,6 +87,9 @@ fn scrolled(table: &Table) -> String {
     format!("<div class=\"scroll\">{}</div>", table.html())
 }
 
+/// What is drawn of a fall: its name, its value, and a limit.
+type Drawn = (&'static str, fn(&Found) -> f64, f64);
+
 /// The probability of the fall and the margin of each wall over what varies among them.
 fn drawings(manifest: &Manifest, class: &Class, target: f64) -> String {
     let models = manifest.contents.models.iter().enumerate();
@@ -102,7 +106,7 @@ fn drawings(manifest: &Manifest, class: &Class, target: f64) -> String {
         if values.clone().all(|value| Some(value) == first || value.is_nan()) {
             continue;
         }
-        let drawn: [(&str, fn(&super::class::Found) -> f64, f64); 2] = [
+        let drawn: [Drawn; 2] = [
             ("P(fall)", |found| found.probability, target),
             ("θ/a_g,code of the fall", |found| found.margin, 1.0),
         ];
