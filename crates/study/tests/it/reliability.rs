@@ -210,7 +210,7 @@ fn runs_are_those_of_the_analysis() {
     let parts = of_parts.contents().parts();
     for part in [0, 1] {
         let mine: Vec<_> = (part..parts).step_by(2).collect();
-        compute(&loaded.study, &of_parts, &of_parts.missing(mine.into_iter()), 1, |_, _, _| {}).unwrap();
+        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _, _| {}).unwrap();
     }
     study::folder::finish(&of_parts, 1, || {}).unwrap();
     finish(&of_parts, &Reliability::of(&loaded).unwrap(), 1, || {}).unwrap();
