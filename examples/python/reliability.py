@@ -53,6 +53,9 @@ def main(program: str, study: str, results: str) -> list[dict]:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        print(__doc__)
+        sys.exit()
     for found in main(*sys.argv[1:4]):
         print(
             f"{found['wall']:<10} {found['model']:<5} {found['check']:<10} "

@@ -58,7 +58,7 @@ impl Reliability {
     pub fn of(loaded: &LoadedStudy) -> Result<Self, SceneError> {
         let name =
             loaded.inputs.first().map_or_else(|| "the study".into(), |path| path.display().to_string());
-        let refused = |reason: String| Err(SceneError::File { file: name.clone(), reason });
+        let refused = |reason: String| Err(SceneError::Value { message: format!("{name}: {reason}") });
         let walls = loaded.study.walls().to_vec();
         let codes = WallCodes::read(&CheckFile::parse(&name, loaded.text())?, &walls)?;
         if !matches!(loaded.study.measure(), IntensityMeasure::Code { .. }) {
