@@ -59,24 +59,26 @@ pub(crate) fn study(name: &str) -> PathBuf {
 
 /// Every file of a folder of results, with its bytes.
 pub(crate) fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    let mut rest = vec![path.to_owned()];
+    let read = |file: PathBuf| (file.strip_prefix(path).unwrap().to_owned(), fs::read(&file).unwrap());
+    files(path).into_iter().map(read).collect()
+}
+
+/// The files of a folder and of those in it. A study that runs renames its own: they are not read.
+fn files(path: &Path) -> Vec<PathBuf> {
+    let (mut files, mut rest) = (Vec::new(), vec![path.to_owned()]);
     while let Some(folder) = rest.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let entry = entry.unwrap().path();
-            if entry.is_dir() {
-                rest.push(entry);
-            } else {
-                files.insert(entry.strip_prefix(path).unwrap().to_owned(), fs::read(&entry).unwrap());
-            }
+            if entry.is_dir() { rest.push(entry) } else { files.push(entry) }
         }
     }
+    files.sort();
     files
 }
 
 pub(crate) fn part_files(results: &Path) -> Vec<PathBuf> {
-    let files = bytes(results).into_keys().filter(|path| path.starts_with("runs"));
-    files.map(|path| results.join(path)).collect()
+    let runs = results.join("runs");
+    files(results).into_iter().filter(|file| file.starts_with(&runs)).collect()
 }
 
 #[test]
