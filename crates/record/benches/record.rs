@@ -36,7 +36,7 @@ fn main() {
     println!("{:<44}{bare:>8.2} ns a sample", "bare linear oscillator");
     println!(
         "runs/s: runs of {:.0} s at {:.0} ms with every corner located, a second and core: {BATCH} at once \
-         on          one thread, over its time",
+         on one thread, over its time",
         record.duration(),
         1e3 * record.step(),
     );

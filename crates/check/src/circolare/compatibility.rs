@@ -11,8 +11,8 @@ use crate::site::Records;
 const PERIODS: u32 = 100;
 /// ξ of the comparison \[-\].
 const DAMPING: f64 = 0.05;
-/// Bounds of the mean spectrum over that of the ground \[-\].
-const BAND: [f64; 2] = [0.9, 1.3];
+/// Bounds of the mean spectrum over that of the ground, NTC 3.2.3.6 \[-\].
+pub const BAND: [f64; 2] = [0.9, 1.3];
 /// Factors of usual scaling \[-\].
 const USUAL: [f64; 2] = [0.25, 4.0];
 /// How far a ratio may be off its bound by rounding \[-\].

@@ -54,7 +54,7 @@ use crate::rule::Rule;
 use crate::site::Records;
 
 pub use checks::LARGEST_LOSS;
-pub use compatibility::Compatibility;
+pub use compatibility::{BAND, Compatibility};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};

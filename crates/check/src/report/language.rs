@@ -164,8 +164,7 @@ impl Phrases {
             if let Some(held) = held(pieces, text) {
                 return Some(self.filled(italian, &held));
             }
-            if let Some(held) = lower.as_deref().and_then(|lower| held_of(pieces, lower)) {
-                let held: Vec<&str> = held.iter().map(String::as_str).collect();
+            if let Some(held) = lower.as_deref().and_then(|lower| held(pieces, lower)) {
                 return Some(raised(&self.filled(italian, &held)));
             }
         }
@@ -198,10 +197,6 @@ fn lowered(text: &str) -> Option<String> {
 fn raised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
-}
-
-fn held_of(pieces: &[String], text: &str) -> Option<Vec<String>> {
-    held(pieces, text).map(|held| held.into_iter().map(str::to_owned).collect())
 }
 
 /// Returns what stands in the gaps between pieces, if a text consists of them.

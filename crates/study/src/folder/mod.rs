@@ -42,6 +42,6 @@ pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use error::FolderError;
 pub use part::{decode, encode};
-pub(crate) use report::Curves;
+pub(crate) use report::{Curves, MOST_WALLS};
 pub use report::{Report, finish};
 pub use store::Folder;

@@ -18,11 +18,11 @@ use super::error::FolderError;
 use super::legend::looks;
 use super::nrml::limit_states;
 use super::plots::SIZE;
+use super::report::MOST_WALLS;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["rates.csv", "rate_shares.csv"];
-/// Most walls whose rates are shown one by one, and most plots of shares.
-const MOST_WALLS: usize = 40;
+/// Most plots of shares.
 const MOST_PLOTS: usize = 12;
 /// Part of the rates that may lie beyond the last point without a word.
 const MOST_BEYOND: f64 = 0.05;

@@ -27,7 +27,7 @@ use super::risk::Risk;
 use super::store::Folder;
 
 /// Most walls that the page and the summary show one by one.
-const MOST_WALLS: usize = 40;
+pub(crate) const MOST_WALLS: usize = 40;
 /// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
 /// in the parts only.
 const MOST_CASES: usize = 10_000;

@@ -1,7 +1,6 @@
 //! All walls of a study together: what was found of each, and its fractiles.
 
 use rocking_wall::wall::Wall;
-use run::sample::fractile;
 use run::walls::NamedWall;
 
 use super::rules::Turned;
@@ -53,25 +52,19 @@ impl Class {
             Err(reason) => return self.refused.push((wall.name.clone(), reason.clone())),
         };
         self.hinges.extend(found.hinges.map(|hinges| (wall.name.clone(), hinges)));
-        let mut all = Vec::new();
-        for check in &found.checks {
-            for event in &found.events {
-                for model in 0..event.fragilities.len() {
-                    let of_both = event.margin(model, check.code).zip(event.probability(model, check.code));
-                    all.extend(of_both.map(|(margin, probability)| Found {
-                        model,
-                        check: check.check,
-                        event: event.name.clone(),
-                        margin: margin.estimate,
-                        probability: probability.estimate,
-                    }));
-                }
-            }
-        }
+        let all = found.answers.iter().filter_map(|answer| {
+            Some(Found {
+                model: answer.model,
+                check: found.checks[answer.check].check,
+                event: found.events[answer.event].name.clone(),
+                margin: answer.margin?.estimate,
+                probability: answer.probability?.estimate,
+            })
+        });
         self.members.push(Member {
             name: wall.name.clone(),
             quantities: quantities(wall),
-            found: all,
+            found: all.collect(),
             governs: found.checks.get(found.governs).map_or("", |check| check.check),
             turned: found.turned.clone(),
         });
@@ -90,17 +83,11 @@ impl Class {
         kinds
     }
 
-    /// Returns what the walls have of a kind, sorted.
-    pub(super) fn sorted(
-        &self,
-        (model, check, event): (usize, &str, &str),
-        of: fn(&Found) -> f64,
-    ) -> Vec<f64> {
-        let is = |found: &&Found| found.model == model && found.check == check && found.event == event;
-        let mut values: Vec<f64> =
-            self.members.iter().flat_map(|member| &member.found).filter(is).map(of).collect();
-        values.sort_by(f64::total_cmp);
-        values
+    /// Returns margins and probabilities of the walls that have a kind, each sorted.
+    pub(super) fn sorted(&self, kind: (usize, &str, &str)) -> [Vec<f64>; 2] {
+        let is = |found: &&Found| (found.model, found.check, found.event.as_str()) == kind;
+        let found: Vec<_> = self.members.iter().flat_map(|member| &member.found).filter(is).collect();
+        [sorted(found.iter().map(|found| found.margin)), sorted(found.iter().map(|found| found.probability))]
     }
 
     /// Returns the fall of each wall with a model, where the check that governs has ζ = 1.
@@ -114,9 +101,11 @@ impl Class {
     }
 }
 
-/// The fractiles of sorted values.
-pub(super) fn fractiles(sorted: &[f64]) -> [Option<f64>; 5] {
-    FRACTILES.map(|part| fractile(sorted, part))
+/// Sorts values.
+pub(super) fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 fn quantities(wall: &NamedWall) -> [f64; 4] {

@@ -8,13 +8,13 @@ use report::counted;
 use report::table::Table;
 use run::file::{self, Draft};
 use run::parallel;
+use run::sample::fractile;
 
-use super::class::Class;
+use super::class::{Class, sorted};
 use super::{FILES, Reliability, page, table};
 use crate::document::ReportOptions;
-use crate::folder::{Curves, Folder, FolderError, Report};
+use crate::folder::{Curves, Folder, FolderError, MOST_WALLS, Report};
 use crate::ida::{Curve, Study};
-use crate::reliability::wall::WallReliability;
 use crate::results::Fitting;
 
 /// Walls that each thread takes before their rows are written.
@@ -47,9 +47,7 @@ pub fn finish(
         let end = (start + threads * WALLS_AT_ONCE).min(count);
         let taken = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
         let found = parallel::map(taken.len(), threads, |place| {
-            let wall = &reliability.walls[start + place];
-            let checked = (wall, reliability.codes.of(wall));
-            let found = WallReliability::of(checked, &taken[place], &fitting, reliability.target);
+            let found = reliability.of_wall(start + place, &taken[place], &fitting);
             done();
             Ok::<_, Infallible>(found)
         });
@@ -57,17 +55,14 @@ pub fn finish(
         for (wall, found) in reliability.walls[start..end].iter().zip(&found) {
             class.add(wall, found);
             let Ok(found) = found else { continue };
-            let tables = [
-                (&mut rows, table::wall(&wall.name, &models, found, hazard)),
-                (&mut rules, table::rules(&wall.name, &models, found, reliability.target)),
-            ];
-            for (draft, table) in tables {
+            let own = table::wall(&wall.name, &models, found, hazard);
+            let turned = table::rules(&wall.name, &models, found, reliability.target);
+            for (draft, table) in [(&mut rows, &own), (&mut rules, &turned)] {
                 let text = if is_begun { table.csv_rows() } else { table.csv() };
                 draft.write(|file| file.write_all(text.as_bytes()))?;
             }
             is_begun = true;
-            shown
-                .extend((count <= page::MOST_WALLS).then(|| table::wall(&wall.name, &models, found, hazard)));
+            shown.extend((count <= MOST_WALLS).then_some(own));
         }
     }
     let summary = table::summary(&class, &models, reliability.target);
@@ -96,9 +91,7 @@ pub fn tables(
     let hazard = report.hazard.as_ref().map(|hazard| &hazard.curve);
     let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
     let found = parallel::map(of_wall.len(), threads, |place| {
-        let wall = &reliability.walls[place];
-        let checked = (wall, reliability.codes.of(wall));
-        Ok::<_, Infallible>(WallReliability::of(checked, of_wall[place], &fitting, reliability.target))
+        Ok::<_, Infallible>(reliability.of_wall(place, of_wall[place], &fitting))
     });
     let Ok(found) = found;
     let (mut class, mut rows, mut rules) = (Class::default(), Table::default(), Table::default());
@@ -120,14 +113,12 @@ pub fn tables(
 pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
     let mut text = String::new();
     for (model, name) in models.iter().enumerate() {
-        let mut falls: Vec<f64> = class.falls(model).map(|(_, found)| found.probability).collect();
-        if falls.is_empty() {
+        let falls = sorted(class.falls(model).map(|(_, found)| found.probability));
+        let fractile = |part: f64| fractile(&falls, part);
+        let (Some(least), Some(median), Some(most)) = (fractile(0.05), fractile(0.5), fractile(0.95)) else {
             continue;
-        }
-        falls.sort_by(f64::total_cmp);
+        };
         let above = falls.iter().filter(|probability| **probability > target).count();
-        let [least, .., most] = super::class::fractiles(&falls).map(Option::unwrap_or_default);
-        let median = super::class::fractiles(&falls)[2].unwrap_or_default();
         // writing to a String cannot fail
         let _ = writeln!(
             text,

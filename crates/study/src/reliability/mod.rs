@@ -30,12 +30,13 @@ use check::{CheckFile, WallCodes};
 use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
 
-use crate::ida::IntensityMeasure;
+use crate::ida::{Curve, IntensityMeasure};
 use crate::loaded::LoadedStudy;
+use crate::results::Fitting;
 
 pub use finish::{finish, tables};
 pub use rules::Turned;
-pub use wall::{Checkpoint, Event, WallReliability};
+pub use wall::{Answer, Checkpoint, Event, WallReliability};
 
 /// Files of the results, beside those of the analysis.
 pub const FILES: [&str; 4] =
@@ -96,8 +97,12 @@ impl Reliability {
         Ok(Self { title, codes, walls, target: loaded.target() })
     }
 
-    /// Returns the probability for which the numbers of the code are sought \[-\].
-    pub fn target(&self) -> f64 {
-        self.target
+    /// Asks how safe a wall is, given by its place, from its curves.
+    ///
+    /// # Errors
+    /// The reason why there is no check.
+    fn of_wall(&self, place: usize, curves: &[Curve], fitting: &Fitting) -> Result<WallReliability, String> {
+        let wall = &self.walls[place];
+        WallReliability::of((wall, self.codes.of(wall)), curves, fitting, self.target)
     }
 }

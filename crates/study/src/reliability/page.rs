@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use check::circolare::BAND;
 use report::page::Page;
 use report::palette::{BLUE, GREY, PALE, RED, SERIES, sign};
 use report::plot::{Axis, Look, Plot, Series};
@@ -14,14 +15,10 @@ use crate::folder::Manifest;
 use crate::ida::Misfit;
 use crate::tables::in_g;
 
-/// Most walls that the page shows one by one.
-pub(super) const MOST_WALLS: usize = 40;
 /// Walls that the page names as the worst.
 const WORST: usize = 3;
 /// Size of a drawing \[px\].
 const SIZE: [f64; 2] = [460.0, 320.0];
-/// Bounds of the mean spectrum over that of the ground, NTC 3.2.3.6 \[-\].
-const BAND: [f64; 2] = [0.9, 1.3];
 
 /// Makes the page; `shown` holds the tables of single walls.
 pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class, shown: &[Table]) -> String {

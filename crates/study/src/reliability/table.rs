@@ -1,10 +1,12 @@
 //! The tables of a study of reliability.
 
 use ground_motion::STANDARD_GRAVITY;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Cell, Digits, Table};
+use run::sample::fractile;
 
-use super::class::{Class, FRACTILES, fractiles};
-use super::wall::{Event, WallReliability};
+use super::class::{Class, FRACTILES, sorted};
+use super::rules::Turned;
+use super::wall::WallReliability;
 use crate::fragility::Interval;
 use crate::hazard::HazardCurve;
 use crate::tables::in_g;
@@ -22,53 +24,48 @@ pub(super) fn wall(
     found: &WallReliability,
     hazard: Option<&HazardCurve>,
 ) -> Table {
-    let rows = (0..models.len()).flat_map(|model| {
-        let of_check = move |check| found.events.iter().map(move |event| (model, check, event));
-        found.checks.iter().flat_map(of_check)
-    });
+    let rows = found.answers.iter().map(|one| (one, &found.checks[one.check], &found.events[one.event]));
     let interval = |of: Option<Interval>, part: usize| -> Cell<'static> {
         of.map(|of| [of.estimate, of.range[0], of.range[1]][part]).into()
     };
     let mut table = Table::over(rows)
         .text("wall", "wall", |_| name.to_owned())
-        .text("model", "model", |(model, ..)| models[*model].to_owned())
+        .text("model", "model", |(one, ..)| models[one.model].to_owned())
         .text("check", "check", |(_, check, _)| check.check)
         .value("decides", |(_, check, _)| check.decides)
         .number("zeta", "ζ", THREE, |(_, check, _)| check.zeta)
         .number("ag_code_g", "a_g,code\n[g]", THREE, |(_, check, _)| in_g(check.code))
         .text("event", "event", |(.., event)| event.name.clone())
         .number("u_over_u_ins", "u/u_ins", THREE, |(.., event)| event.fraction)
-        .column(Column::number("theta_g", "θ\n[g]", THREE), |(model, _, event): &(usize, _, &Event)| {
-            Cell::Between(event.fragilities[*model].theta.bounds(STANDARD_GRAVITY)[0])
+        .number("theta_g", "θ\n[g]", THREE, |(one, _, event)| {
+            Cell::Between(event.fragilities[one.model].theta.bounds(STANDARD_GRAVITY)[0])
         })
-        .number("beta", "β", THREE, |(model, _, event)| {
-            event.fragilities[*model].fitted.ok().map(|curve| curve.dispersion)
+        .number("beta", "β", THREE, |(one, _, event)| {
+            event.fragilities[one.model].fitted.ok().map(|curve| curve.dispersion)
         });
     for (part, end) in ["", "_low", "_high"].into_iter().enumerate() {
         let heading = ["θ/a_g,code", "from", "to"][part];
-        table = table.number(format!("margin{end}"), heading, THREE, move |(model, check, event)| {
-            interval(event.margin(*model, check.code), part)
-        });
+        table =
+            table.number(format!("margin{end}"), heading, THREE, move |(one, ..)| interval(one.margin, part));
     }
     for (part, end) in ["", "_low", "_high"].into_iter().enumerate() {
         let heading = ["P", "from", "to"][part];
-        let name = format!("probability{end}");
-        table = table.number(name, heading, OF_PROBABILITY, move |(model, check, event)| {
-            interval(event.probability(*model, check.code), part)
+        table = table.number(format!("probability{end}"), heading, OF_PROBABILITY, move |(one, ..)| {
+            interval(one.probability, part)
         });
     }
     if let Some(hazard) = hazard {
         // the wall has ζ = 1 at the site: its θ is as far above a_g of the site as here above a_g,code
-        table = table.number("annual_rate", "rate\n[1/year]", THREE, |(model, check, event)| {
-            let curve = event.fragilities[*model].fitted.ok()?;
+        table = table.number("annual_rate", "rate\n[1/year]", THREE, |(one, check, event)| {
+            let curve = event.fragilities[one.model].fitted.ok()?;
             Some(hazard.rate(curve.median * check.site / check.code, curve.dispersion).within())
         });
     }
     table
-        .number("records", "records", THREE, |(model, check, event)| event.records(*model, check.code))
-        .number("dynamic_zeta", "ζ of the records", THREE, |(model, check, event)| {
-            let known = event.check == Some(check.check) && event.dynamic[*model].is_finite();
-            known.then(|| event.dynamic[*model] / check.site)
+        .number("records", "records", THREE, |(one, check, event)| event.records(one.model, check.code))
+        .number("dynamic_zeta", "ζ of the records", THREE, |(one, check, event)| {
+            let dynamic = event.dynamic[one.model];
+            (event.check == Some(check.check) && dynamic.is_finite()).then(|| dynamic / check.site)
         })
         .done()
 }
@@ -89,28 +86,25 @@ pub(super) fn rules(name: &str, models: &[&str], found: &WallReliability, target
 
 /// Fractiles over the walls of margins and probabilities, and how many walls are above the target.
 pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
-    let mut table = Table::over(class.kinds())
-        .text("model", "model", |(model, ..)| models[*model].to_owned())
-        .text("check", "check with ζ = 1", |(_, check, _)| *check)
-        .text("event", "event", |(.., event)| (*event).to_owned())
-        .number("walls", "walls", THREE, |kind| class.sorted(*kind, |found| found.margin).len());
-    for (place, part) in FRACTILES.into_iter().enumerate() {
-        let percent = format!("{:.0}", 100.0 * part);
-        let heading = heading(place, format!("θ/a_g,code\n{percent} %"));
-        table = table.number(format!("margin_{percent}"), heading, THREE, move |kind| {
-            fractiles(&class.sorted(*kind, |found| found.margin))[place]
-        });
-    }
-    for (place, part) in FRACTILES.into_iter().enumerate() {
-        let percent = format!("{:.0}", 100.0 * part);
-        let heading = heading(place, format!("P\n{percent} %"));
-        table = table.number(format!("probability_{percent}"), heading, OF_PROBABILITY, move |kind| {
-            fractiles(&class.sorted(*kind, |found| found.probability))[place]
-        });
+    let rows = class.kinds().into_iter().map(|kind| (kind, class.sorted(kind)));
+    let mut table = Table::over(rows)
+        .text("model", "model", |((model, ..), _)| models[*model].to_owned())
+        .text("check", "check with ζ = 1", |((_, check, _), _)| *check)
+        .text("event", "event", |((.., event), _)| (*event).to_owned())
+        .number("walls", "walls", THREE, |(_, [margins, _])| margins.len());
+    let drawn = [("margin", "θ/a_g,code", THREE), ("probability", "P", OF_PROBABILITY)];
+    for (which, (name, symbol, digits)) in drawn.into_iter().enumerate() {
+        for (place, part) in FRACTILES.into_iter().enumerate() {
+            let percent = format!("{:.0}", 100.0 * part);
+            let heading = heading(place, format!("{symbol}\n{percent} %"));
+            table = table.number(format!("{name}_{percent}"), heading, digits, move |(_, sorted)| {
+                fractile(&sorted[which], part)
+            });
+        }
     }
     table
-        .number("above", format!("walls with\nP > {target}"), THREE, |kind| {
-            class.sorted(*kind, |found| found.probability).iter().filter(|found| **found > target).count()
+        .number("above", format!("walls with\nP > {target}"), THREE, |(_, [_, probabilities])| {
+            probabilities.iter().filter(|found| **found > target).count()
         })
         .done()
 }
@@ -132,21 +126,19 @@ pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table
         }
     }
     kinds.sort_by_key(|kind| kind.0);
-    let values = |kind: &(usize, &'static str, check::Rule, f64)| -> Vec<f64> {
-        let is = |(model, one): &&(usize, super::Turned)| (*model, one.check, one.rule, one.code) == *kind;
-        let mut values: Vec<f64> = all.iter().filter(is).filter_map(|(_, one)| one.value).collect();
-        values.sort_by(f64::total_cmp);
-        values
-    };
-    let mut table = Table::over(kinds)
-        .text("", "model", |(model, ..)| models[*model].to_owned())
-        .text("", "check", |(_, check, ..)| *check)
-        .text("", format!("number for P(fall) = {target}"), |(_, _, rule, _)| rule.name())
-        .number("", "code", THREE, |(.., code)| *code)
-        .number("", "walls", THREE, |kind| values(kind).len());
-    for (place, part) in FRACTILES.into_iter().enumerate() {
+    let rows = kinds.into_iter().map(|kind| {
+        let is = |(model, one): &&(usize, Turned)| (*model, one.check, one.rule, one.code) == kind;
+        (kind, sorted(all.iter().filter(is).filter_map(|(_, one)| one.value)))
+    });
+    let mut table = Table::over(rows)
+        .text("", "model", |((model, ..), _)| models[*model].to_owned())
+        .text("", "check", |((_, check, ..), _)| *check)
+        .text("", format!("number for P(fall) = {target}"), |((_, _, rule, _), _)| rule.name())
+        .number("", "code", THREE, |((.., code), _)| *code)
+        .number("", "walls", THREE, |(_, values)| values.len());
+    for part in FRACTILES {
         let heading = format!("{:.0} %", 100.0 * part);
-        table = table.number("", heading, THREE, |kind| fractiles(&values(kind))[place]);
+        table = table.number("", heading, THREE, move |(_, values)| fractile(values, part));
     }
     table.done()
 }

@@ -1,5 +1,6 @@
 //! One wall: its checks, its events, and the probabilities of the ones where the others have ζ = 1.
 
+use check::circolare::MEAN_COUNTS_FROM;
 use check::{Code, Subject, Verdict};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
@@ -10,9 +11,6 @@ use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::Fitting;
 
 use super::rules::{self, Turned};
-
-/// Fewest records whose mean demand counts, NTC 7.3.5; of fewer it is the largest.
-const MEAN_COUNTS_FROM: usize = check::circolare::MEAN_COUNTS_FROM;
 
 /// Name of the event that the wall falls.
 pub(super) const FALL: &str = "fall";
@@ -53,6 +51,21 @@ pub struct Event {
     exceedances: Vec<Vec<Exceedance>>,
 }
 
+/// Margin and probability of an event with a model, where a check has ζ = 1; `None` without a curve.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Place of the model.
+    pub model: usize,
+    /// Place of the check.
+    pub check: usize,
+    /// Place of the event.
+    pub event: usize,
+    /// θ over `a_g`.
+    pub margin: Option<Interval>,
+    /// P of the event at `a_g`.
+    pub probability: Option<Interval>,
+}
+
 /// The reliability of one wall.
 #[derive(Clone, Debug)]
 pub struct WallReliability {
@@ -62,6 +75,8 @@ pub struct WallReliability {
     pub governs: usize,
     /// Events, the fall last.
     pub events: Vec<Event>,
+    /// Margins and probabilities: model by model, check by check, event by event.
+    pub answers: Vec<Answer>,
     /// The numbers of the code that would give the target, model by model.
     pub turned: Vec<Vec<Turned>>,
     /// Where the hinge of a strip is in the runs and in the check, where it differs \[-\].
@@ -112,13 +127,14 @@ impl WallReliability {
         let hinges = [parameters.hinge_ratio, verdict.details.parameters().hinge_ratio];
         let differs =
             parameters.mechanism == Mechanism::VerticalSpanning && (hinges[0] - hinges[1]).abs() > SAME_HINGE;
-        Ok(Self { checks, governs, events, turned, hinges: differs.then_some(hinges) })
+        let answers = answers(models, &checks, &events);
+        Ok(Self { checks, governs, events, answers, turned, hinges: differs.then_some(hinges) })
     }
 }
 
 impl Event {
     /// The probability of the event at `a_g`, with its interval; `None` without a curve.
-    pub fn probability(&self, model: usize, ground: f64) -> Option<Interval> {
+    fn probability(&self, model: usize, ground: f64) -> Option<Interval> {
         let summary = &self.fragilities[model];
         let curve = summary.fitted.ok()?;
         let of = |[median, dispersion]: &[f64; 2]| {
@@ -129,7 +145,7 @@ impl Event {
     }
 
     /// θ over `a_g`, with its interval; `None` without a curve.
-    pub fn margin(&self, model: usize, ground: f64) -> Option<Interval> {
+    fn margin(&self, model: usize, ground: f64) -> Option<Interval> {
         let summary = &self.fragilities[model];
         let curve = summary.fitted.ok()?;
         let medians = summary.resamples.iter().map(|[median, _]| median / ground);
@@ -140,6 +156,20 @@ impl Event {
     pub fn records(&self, model: usize, ground: f64) -> usize {
         self.exceedances[model].iter().filter(|exceedance| exceedance.or_infinity() <= ground).count()
     }
+}
+
+/// Reads each event where each check has ζ = 1, with each model.
+fn answers(models: usize, checks: &[Checkpoint], events: &[Event]) -> Vec<Answer> {
+    let mut answers = Vec::with_capacity(models * checks.len() * events.len());
+    for model in 0..models {
+        for (check, Checkpoint { code, .. }) in checks.iter().enumerate() {
+            for (event, own) in events.iter().enumerate() {
+                let (margin, probability) = (own.margin(model, *code), own.probability(model, *code));
+                answers.push(Answer { model, check, event, margin, probability });
+            }
+        }
+    }
+    answers
 }
 
 /// The checks of a verdict that state a ground acceleration, of the sides the less favourable one.
