@@ -1,8 +1,9 @@
 //! Every static check with its clause, equations, the numbers put in and the result.
 
+use crate::circolare::statement::Displacements;
 use crate::circolare::{
     ActivationCheck, Checked, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
-    StateStatement,
+    StateStatement, Statement,
 };
 
 use crate::report::markup::{Calculation, formula, result, shown as n, side_head};
@@ -22,10 +23,10 @@ pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
             Some(activation(case, (given, demand, xi), side.slv_q?, q))
         }),
         ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
-            Some(displacement(side, given, demand, side.slv?))
+            Some(displacement(side, (given, demand, case.statement), side.slv?))
         }),
         ("SLC by displacement C8.7.1.2.1.8", LimitState::Slc, &|side, given, demand| {
-            Some(displacement(side, given, demand, side.slc?))
+            Some(displacement(side, (given, demand, case.statement), side.slc?))
         }),
     ];
     let made = checks.into_iter().map(|(title, state, check)| (title.to_owned(), one(case, state, check)));
@@ -98,16 +99,13 @@ fn end(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
 /// A check of displacements.
 fn displacement(
     side: &SideVerdict,
-    given: &StateStatement,
-    demand: &Demand,
+    (given, demand, statement): (&StateStatement, &Demand, &Statement),
     check: DisplacementCheck,
 ) -> String {
     let mut lines = Calculation::default();
     let state = given.state;
-    let (share, factor, source) = match state {
-        LimitState::Slc => (0.60, "1.56", "[C8.7.1.11]"),
-        LimitState::Sld | LimitState::Slv => (0.40, "1.68", "[C8.7.1.10]"),
-    };
+    let source = if state == LimitState::Slc { "[C8.7.1.11]" } else { "[C8.7.1.10]" };
+    let Displacements { fraction: share, period_factor: factor } = statement.rules(state);
     let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
     let of_curve = share * check.d0;
     let of_u = |u: &str| {
