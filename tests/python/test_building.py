@@ -20,7 +20,8 @@ from monolith import Monolith, Wall
 SCENES = ROOT / "scenes/building"
 EL_CENTRO = Path(os.environ.get("ROCKING_WALL_RECORDS", "no records")) / "RSN6_IMPVALL.I_I-ELC180.AT2"
 END = 2.5
-SCALE = 0.5
+# the motion and its factor: walls rock, and none falls
+MOTION = [EL_CENTRO, "--scale", "0.5"] if EL_CENTRO.is_file() else ["--synthetic", "--scale", "1"]
 
 
 @pytest.fixture(scope="module")
@@ -32,8 +33,7 @@ def document():
 def record(wall, tmp_path_factory):
     """The first seconds of the record as CSV, and as a function of time."""
     path = tmp_path_factory.mktemp("record") / "record.csv"
-    motion = [EL_CENTRO] if EL_CENTRO.is_file() else ["--synthetic"]
-    subprocess.run([wall, "record", *motion, "--scale", str(SCALE), "--samples", path], check=True)
+    subprocess.run([wall, "record", *MOTION, "--samples", path], check=True)
     head, *rows = path.read_text().splitlines()
     rows = [row for row in rows if float(row.split(",")[0]) <= END]
     path.write_text("\n".join([head, *rows]) + "\n")
