@@ -87,7 +87,8 @@ def test_other_threads_run_beside_a_study(tmp_path):
     beside.start()
     reports = []
     native = rw.Study.from_toml(study(tmp_path, short))._native
-    native.run(None, reports.append)
+    folder = rw._native.Folder(str(tmp_path / "out"), native)
+    folder.compute(native, folder.missing(1, 1)[0], None, reports.append)
     finished.set()
     beside.join()
     assert counted > 1 and reports == sorted(reports) and max(reports) <= 8
@@ -98,8 +99,9 @@ def test_an_error_in_the_report_stops_the_study(tmp_path):
         raise LookupError("enough")
 
     native = rw.Study.from_toml(study(tmp_path, LONG))._native
+    folder = rw._native.Folder(str(tmp_path / "out"), native)
     try:
-        native.run(1, report)
+        folder.compute(native, folder.missing(1, 1)[0], 1, report)
     except LookupError as error:
         assert str(error) == "enough"
     else:

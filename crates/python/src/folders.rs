@@ -1,20 +1,28 @@
-//! The class `Folder`: a study in a folder, whose parts other processes compute.
+//! The class `Folder`: a study in a folder, whose parts this process or others compute.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pyo3::exceptions::PyOSError;
+use pyo3::exceptions::{PyFileNotFoundError, PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
-use study::folder::FolderError;
+use pyo3::types::PyDict;
+use study::folder::{ComputeError, FolderError, compute, curve_tables, merge};
+use study::reliability::{self, Reliability};
 
-use crate::errors::{failed, refused};
+use crate::errors::{failed, of_scene, refused};
 use crate::studies::Study;
-use crate::watch::threads_of;
+use crate::tables::table;
+use crate::watch::{threads_of, watched};
 
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
 pub(crate) struct Folder {
     folder: study::folder::Folder,
 }
+
+/// A summary, and what is to be warned of.
+type Told = (String, Option<String>);
 
 #[pymethods]
 impl Folder {
@@ -25,12 +33,64 @@ impl Folder {
         Ok(Self { folder: opened.map_err(of_folder)? })
     }
 
-    /// Lists the parts that are missing or damaged, and the damaged ones among them.
-    fn missing(&self, py: Python<'_>) -> (Vec<usize>, Option<String>) {
+    /// Opens a folder that holds a study.
+    #[staticmethod]
+    fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let folder = py.detach(|| study::folder::Folder::open(&path)).map_err(of_folder)?;
+        Ok(Self { folder })
+    }
+
+    /// Takes together the parts of several folders; returns the folder of all, and what is damaged.
+    #[staticmethod]
+    fn merged(py: Python<'_>, paths: Vec<PathBuf>, into: Option<PathBuf>) -> PyResult<Self> {
+        let merged = py.detach(|| {
+            let folders = paths.iter().map(|path| study::folder::Folder::open(path));
+            merge(folders.collect::<Result<_, _>>()?, into.as_deref(), |_| ())
+        });
+        Ok(Self { folder: merged.map_err(of_folder)? })
+    }
+
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.folder.path().to_owned()
+    }
+
+    /// Lists the parts of a share that are missing or damaged, and says which of them are damaged.
+    fn missing(&self, py: Python<'_>, number: usize, of: usize) -> (Vec<usize>, Option<String>) {
         py.detach(|| {
-            let missing = self.folder.missing(0..self.folder.contents().parts());
+            let missing = self.folder.missing(self.folder.contents().shard(number, of));
             let damage = self.folder.damage(&missing);
             (missing, damage)
+        })
+    }
+
+    /// Counts the combinations of some parts.
+    fn count(&self, parts: Vec<usize>) -> usize {
+        parts.into_iter().map(|part| self.folder.contents().part(part).len()).sum()
+    }
+
+    /// Computes parts of the folder's study. `progress` is called with the number of combinations done.
+    fn compute(
+        &self,
+        py: Python<'_>,
+        study: &Study,
+        parts: Vec<usize>,
+        threads: Option<&Bound<'_, PyAny>>,
+        progress: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let threads = threads_of(threads)?.get();
+        let done = AtomicUsize::new(0);
+        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
+            compute(&study.loaded.study, &self.folder, &parts, threads, |_, _, _| {
+                done.fetch_add(1, Ordering::Relaxed);
+                if is_wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            })
+        };
+        let report = || progress.call1((done.load(Ordering::Relaxed),)).map(drop);
+        watched(py, work, report)?.map_err(|error| match error {
+            ComputeError::Run(error) => failed(error),
+            ComputeError::Folder(error) => of_folder(error),
+            ComputeError::Stopped => PyKeyboardInterrupt::new_err(()),
         })
     }
 
@@ -40,21 +100,41 @@ impl Folder {
     }
 
     /// Writes the results of a complete folder; returns the summary and what the fits warn of.
-    fn finish(
-        &self,
-        py: Python<'_>,
-        threads: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<(String, Option<String>)> {
+    fn finish(&self, py: Python<'_>, threads: Option<&Bound<'_, PyAny>>) -> PyResult<Told> {
         let threads = threads_of(threads)?.get();
         let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
         Ok((report.summary, report.warning))
+    }
+
+    /// Writes how safe the walls of a complete folder are where they just pass their check; returns as
+    /// `finish`.
+    fn reliability(
+        &self,
+        py: Python<'_>,
+        study: &Study,
+        threads: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Told> {
+        let question = Reliability::of(&study.loaded).map_err(of_scene)?;
+        let threads = threads_of(threads)?.get();
+        let found = py.detach(|| reliability::finish(&self.folder, &question, threads, || ()));
+        let report = found.map_err(of_folder)?;
+        Ok((report.summary, report.warning))
+    }
+
+    /// Returns the tables of all runs and collapses.
+    fn curves<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyDict>; 2]> {
+        let [levels, collapses] = py.detach(|| curve_tables(&self.folder)).map_err(of_folder)?;
+        Ok([table(py, levels)?, table(py, collapses)?])
     }
 }
 
 /// Makes the exception of a folder.
 fn of_folder(error: FolderError) -> PyErr {
     match error {
-        FolderError::File(_) => PyOSError::new_err(error.to_string()),
+        FolderError::NoStudy { ref source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            PyFileNotFoundError::new_err(error.to_string())
+        }
+        FolderError::File(_) | FolderError::NoStudy { .. } => PyOSError::new_err(error.to_string()),
         FolderError::Parquet { .. } | FolderError::Part { .. } => failed(error),
         _ => refused(error),
     }

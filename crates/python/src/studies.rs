@@ -1,34 +1,20 @@
-//! The class `Study`: an incremental dynamic analysis, in memory or in parts.
+//! The class `Study`: an incremental dynamic analysis, whose parts `Folder` keeps.
 
-use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use numpy::PyArray1;
-use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
-use report::table::Table;
+use pyo3::types::PyBytes;
 use rocking_wall::scene::SceneError;
-use run::parallel;
 use run::records::NamedRecord;
-use study::document::ReportOptions;
 use study::folder::{Contents, encode};
-use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
-use study::reliability::Reliability;
-use study::results::Fitting;
-use study::tables::{KINDS, Kind, Names};
 
 use crate::arrays::Motion;
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::table;
-use crate::watch::{threads_of, watched};
-
-/// Three tables of how safe walls are, and the walls without a check with the reasons.
-type Safe<'py> = ([Bound<'py, PyDict>; 3], Vec<(String, String)>);
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -142,65 +128,6 @@ impl Study {
     fn __len__(&self) -> usize {
         self.loaded.study.count()
     }
-
-    /// Runs the study and returns its tables. `progress` is called with the number of combinations done.
-    fn run<'py>(
-        &self,
-        py: Python<'py>,
-        threads: Option<&Bound<'py, PyAny>>,
-        progress: &Bound<'py, PyAny>,
-    ) -> PyResult<[Bound<'py, PyDict>; 3]> {
-        let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = threads_of(threads)?.get();
-        let curves = self.curves(py, threads, progress)?;
-        let results = py.detach(|| {
-            let grid = study.levels().shared();
-            // classes and a hazard would keep the resamples of all walls in memory
-            let report = ReportOptions { classes: Vec::new(), hazard: None, ..report.clone() };
-            let fitting = Fitting::new(study.records().len(), &self.models(), grid, &report);
-            let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
-            let fitted = parallel::map(of_wall.len(), threads, |wall| {
-                Ok::<_, Infallible>(fitting.results(of_wall[wall].to_vec()))
-            });
-            let Ok(results) = fitted;
-            results
-        });
-        let names = Names {
-            walls: self.walls(),
-            models: self.models(),
-            records: self.records(),
-            fractions: &report.fractions,
-            has_yielding_ties: (0..study.walls().len()).any(|wall| study.has_yielding_tie(wall)),
-        };
-        let of = |(_, of_wall): Kind| {
-            let mut all = Table::default();
-            for (wall, results) in results.iter().enumerate() {
-                let Table { columns, rows } = of_wall(&names, wall, results);
-                all.columns = columns;
-                all.rows.extend(rows);
-            }
-            table(py, all)
-        };
-        let [levels, collapses, fragilities] = KINDS.map(of);
-        Ok([levels?, collapses?, fragilities?])
-    }
-
-    /// Runs the study and returns how safe its walls are where they just pass their check: its tables, and
-    /// the walls without a check with the reasons. `progress` is called with the number of combinations done.
-    fn reliability<'py>(
-        &self,
-        py: Python<'py>,
-        threads: Option<&Bound<'py, PyAny>>,
-        progress: &Bound<'py, PyAny>,
-    ) -> PyResult<Safe<'py>> {
-        let LoadedStudy { study, report, .. } = &self.loaded;
-        let question = Reliability::of(&self.loaded).map_err(of_scene)?;
-        let threads = threads_of(threads)?.get();
-        let curves = self.curves(py, threads, progress)?;
-        let found = || study::reliability::tables(&question, (study, report), &curves, threads);
-        let ([rows, rules, summary], refused) = py.detach(found);
-        Ok(([table(py, rows)?, table(py, rules)?, table(py, summary)?], refused))
-    }
 }
 
 impl Study {
@@ -210,26 +137,6 @@ impl Study {
             let fingerprint = contents.fingerprint();
             (contents, fingerprint)
         })
-    }
-
-    /// Computes all curves on other threads, while this one looks at Ctrl-C and reports progress.
-    fn curves(&self, py: Python<'_>, threads: usize, progress: &Bound<'_, PyAny>) -> PyResult<Vec<Curve>> {
-        let study = &self.loaded.study;
-        let done = AtomicUsize::new(0);
-        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            parallel::map(study.count(), threads, |index| {
-                if !is_wanted() {
-                    return Err(None);
-                }
-                let curve = study.curve(study.case(index)).map_err(Some)?;
-                done.fetch_add(1, Ordering::Relaxed);
-                Ok(curve)
-            })
-        };
-        let report = || progress.call1((done.load(Ordering::Relaxed),)).map(drop);
-        // without an error the work was asked to stop
-        watched(py, work, report)?
-            .map_err(|error: Option<IdaError>| error.map_or_else(|| PyKeyboardInterrupt::new_err(()), failed))
     }
 }
 

@@ -28,15 +28,18 @@ pub struct Names<'a> {
 pub type Kind = (&'static str, fn(&Names<'_>, usize, &WallResults) -> Table);
 
 /// The tables of a study.
-pub const KINDS: [Kind; 3] = [("levels", levels), ("collapses", collapses), ("fragilities", fragilities)];
+pub const KINDS: [Kind; 3] = [
+    ("levels", |names, wall, results| levels(names, wall, results.all_curves())),
+    ("collapses", |names, wall, results| collapses(names, wall, results.all_curves())),
+    ("fragilities", fragilities),
+];
 
 /// The table of the ties that may yield.
 pub const TIES: Kind = ("ties", ties);
 
-/// Every run.
-fn levels(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
-    let curves = results.all_curves().iter().enumerate();
-    let runs = curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
+/// Every run of a wall, from all its curves.
+pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
+    let runs = curves.iter().enumerate().flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
     let mut table = names
         .with_curves(wall, runs, |(index, _)| *index)
         .value("intensity_g", |(_, run)| in_g(run.intensity))
@@ -114,8 +117,8 @@ fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
     rows
 }
 
-/// The collapse with every model and record.
-fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+/// The collapse with every model and record, from all curves of a wall.
+pub(crate) fn collapses(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
     let collapse = |curve: &Curve| match curve.collapse() {
         Exceedance::Above(_) => None,
         exceedance => Some(in_g(exceedance.bounds()[1])),
@@ -125,7 +128,7 @@ fn collapses(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         [_, level] => Some(in_g(level)),
     };
     names
-        .with_curves(wall, results.all_curves().iter().enumerate(), |(index, _)| *index)
+        .with_curves(wall, curves.iter().enumerate(), |(index, _)| *index)
         .value("collapse_g", |(_, curve)| collapse(curve))
         .value("standing_below_g", |(_, curve)| in_g(curve.level_below_collapse()))
         .value("highest_level_g", |(_, curve)| in_g(curve.top()))

@@ -13,6 +13,7 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 
 from . import dask
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
+from ._folders import ReliabilityResults, StudyResults, merge, read_results
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -27,7 +28,7 @@ from ._records import (
 )
 from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict, verify
-from ._studies import ReliabilityResults, Study, StudyResults
+from ._studies import Study
 from ._tables import Table
 from ._walls import Description, Storey, Wall, package
 
@@ -59,9 +60,11 @@ __all__ = [
     "dask",
     "half_sine",
     "harmonic",
+    "merge",
     "package",
     "read_channels",
     "read_record",
+    "read_results",
     "ricker",
     "sine_cycle",
     "synthetic_record",

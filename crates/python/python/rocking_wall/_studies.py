@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -13,9 +11,10 @@ from warnings import warn
 import numpy as np
 
 from . import _native
+from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
 from ._given import Attribute
 from ._records import Record, motion_of, read_record
-from ._tables import Table, Tabular, toml
+from ._tables import Table, toml
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -25,50 +24,6 @@ if TYPE_CHECKING:
     Walls: TypeAlias = pandas.DataFrame | Table | Wall | Sequence[AWall] | Mapping[str, AWall]
     ARecord: TypeAlias = Record | str | PathLike[str]
     Records: TypeAlias = ARecord | Sequence[ARecord] | Mapping[str, ARecord]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class StudyResults(Tabular):
-    """Results of a study, as the tables that `wall study ida` writes."""
-
-    _main = "fragilities"
-
-    levels: Table
-    """Every run; `overturn_time_s` is NaN for a wall that stood."""
-    collapses: Table
-    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none."""
-    fragilities: Table
-    """The fragility of every wall, damping model and limit state: medians, θ and β of lognormal curves, with
-    95 % intervals. A number above the levels is infinite; one of which only bounds are known is NaN."""
-
-    def __repr__(self) -> str:
-        runs, curves = len(self.levels["wall"]), len(self.collapses["wall"])
-        return f"StudyResults({runs} runs, {curves} curves)"
-
-    def _repr_html_(self) -> str:
-        return self.fragilities._repr_html_()
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ReliabilityResults(Tabular):
-    """How safe the walls of a study are where they just pass their check, as the tables that
-    `wall study reliability` writes."""
-
-    _main = "walls"
-
-    walls: Table
-    """A row for each wall, damping model, check and event: a_g with which the wall just passes, θ and β of
-    the event, margin θ/a_g and probability P, with 95 % intervals."""
-    rules: Table
-    """The numbers of the code that would give the stated probability of a fall."""
-    summary: Table
-    """Fractiles of margins and probabilities over the walls."""
-
-    def __repr__(self) -> str:
-        return f"ReliabilityResults({len(set(self.walls['wall']))} walls)"
-
-    def _repr_html_(self) -> str:
-        return self.summary._repr_html_()
 
 
 class Study:
@@ -108,6 +63,7 @@ class Study:
         collapse_is: str | None = None,
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
+        hazard: Mapping[str, Any] | None = None,
         check: Mapping[str, Any] | None = None,
         reliability: Mapping[str, Any] | None = None,
     ) -> None:
@@ -127,6 +83,8 @@ class Study:
             those that do not come back ("falls").
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
+        :param hazard: The hazard of the site, such as `{"points": [[0.1, 0.01], [0.4, 4e-4]]}` (intensities
+            in g and annual rates at which they are exceeded), or `{"file": "curve.csv"}`; for annual rates.
         :param check: The table `[check]`, for `reliability`.
         :param reliability: What `reliability` asks, such as `{"probability": 0.1}`.
 
@@ -136,7 +94,7 @@ class Study:
         parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
         options["classes"], options["collapse_is"] = classes, collapse_is
-        options["check"], options["reliability"] = check, reliability
+        options["hazard"], options["check"], options["reliability"] = hazard, check, reliability
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:
@@ -177,28 +135,72 @@ class Study:
     def __len__(self) -> int:
         return len(self._native)
 
-    def run(self, *, threads: int | None = None, progress: bool = True) -> StudyResults:
-        """Runs the study on all cores, or on some threads, and fits the fragilities.
+    def run(
+        self,
+        folder: str | PathLike[str] | None = None,
+        *,
+        threads: int | None = None,
+        progress: bool = True,
+    ) -> StudyResults:
+        """Runs the study on all cores, or on some threads, fits the fragilities, and returns the results.
+
+        :param folder: Where runs, tables and a page are kept, as `wall study ida` does. A study that was
+            stopped continues there, and `read_results` reads it again. By default nothing is kept.
 
         Shows a bar where tqdm is installed. Ctrl-C stops it. The results do not depend on the number of
-        threads. They stay in memory: a large study, or one that is stopped and continued, is for
-        `wall study ida` or `rocking_wall.dask`.
+        threads. Raises `ValueError` if the folder holds another study.
         """
-        with bar(len(self), progress) as report:
-            tables = self._native.run(threads, report)
-        return StudyResults(*(Table(table) for table in tables))
+        with place(folder) as path:
+            tell(self._complete(path, threads, progress).finish(threads))
+            return read_results(path)
 
-    def reliability(self, *, threads: int | None = None, progress: bool = True) -> ReliabilityResults:
+    def reliability(
+        self,
+        folder: str | PathLike[str] | None = None,
+        *,
+        threads: int | None = None,
+        progress: bool = True,
+    ) -> ReliabilityResults:
         """Runs the study and asks how safe its walls are where they just pass their check.
 
         The study needs `check`, and `intensity={"measure": "code"}`. Walls that cannot be checked are left
         out, with a warning. Otherwise as `run`.
         """
-        with bar(len(self), progress) as report:
-            tables, refused = self._native.reliability(threads, report)
-        for name, reason in refused:
-            warn(f"wall {name!r} is not checked: {reason}", stacklevel=2)
-        return ReliabilityResults(*(Table(table) for table in tables))
+        with place(folder) as path:
+            kept = self._complete(path, threads, progress)
+            tell(kept.finish(threads))
+            tell(kept.reliability(self._native, threads))
+            names = ("reliability", "reliability_rules", "reliability_summary")
+            tables = (read_table(Path(path, f"{name}.csv")) for name in names)
+            return ReliabilityResults(*(Table({}) if table is None else table for table in tables))
+
+    def compute(
+        self,
+        folder: str | PathLike[str],
+        shard: tuple[int, int] = (1, 1),
+        *,
+        threads: int | None = None,
+        progress: bool = True,
+    ) -> None:
+        """Computes the runs of one share of several, such as `(2, 8)`, into a folder, without any results.
+
+        The shares of a study may have folders of their own, or one that they share; `rocking_wall.merge`
+        makes the results once all are there.
+        """
+        number, of = shard
+        if not 1 <= number <= of:
+            raise ValueError(f"shard = {shard} must be a number and how many there are, such as (2, 8)")
+        self._complete(fspath(folder), threads, progress, shard)
+
+    def _complete(
+        self, path: str, threads: int | None, progress: bool, shard: tuple[int, int] = (1, 1)
+    ) -> _native.Folder:
+        kept = _native.Folder(path, self._native)
+        missing, damage = kept.missing(*shard)
+        tell(("", damage), 4)
+        with bar(kept.count(missing), progress) as report:
+            kept.compute(self._native, missing, threads, report)
+        return kept
 
 
 def named_walls(walls: Any) -> list[tuple[str, Any]]:
@@ -285,23 +287,3 @@ def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
 def read(record: object) -> object:
     """Reads a record where it is a path."""
     return read_record(record) if isinstance(record, str | PathLike) else record
-
-
-@contextmanager
-def bar(total: int, wanted: bool, unit: str = " curves") -> Iterator[Callable[[int], None]]:
-    """Shows progress where tqdm is installed."""
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        wanted = False
-    if not wanted:
-        yield lambda done: None
-        return
-    with tqdm(total=total, unit=unit) as shown:
-
-        def report(done: int) -> None:
-            shown.update(done - shown.n)
-
-        yield report
-        if shown.n < total:
-            report(total)

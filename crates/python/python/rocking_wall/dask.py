@@ -16,10 +16,10 @@ from itertools import islice
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from warnings import warn
 
 from . import _native
-from ._studies import Study, bar
+from ._folders import bar, tell
+from ._studies import Study
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -41,10 +41,10 @@ def run(
     """Runs a study on the workers of a client and writes its results; returns their folder.
 
     The folder, by default the study's name and `_results`, is that of `wall study ida`, with the same bytes:
-    parts in `runs/` (Parquet), tables and a page. Parts appear as they come. A study that is started again,
-    here or with `wall study ida`, continues where it stopped. A worker that is lost costs the parts that it
-    was computing: they are computed again elsewhere. `threads` are those of this process, which fits the
-    fragilities.
+    parts in `runs/` (Parquet), tables and a page; `rocking_wall.read_results` reads it. Parts appear as they
+    come. A study that is started again, here or with `wall study ida`, continues where it stopped. A worker
+    that is lost costs the parts that it was computing: they are computed again elsewhere. `threads` are those
+    of this process, which fits the fragilities.
 
     Raises `ValueError` if the folder holds another study, and what a task has raised.
     """
@@ -52,9 +52,8 @@ def run(
 
     path = Path(f"{study._name}_results" if folder is None else folder)
     kept = _native.Folder(fspath(path), study._native)
-    missing, damage = kept.missing()
-    if damage is not None:
-        warn(damage, stacklevel=2)
+    missing, damage = kept.missing(1, 1)
+    tell(("", damage))
     parts = iter(missing)
     with bar(len(missing), progress, " parts") as report:
         if missing:
@@ -72,11 +71,10 @@ def run(
                 done += len(batch)
                 report(done)
                 tasks.update(submit(len(batch)))
-    summary, warning = kept.finish(threads)
-    if warning is not None:
-        warn(warning, stacklevel=2)
+    told = kept.finish(threads)
+    tell(told)
     if progress:
-        print(summary, end="")
+        print(told[0], end="")
     return path
 
 

@@ -1,6 +1,7 @@
 //! Computes the parts that are not on disk yet.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -19,19 +20,23 @@ pub enum ComputeError {
     /// A part could not be written.
     #[error(transparent)]
     Folder(#[from] FolderError),
+    /// The caller has asked to stop; the parts that are complete stay.
+    #[error("stopped; the parts that are complete stay")]
+    Stopped,
 }
 
 /// Computes some parts of a study, in rising order, and writes each once it is complete. Threads share the
-/// combinations of a part. `done` is called with each combination, its curve and the time that it took.
+/// combinations of a part. `done` is called with each combination, its curve and the time that it took, and
+/// says whether to go on.
 ///
 /// # Errors
-/// [`ComputeError`] of the first combination that fails.
+/// [`ComputeError`] of the first combination that fails, or where `done` stops the work.
 pub fn compute(
     study: &Study,
     folder: &Folder,
     parts: &[usize],
     threads: usize,
-    done: impl Fn(Case, &Curve, Duration) + Sync,
+    done: impl Fn(Case, &Curve, Duration) -> ControlFlow<()> + Sync,
 ) -> Result<(), ComputeError> {
     let size = study.part_size();
     // only the last part may have fewer combinations, and it comes last
@@ -43,7 +48,9 @@ pub fn compute(
         let index = range.start + place % size;
         let begun = Instant::now();
         let curve = study.curve(study.case(index))?;
-        done(study.case(index), &curve, begun.elapsed());
+        if done(study.case(index), &curve, begun.elapsed()).is_break() {
+            return Err(ComputeError::Stopped);
+        }
         let mut open = open.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let curves = open.entry(part).or_default();
         curves.push((index, curve));

@@ -171,6 +171,11 @@ impl Contents {
         self.count().div_ceil(self.part_size)
     }
 
+    /// Returns the parts of a share of several: `number` is from 1 to `of`.
+    pub fn shard(&self, number: usize, of: usize) -> impl Iterator<Item = usize> + use<> {
+        (number - 1..self.parts()).step_by(of)
+    }
+
     /// Returns the numbers of the combinations of a part.
     pub fn part(&self, part: usize) -> Range<usize> {
         part * self.part_size..((part + 1) * self.part_size).min(self.count())

@@ -38,6 +38,9 @@ pub enum FolderError {
         path.display()
     )]
     OtherThanFirst { path: PathBuf, difference: String },
+    /// Several folders, or none, and no folder for what they hold together.
+    #[error("merging several folders needs an output folder; give -o FOLDER")]
+    NoTarget,
     /// The runs are not complete.
     #[error(
         "{missing} of {all} combinations are missing: {names}; run their shards again, or name the folders \

@@ -13,6 +13,7 @@
 //! | `part` | a part as Parquet |
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
+//! | `merge` | takes together the parts of several folders |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
@@ -28,6 +29,7 @@ mod compute;
 mod contents;
 mod error;
 mod legend;
+mod merge;
 mod nrml;
 mod page;
 mod part;
@@ -41,7 +43,8 @@ mod store;
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use error::FolderError;
+pub use merge::merge;
 pub use part::{decode, encode};
 pub(crate) use report::{Curves, MOST_WALLS};
-pub use report::{Report, finish};
+pub use report::{Report, curve_tables, finish};
 pub use store::Folder;

@@ -22,10 +22,11 @@ pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
     states.into_iter().map(named).collect()
 }
 
-/// Returns the name in NRML of an intensity measure: `PGA` or `SA(T)`; `None` for the others.
+/// Returns the name in NRML of an intensity measure: `PGA`, `SA(T)` or `AvgSA`, whose periods NRML leaves to
+/// the description; `None` for the others.
 pub(crate) fn measure(name: &str) -> Option<String> {
     let period = name.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
-    period.map(|period| format!("SA({period})")).or_else(|| (name == "PGA").then(|| "PGA".into()))
+    period.map(|period| format!("SA({period})")).or_else(|| ["PGA", "AvgSA"].contains(&name).then(|| name.into()))
 }
 
 /// Writes the functions of a study one by one.
@@ -41,14 +42,19 @@ impl Writer {
         let measure = measure(&manifest.contents.measure)?;
         let states = limit_states(&manifest.report);
         let names: Vec<_> = states.iter().map(|(_, name)| name.as_str()).collect();
+        let periods = match &measure[..] {
+            "AvgSA" => format!("; {}", manifest.contents.measure_details),
+            _ => String::new(),
+        };
         let text = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
              <fragilityModel id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n\
              \x20   \
              <description>{}: a limit state is named by its fraction of the static instability displacement; \
-             intensities in g</description>\n    <limitStates>{}</limitStates>\n",
+             intensities in g{}</description>\n    <limitStates>{}</limitStates>\n",
             escaped(&manifest.title),
+            escaped(&periods),
             names.join(" ")
         );
         Some((Self { measure, states, ids: BTreeSet::new() }, text))
@@ -152,8 +158,8 @@ mod tests {
 
     #[test]
     fn measures_have_the_names_of_nrml() {
-        let names = ["PGA", "Sa(0.5 s)", "AvgSA"].map(measure);
-        assert_eq!(names, [Some("PGA".into()), Some("SA(0.5)".into()), None]);
+        let names = ["PGA", "Sa(0.5 s)", "AvgSA", "a_g"].map(measure);
+        assert_eq!(names, [Some("PGA".into()), Some("SA(0.5)".into()), Some("AvgSA".into()), None]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES, in_g};
+use crate::tables::{KINDS, Kind, Names, TIES, collapses, in_g, levels};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Digits, Table};
@@ -76,6 +76,36 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
         }
     }
     output.finish()
+}
+
+/// Returns the tables of all runs and of the collapses of a complete folder, of any size.
+///
+/// # Errors
+/// [`FolderError`] if parts are missing.
+pub fn curve_tables(folder: &Folder) -> Result<[Table; 2], FolderError> {
+    let contents = folder.contents();
+    let (names, mut curves) = (names(folder), Curves::of(folder));
+    let mut all = [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2];
+    for wall in 0..contents.walls.len() {
+        let own = curves.next_curves(contents.models.len() * contents.records.len())?;
+        for (all, table) in all.iter_mut().zip([levels, collapses]) {
+            let Table { columns, rows } = table(&names, wall, &own);
+            all.columns = columns;
+            all.rows.extend(rows);
+        }
+    }
+    Ok(all)
+}
+
+fn names(folder: &Folder) -> Names<'_> {
+    let Contents { walls, models, records, .. } = folder.contents();
+    Names {
+        walls: walls.iter().map(|wall| &*wall.name).collect(),
+        models: models.iter().map(|model| &*model.name).collect(),
+        records: records.iter().map(|record| &*record.name).collect(),
+        fractions: &folder.manifest().report.fractions,
+        has_yielding_ties: folder.contents().has_yielding_ties(),
+    }
 }
 
 /// Checks that all parts are there, and counts their runs.
@@ -145,21 +175,13 @@ impl<'a> Output<'a> {
             let path = folder.path().join(format!("{}.csv", kind.0));
             Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
-        let Contents { walls, models, records, .. } = folder.contents();
-        let has_yielding_ties = folder.contents().has_yielding_ties();
-        let ties = has_yielding_ties.then_some(&TIES);
+        let ties = folder.contents().has_yielding_ties().then_some(&TIES);
         let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
             tables: kinds.iter().chain(ties).copied().map(draft).collect::<Result<_, _>>()?,
-            names: Names {
-                walls: walls.iter().map(|wall| &*wall.name).collect(),
-                models: models.iter().map(|model| &*model.name).collect(),
-                records: records.iter().map(|record| &*record.name).collect(),
-                fractions: &folder.manifest().report.fractions,
-                has_yielding_ties,
-            },
+            names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sections: String::new(),
             comparison: Comparison::default(),

@@ -219,9 +219,8 @@ impl<'a> Risk<'a> {
         let measure = &self.manifest.contents.measure;
         if self.xml.is_none() {
             return format!(
-                "no {file}: it is written for PGA and Sa(T) only, because NRML cannot state the periods of \
-                 {measure}; for it run the study with intensity = {{ measure = \"PGA\" }} or \
-                 {{ measure = \"Sa\", period = T }}\n"
+                "no {file}: NRML knows PGA, Sa(T) and AvgSA, and not {measure}; for it run the study with \
+                 intensity = {{ measure = \"AvgSA\" }}\n"
             );
         }
         let lack = |(count, reason): (usize, &str)| match count {

@@ -5,16 +5,13 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 use report::counted;
-use report::table::Table;
 use run::file::{self, Draft};
 use run::parallel;
 use run::sample::fractile;
 
 use super::class::{Class, sorted};
 use super::{FILES, Reliability, page, table};
-use crate::document::ReportOptions;
 use crate::folder::{Curves, Folder, FolderError, MOST_WALLS, Report};
-use crate::ida::{Curve, Study};
 use crate::results::Fitting;
 
 /// Walls that each thread takes before their rows are written.
@@ -76,37 +73,6 @@ pub fn finish(
         warning: warning(&class),
         files: paths.into(),
     })
-}
-
-/// Returns the tables of the curves of all walls in memory: wall by wall, the numbers of the code, and the
-/// summary. Walls without a check are left out, with their names and the reasons.
-pub fn tables(
-    reliability: &Reliability,
-    (study, report): (&Study, &ReportOptions),
-    curves: &[Curve],
-    threads: usize,
-) -> ([Table; 3], Vec<(String, String)>) {
-    let models: Vec<_> = study.models().iter().map(|model| model.name.as_str()).collect();
-    let fitting = Fitting::new(study.records().len(), &models, study.levels().shared(), report);
-    let hazard = report.hazard.as_ref().map(|hazard| &hazard.curve);
-    let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
-    let found = parallel::map(of_wall.len(), threads, |place| {
-        Ok::<_, Infallible>(reliability.of_wall(place, of_wall[place], &fitting))
-    });
-    let Ok(found) = found;
-    let (mut class, mut rows, mut rules) = (Class::default(), Table::default(), Table::default());
-    for (wall, found) in reliability.walls.iter().zip(&found) {
-        class.add(wall, found);
-        let Ok(found) = found else { continue };
-        let of_wall = table::wall(&wall.name, &models, found, hazard);
-        let turned = table::rules(&wall.name, &models, found, reliability.target);
-        for (all, own) in [(&mut rows, of_wall), (&mut rules, turned)] {
-            all.columns = own.columns;
-            all.rows.extend(own.rows);
-        }
-    }
-    let summary = table::summary(&class, &models, reliability.target);
-    ([rows, rules, summary], class.refused)
 }
 
 /// Says how safe the walls are, model by model.

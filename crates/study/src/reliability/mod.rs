@@ -26,7 +26,7 @@ mod rules;
 mod table;
 mod wall;
 
-use check::{CheckFile, WallCodes};
+use check::{CheckFile, Code, WallCodes};
 use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
 
@@ -34,7 +34,7 @@ use crate::ida::{Curve, IntensityMeasure};
 use crate::loaded::LoadedStudy;
 use crate::results::Fitting;
 
-pub use finish::{finish, tables};
+pub use finish::finish;
 pub use rules::Turned;
 pub use wall::{Answer, Checkpoint, Event, WallReliability};
 
@@ -55,7 +55,8 @@ impl Reliability {
     ///
     /// # Errors
     /// [`SceneError`] of the table; of a measure that is not that of the code; of a check that takes runs; of
-    /// a building that only one of both sides has; of a tie that only the check has.
+    /// a building that only one of both sides has; of a tie that only the check has; where no wall can be
+    /// checked.
     pub fn of(loaded: &LoadedStudy) -> Result<Self, SceneError> {
         let name =
             loaded.inputs.first().map_or_else(|| "the study".into(), |path| path.display().to_string());
@@ -93,6 +94,12 @@ impl Reliability {
                 ));
             }
         }
+        let reason = |wall| deciding(codes.of(wall), |code| code.check(wall::subject(wall)).err());
+        let reasons = walls.iter().map_while(reason).map(|error| error.to_string());
+        let reasons: Vec<_> = reasons.collect();
+        if reasons.len() == walls.len() {
+            return refused(format!("no wall can be checked; wall {:?}: {}", walls[0].name, reasons[0]));
+        }
         let title = loaded.title.clone();
         Ok(Self { title, codes, walls, target: loaded.target() })
     }
@@ -103,6 +110,14 @@ impl Reliability {
     /// The reason why there is no check.
     fn of_wall(&self, place: usize, curves: &[Curve], fitting: &Fitting) -> Result<WallReliability, String> {
         let wall = &self.walls[place];
-        WallReliability::of((wall, self.codes.of(wall)), curves, fitting, self.target)
+        deciding(self.codes.of(wall), |code| {
+            WallReliability::of((wall, code), curves, fitting, self.target)
+        })
     }
+}
+
+/// Hands on the statements of a code without records that only inform: they have no part here.
+fn deciding<T>(code: &dyn Code, take: impl FnOnce(&dyn Code) -> T) -> T {
+    let own = code.deciding();
+    take(own.as_deref().unwrap_or(code))
 }

@@ -83,6 +83,11 @@ pub struct WallReliability {
     pub hinges: Option<[f64; 2]>,
 }
 
+/// Returns a wall as a check sees it.
+pub(super) fn subject(NamedWall { parameters, floors, assumed, .. }: &NamedWall) -> Subject<'_> {
+    Subject { parameters, floors: floors.as_ref(), assumed }
+}
+
 impl WallReliability {
     /// Asks how safe a wall is with which a code is content. `curves` has models outermost.
     ///
@@ -94,11 +99,7 @@ impl WallReliability {
         fitting: &Fitting,
         target: f64,
     ) -> Result<Self, String> {
-        let NamedWall { parameters, floors, assumed, .. } = wall;
-        let subject = Subject { parameters, floors: floors.as_ref(), assumed };
-        // records that only inform have no part here
-        let deciding = code.deciding();
-        let code = deciding.as_deref().unwrap_or(code);
+        let (parameters, subject) = (&wall.parameters, subject(wall));
         let verdict = code.check(subject).map_err(|error| error.to_string())?;
         let checks = checkpoints(&verdict);
         let governs = checks.iter().position(|one| one.check == verdict.governs).unwrap_or(0);

@@ -16,6 +16,7 @@ use study::loaded::LoadedStudy;
 use study::reliability::{FILES, Reliability, finish};
 
 /// Height and thickness of the wall under pulses [m]; g [m/s²].
+const CONTINUE: std::ops::ControlFlow<()> = std::ops::ControlFlow::Continue(());
 const HEIGHT: f64 = 2.0;
 const THICKNESS: f64 = 0.2;
 const G: f64 = 9.81;
@@ -33,7 +34,7 @@ fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
-    compute(&loaded.study, &folder, &missing, 2, |_, _, _| {}).unwrap();
+    compute(&loaded.study, &folder, &missing, 2, |_, _, _| CONTINUE).unwrap();
     study::folder::finish(&folder, 2, || {}).unwrap();
     finish(&folder, &Reliability::of(loaded).unwrap(), 2, || {}).unwrap();
     path
@@ -210,7 +211,7 @@ fn runs_are_those_of_the_analysis() {
     let parts = of_parts.contents().parts();
     for part in [0, 1] {
         let mine: Vec<_> = (part..parts).step_by(2).collect();
-        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _, _| {}).unwrap();
+        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _, _| CONTINUE).unwrap();
     }
     study::folder::finish(&of_parts, 1, || {}).unwrap();
     finish(&of_parts, &Reliability::of(&loaded).unwrap(), 1, || {}).unwrap();

@@ -11,6 +11,7 @@ mod check_report;
 mod command_line;
 mod describe;
 mod files;
+mod hazard;
 mod ida;
 mod measure;
 mod overturning;

@@ -208,9 +208,20 @@ fn functions_of_several_models() {
 
 #[test]
 fn other_measures_have_no_nrml() {
-    let [xml, table, told] = run("risk_measures", &STUDY.replace("PGA", "AvgSA"));
+    let code = "intensity = { measure = \"code\" }";
+    let check = "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nSLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
+    let study = STUDY.replace("intensity = { measure = \"PGA\" }", code) + check;
+    let [xml, table, told] = run("risk_measures", &study);
     assert!(xml.is_empty() && !table.is_empty());
-    assert_has(&told, &["cannot state the periods of AvgSA", "measure = \"PGA\""]);
+    assert_has(&told, &["NRML knows PGA, Sa(T) and AvgSA, and not a_g", "measure = \"AvgSA\""]);
+}
+
+/// NRML has a name for AvgSA and no place for its periods, which stand in the description.
+#[test]
+fn averages_state_their_periods() {
+    let [xml, ..] = run("risk_average", &STUDY.replace("\"PGA\"", "\"AvgSA\", periods = [0.2, 0.5]"));
+    assert_eq!(read(&xml, "AvgSA").len(), 4);
+    assert_has(&xml, &["intensities in g; AvgSA over 0.2, 0.5 s</description>"]);
 }
 
 /// A file of an earlier report that the present one does not have is removed.

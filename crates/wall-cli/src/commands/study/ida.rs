@@ -2,6 +2,7 @@
 //! shards.
 
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -66,7 +67,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -74,6 +75,7 @@ const FILES: [&str; 10] = [
     "fragility_curves.csv",
     "fragilities.xml",
     "fragilities.svg",
+    "ties.csv",
     "rates.csv",
     "rate_shares.csv",
     "study.html",
@@ -107,9 +109,9 @@ fn analyse(
     let folder = Folder::of_study(&path, &loaded)?;
     console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
-    let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
+    let Shard { number, of: shards } = arguments.shard.unwrap_or(Shard { number: 1, of: 1 });
     let contents = folder.contents();
-    let mine: Vec<usize> = (shard..contents.parts()).step_by(shards).collect();
+    let mine: Vec<usize> = contents.shard(number, shards).collect();
     let missing = folder.missing(mine.iter().copied());
     warn_of_damage(console, &folder, &missing);
     let cases = |parts: &[usize]| parts.iter().map(|&part| contents.part(part).len()).sum::<usize>();
@@ -124,10 +126,12 @@ fn analyse(
     let told = console.print(&told_of_runs);
     if shards > 1 {
         let name = path.display();
-        return console.print(&format!(
-            "shard {} of {shards} is done; when all are: wall study merge {name}\n",
-            shard + 1
-        ));
+        // merging makes the tables of the analysis alone
+        let then = match reliability {
+            Some(_) => format!("wall study reliability {} -o {name}", arguments.study.display()),
+            None => format!("wall study merge {name}"),
+        };
+        return console.print(&format!("shard {number} of {shards} is done; when all are: {then}\n"));
     }
     finish(console, &folder, threads).and(told)?;
     let Some(reliability) = reliability else { return Ok(()) };
@@ -139,29 +143,9 @@ fn analyse(
 }
 
 pub(crate) fn merge(console: &Console<'_>, arguments: &MergeArguments) -> Result<()> {
-    let mut folders =
-        arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>, _>>()?;
-    for folder in &folders[1..] {
-        folder.expect(folders[0].contents())?;
-    }
-    let target = match (&arguments.output, folders.len()) {
-        (Some(path), _) => Folder::like(checked(path)?, folders[0].manifest())?,
-        (None, 1) => folders.remove(0),
-        (None, _) => bail!("merging several folders needs an output folder; give -o FOLDER"),
-    };
-    let mut missing = Vec::new();
-    for part in target.missing(0..target.contents().parts()) {
-        match folders.iter().find_map(|folder| folder.part(part)) {
-            Some(curves) => target.keep(part, &curves)?,
-            None => missing.push(part),
-        }
-    }
-    if !missing.is_empty() {
-        for folder in folders.iter().chain([&target]) {
-            warn_of_damage(console, folder, &missing);
-        }
-        return Err(target.incomplete(&missing).into());
-    }
+    let folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>, _>>()?;
+    let into = arguments.output.as_ref().map(checked).transpose()?;
+    let target = study::folder::merge(folders, into.map(PathBuf::as_path), |damage| console.warn(damage))?;
     finish(console, &target, parallel::threads(None).get())
 }
 
@@ -228,6 +212,7 @@ fn compute(
                 share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
             }
             progress.add(cases, runs);
+            ControlFlow::Continue(())
         })
     })?;
     let shares = shares.into_inner().unwrap_or_default();

@@ -1,0 +1,232 @@
+"""Results of studies, as the tables of their folders."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+from warnings import warn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._tables import Table, Tabular
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StudyResults(Tabular):
+    """Results of a study, as the tables that `wall study ida` writes."""
+
+    _main = "fragilities"
+
+    levels: Table
+    """Every run; `overturn_time_s` is NaN for a wall that stood."""
+    collapses: Table
+    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none."""
+    fragilities: Table
+    """The fragility of every wall, damping model and limit state: medians, θ and β of lognormal curves, with
+    95 % intervals. A number above the levels is infinite; one of which only bounds are known is NaN."""
+    curves: Table
+    """The curve of every wall, then of every class, for each damping model and limit state: θ, and β with
+    its parts due to records, walls and modelling. `wall` is the name of the wall or class."""
+    rates: Table | None
+    """The annual rate of each of these curves, with its interval, what may lie beyond the hazard curve,
+    return period and probability; None for a study without `hazard`."""
+    rate_shares: Table | None
+    """The part of each rate from each segment of the hazard curve; None for a study without `hazard`."""
+    ties: Table | None
+    """Force and elongation of ties that may yield; None where there is none."""
+    nrml: str | None
+    """The curves as NRML, which OpenQuake reads; None where NRML has no name for the measure."""
+
+    def __repr__(self) -> str:
+        runs, curves = len(self.levels["wall"]), len(self.collapses["wall"])
+        return f"StudyResults({runs} runs, {curves} curves)"
+
+    def _repr_html_(self) -> str:
+        return self.fragilities._repr_html_()
+
+    def to_nrml(self, path: str | PathLike[str]) -> None:
+        """Writes the curves of walls and classes as NRML.
+
+        Raises `ValueError` where NRML has no name for the intensity measure, `FileExistsError` for a file
+        that exists.
+        """
+        if self.nrml is None:
+            raise ValueError("NRML knows PGA, Sa(T) and AvgSA; run the study with one of these measures")
+        with open(path, "x", encoding="utf-8", newline="") as file:
+            file.write(self.nrml)
+
+    def plot(self, names: Sequence[str] | None = None, ax: Axes | None = None) -> Axes:
+        """Draws the curves of the highest limit state of some walls and classes, by default of all.
+
+        Needs matplotlib. Raises `ValueError` for a name that is not there.
+        """
+        from matplotlib import pyplot
+
+        curves = self.curves
+        missing = sorted(set(names or ()) - set(curves["wall"].tolist()))
+        if missing:
+            raise ValueError(f"the study has no wall or class {missing[0]!r}")
+        ax = pyplot.subplots()[1] if ax is None else ax
+        highest = curves["u_max_over_u_ins"] == curves["u_max_over_u_ins"].max()
+        drawn = [row for row in Table({name: column[highest] for name, column in curves.items()}).rows()]
+        for row in drawn:
+            theta, beta = row["theta"], row["beta"]
+            if (names is None or row["wall"] in names) and math.isfinite(theta) and beta > 0:
+                x = theta * np.exp(np.linspace(-3, 3, 121) * beta)
+                y = [0.5 * math.erfc(-z / math.sqrt(2)) for z in np.log(x / theta) / beta]
+                ax.plot(x, y, label=f"{row['wall']}, {row['model']}")
+        ax.set(xlabel=f"{curves['measure'][0]} (g)", ylabel="probability of exceedance", ylim=(0, 1))
+        ax.legend()
+        return ax
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ReliabilityResults(Tabular):
+    """How safe the walls of a study are where they just pass their check, as the tables that
+    `wall study reliability` writes."""
+
+    _main = "walls"
+
+    walls: Table
+    """A row for each wall, damping model, check and event: a_g with which the wall just passes, θ and β of
+    the event, margin θ/a_g and probability P, with 95 % intervals."""
+    rules: Table
+    """The numbers of the code that would give the stated probability of a fall."""
+    summary: Table
+    """Fractiles of margins and probabilities over the walls."""
+
+    def __repr__(self) -> str:
+        return f"ReliabilityResults({len(set(self.walls['wall']))} walls)"
+
+    def _repr_html_(self) -> str:
+        return self.summary._repr_html_()
+
+
+def read_results(folder: str | PathLike[str]) -> StudyResults:
+    """Reads the results of a study from its folder, that of `Study.run`, `wall study ida` or
+    `rocking_wall.dask.run`.
+
+    Raises `FileNotFoundError` where there is no study, `ValueError` for one whose runs or results are not
+    complete.
+    """
+    path = Path(folder)
+    kept = _native.Folder.open(fspath(path))
+    levels, collapses = kept.curves()
+    if not (path / "study.html").exists():
+        raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
+    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "ties")
+    tables = [read_table(path / f"{name}.csv") for name in names]
+    fragilities, curves = (Table({}) if table is None else table for table in tables[:2])
+    xml = path / "fragilities.xml"
+    nrml = xml.read_text(encoding="utf-8") if xml.exists() else None
+    return StudyResults(Table(levels), Table(collapses), fragilities, curves, *tables[2:], nrml)
+
+
+def merge(
+    folders: Sequence[str | PathLike[str]] | str | PathLike[str],
+    into: str | PathLike[str] | None = None,
+    *,
+    threads: int | None = None,
+) -> StudyResults:
+    """Merges the shards of a study, as `wall study merge` does, and returns the results.
+
+    :param folders: The folders of the shards, or the one that they share.
+    :param into: The folder of the merged study; not needed where they share one.
+
+    Raises `ValueError` where runs are missing or the folders hold different studies.
+    """
+    folders = [folders] if isinstance(folders, str | PathLike) else folders
+    paths = [fspath(folder) for folder in folders]
+    kept = _native.Folder.merged(paths, None if into is None else fspath(into))
+    tell(kept.finish(threads))
+    return read_results(kept.path)
+
+
+def read_table(path: Path) -> Table | None:
+    """Reads a table of a folder, if it is there."""
+    if not path.exists():
+        return None
+    with open(path, encoding="utf-8", newline="") as file:
+        head, *rows = csv.reader(file)
+    columns = zip(*rows) if rows else [()] * len(head)
+    return Table({name: column_of(name, cells) for name, cells in zip(head, columns)})
+
+
+NAMES = {"wall", "model", "record"}
+"""Columns of words, even where a name is a number."""
+
+
+def column_of(name: str, cells: Sequence[str]) -> NDArray[Any]:
+    """Makes an array of counts, flags, numbers or words from the cells of a column of a file."""
+    if name not in NAMES and cells:
+        if all(re.fullmatch("[0-9]+", cell) for cell in cells):
+            return np.array([int(cell) for cell in cells])
+        if all(cell in FLAGS for cell in cells):
+            return np.array([cell == "true" for cell in cells])
+        try:
+            return np.array([number(cell) for cell in cells])
+        except ValueError:
+            pass
+    return np.array(cells, dtype=str)
+
+
+FLAGS = {"true": 1.0, "false": 0.0}
+
+
+def number(cell: str) -> float:
+    """Returns a number: NaN for none and for one that is not known, infinity for one above the levels, 1 or 0
+    for a flag among empty cells."""
+    if cell in FLAGS:
+        return FLAGS[cell]
+    if cell.startswith("open "):
+        return math.inf if cell.startswith("open >") else math.nan
+    return float(cell) if cell else math.nan
+
+
+@contextmanager
+def place(folder: str | PathLike[str] | None) -> Iterator[str]:
+    """Gives the folder of a study: a temporary one where none is named."""
+    if folder is not None:
+        yield fspath(folder)
+        return
+    with TemporaryDirectory(prefix="rocking_wall_") as path:
+        yield path
+
+
+def tell(told: tuple[str, str | None], level: int = 3) -> None:
+    """Warns of what the fits of a study warn of."""
+    if told[1] is not None:
+        warn(told[1], stacklevel=level)
+
+
+@contextmanager
+def bar(total: int, wanted: bool, unit: str = " curves") -> Iterator[Callable[[int], None]]:
+    """Shows progress where tqdm is installed."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        wanted = False
+    if not wanted:
+        yield lambda done: None
+        return
+    with tqdm(total=total, unit=unit) as shown:
+
+        def report(done: int) -> None:
+            shown.update(done - shown.n)
+
+        yield report
+        if shown.n < total:
+            report(total)

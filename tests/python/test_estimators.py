@@ -1,0 +1,155 @@
+"""Fragilities and annual rates of `wall study ida` beside SciPy, from the tables of the study alone."""
+
+import csv
+import subprocess
+from collections import defaultdict
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import minimize
+from scipy.stats import norm
+
+STUDY = """
+models = ["CR", "CDC"]
+intensity = { measure = "PGA" }
+levels = LEVELS
+records = { synthetic = { count = 12, duration = 12, step = 0.01 } }
+report = { fractions = [0.4, 1.0], resamples = 100 }
+
+[hazard]
+points = [[0.05, 0.033], [0.1, 0.01], [0.2, 0.002], [0.8, 5e-5], [3.0, 1e-7]]
+
+[[walls]]
+name = "low"
+geometry = { height = 2, thickness = 0.3 }
+
+[[walls]]
+name = "high"
+geometry = { height = 3, thickness = 0.3 }
+
+[[classes]]
+name = "both"
+weights = [2, 1]
+"""
+HUNT = '{ method = "hunt", first = 0.1, increase = 0.1, top = 1.2, gap = 0.3, resolution = 0.1 }'
+GRID = '{ method = "grid", values = [0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0] }'
+HAZARD = [(0.05, 0.033), (0.1, 0.01), (0.2, 0.002), (0.8, 5e-5), (3.0, 1e-7)]
+
+
+def rows(path):
+    """Reads a table."""
+    with path.open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def likeliest(log_likelihood):
+    """Returns θ and β of the largest likelihood, over their logarithms."""
+    best = minimize(
+        lambda x: -log_likelihood(*np.exp(x)),
+        np.log([0.4, 0.4]),
+        method="Nelder-Mead",
+        options={"xatol": 1e-10, "fatol": 1e-13, "maxiter": 4000},
+    )
+    assert best.success
+    return np.exp(best.x)
+
+
+def brackets(levels, fraction):
+    """Returns for each record the highest level below the first exceedance, and that of the exceedance."""
+    runs = defaultdict(list)
+    for row in levels:
+        runs[row["record"]].append((float(row["intensity_g"]), float(row["u_max_over_u_ins"])))
+    found = []
+    for curve in runs.values():
+        curve.sort()
+        above = next((place for place, (_, demand) in enumerate(curve) if demand >= fraction), len(curve))
+        low = curve[above - 1][0] if above else 0.0
+        found.append((low, curve[above][0] if above < len(curve) else np.inf))
+    return found
+
+
+def of_brackets(levels, fraction):
+    """The likelihood of intervals: Φ at the upper end less Φ at the lower one."""
+    ends = np.array(brackets(levels, fraction))
+
+    def log_likelihood(theta, beta):
+        with np.errstate(divide="ignore"):
+            low, high = (norm.cdf(np.log(end / theta) / beta) for end in ends.T)
+        return np.log(high - low).sum()
+
+    return likeliest(log_likelihood)
+
+
+def of_stripes(levels, fraction):
+    """The likelihood of multiple stripes: how many of the records exceed at each level (Baker 2015)."""
+    counts = defaultdict(lambda: [0, 0])
+    for row in levels:
+        count = counts[float(row["intensity_g"])]
+        count[0] += float(row["u_max_over_u_ins"]) >= fraction
+        count[1] += 1
+
+    def log_likelihood(theta, beta):
+        at = {level: np.log(level / theta) / beta for level in counts}
+        terms = (k * norm.logcdf(at[x]) + (n - k) * norm.logsf(at[x]) for x, (k, n) in counts.items())
+        return sum(terms)
+
+    return likeliest(log_likelihood)
+
+
+@pytest.mark.parametrize(("levels", "estimate"), [(HUNT, of_brackets), (GRID, of_stripes)])
+def test_curves_and_rates_are_those_of_scipy(wall, tmp_path, levels, estimate):
+    (tmp_path / "study.toml").write_text(STUDY.replace("LEVELS", levels), encoding="utf-8")
+    subprocess.run(
+        [wall, "study", "ida", "study.toml", "-o", "out"], check=True, capture_output=True, cwd=tmp_path
+    )
+    out = tmp_path / "out"
+    runs, logs, variances = rows(out / "levels.csv"), {}, {}
+    fitted = rows(out / "fragilities.csv")
+    assert len(fitted) == 2 * 2 * 2
+    for row in fitted:
+        own = [run for run in runs if (run["wall"], run["model"]) == (row["wall"], row["model"])]
+        theta, beta = estimate(own, float(row["u_max_over_u_ins"]))
+        assert abs(float(row["theta_g"]) / theta - 1) < 1e-6 and abs(float(row["beta"]) / beta - 1) < 1e-6
+        key = row["model"], row["u_max_over_u_ins"], row["wall"]
+        logs[key], variances[key] = np.log(float(row["theta_g"])), float(row["beta"]) ** 2
+
+    # the total variance of a class: the mean of those of its walls, and that of their ln θ
+    weights = np.array([2, 1]) / 3
+    classes = [row for row in rows(out / "fragility_curves.csv") if row["wall"] == "both"]
+    assert len(classes) == 2 * 2
+    for row in classes:
+        keys = [(row["model"], row["u_max_over_u_ins"], name) for name in ("low", "high")]
+        log_theta, variance = (np.array([one[key] for key in keys]) for one in (logs, variances))
+        mean = weights @ log_theta
+        between = weights @ (log_theta - mean) ** 2
+        assert abs(float(row["theta"]) / np.exp(mean) - 1) < 1e-12
+        for name, square in (
+            ("beta_records", weights @ variance),
+            ("beta_walls", between),
+            ("beta", weights @ variance + between),
+        ):
+            assert abs(float(row[name]) ** 2 / square - 1) < 1e-12, name
+
+    # each segment of the hazard curve by quadrature
+    rates, shares = rows(out / "rates.csv"), rows(out / "rate_shares.csv")
+    assert len(rates) == 3 * 2 * 2 and len(shares) == len(rates) * (len(HAZARD) - 1)
+    for place, row in enumerate(rates):
+        theta, beta = float(row["theta_g"]), float(row["beta"])
+        parts = []
+        for (low, rate), (high, next_rate) in zip(HAZARD, HAZARD[1:]):
+            slope = np.log(rate / next_rate) / np.log(high / low)
+
+            def density(y, low=low, rate=rate, slope=slope, theta=theta, beta=beta):
+                at = (np.log(low / theta) + y) / beta
+                return norm.cdf(at) * slope * rate * np.exp(-slope * y)
+
+            parts.append(quad(density, 0, np.log(high / low), epsabs=0, epsrel=1e-12, limit=200)[0])
+        found = [float(share["annual_rate"]) for share in shares[4 * place : 4 * place + 4]]
+        # what is 1e-12 of the rate of the first point is nothing
+        assert np.allclose(found, parts, rtol=1e-9, atol=HAZARD[0][1] * 1e-12), (row, found, parts)
+        assert abs(float(row["annual_rate"]) / sum(parts) - 1) < 1e-9
+        low, high = float(row["annual_rate_low"]), float(row["annual_rate_high"])
+        assert low < float(row["annual_rate"]) < high
+        assert abs(float(row["return_period_years"]) * float(row["annual_rate"]) - 1) < 1e-12
+        assert abs(float(row["probability"]) / -np.expm1(-50 * float(row["annual_rate"])) - 1) < 1e-12

@@ -1,0 +1,143 @@
+"""Studies in folders from Python: the bytes of the program, resumed, in shards, and read again."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking_wall as rw
+from test_jobs import ROOT, assert_table
+
+STUDY = """
+title = "Two parapets"
+models = ["CR", "CDC"]
+intensity = { measure = "PGA" }
+levels = { method = "hunt", first = 0.1, increase = 0.1, top = 1.2, gap = 0.3 }
+records = { synthetic = { count = 4, duration = 12, step = 0.01 } }
+report = { fractions = [0.4, 1.0], resamples = 100, modelling_uncertainty = 0.2 }
+classes = [{ name = "both", weights = [2, 1] }]
+hazard = { points = [[0.05, 0.033], [0.2, 0.002], [0.8, 5e-5]], target = 1e-3 }
+
+[[walls]]
+name = "1"
+geometry = { height = 2, thickness = 0.3 }
+
+[[walls]]
+name = "2"
+geometry = { height = 3, thickness = 0.3 }
+tie = { height = 2.6, stiffness = 2e5, slack = 5e-3, strength = 5e2, ultimate = 0.05 }
+"""
+
+
+def files(folder):
+    """Every file of a folder with its bytes."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+@pytest.fixture(scope="module")
+def study(program, tmp_path_factory):
+    """A study of two walls, and the folder that the program makes of it."""
+    folder = tmp_path_factory.mktemp("study")
+    path = folder / "study.toml"
+    path.write_text(STUDY, encoding="utf-8")
+    program("study", "ida", path, "-o", folder / "program")
+    return rw.Study(path), folder / "program"
+
+
+def test_results_have_every_table_of_the_program(study, tmp_path):
+    asked, given = study
+    with pytest.warns(UserWarning):
+        found = asked.run(tmp_path / "out", progress=False)
+    assert files(tmp_path / "out") == files(given)
+    for one in (found, rw.read_results(given)):
+        assert repr(one) == f"StudyResults({len(one.levels['wall'])} runs, 16 curves)"
+        tables = ("levels", "collapses", "fragilities", "rates", "rate_shares", "ties")
+        for name, path in (*((name, name) for name in tables), ("curves", "fragility_curves")):
+            table = getattr(one, name)
+            told = [name for name, column in table.items() if column.dtype.kind in "fib"]
+            assert_table({name: table[name] for name in told}, given / f"{path}.csv", told)
+        assert set(one.curves["wall"]) == {"1", "2", "both"} == set(one.rates["wall"])
+        assert one.nrml == (given / "fragilities.xml").read_text(encoding="utf-8")
+    # without a folder the same, and nothing is kept
+    with pytest.warns(UserWarning):
+        kept = asked.run(progress=False)
+    assert kept.rates["annual_rate"].tolist() == found.rates["annual_rate"].tolist()
+    assert not list(tmp_path.glob("study_results"))
+    kept.to_nrml(tmp_path / "walls.xml")
+    assert (tmp_path / "walls.xml").read_bytes() == (given / "fragilities.xml").read_bytes()
+    with pytest.raises(FileExistsError):
+        kept.to_nrml(tmp_path / "walls.xml")
+
+
+def test_a_stopped_study_goes_on_in_its_folder(study, tmp_path):
+    asked, given = study
+    out = tmp_path / "out"
+    asked.compute(out, progress=False)
+    parts = sorted((out / "runs").rglob("*.parquet"))
+    with pytest.raises(ValueError, match="has no results yet; run the study"):
+        rw.read_results(out)
+    before = parts[0].stat().st_mtime_ns
+    parts[1].unlink()
+    parts[2].write_bytes(parts[2].read_bytes()[:-20])
+    with pytest.raises(ValueError, match="combinations are missing"):
+        rw.read_results(out)
+    with pytest.warns(UserWarning, match="1 of .* parts are damaged"):
+        asked.run(out, progress=False)
+    assert files(out) == files(given) and parts[0].stat().st_mtime_ns == before
+
+
+def test_shards_are_merged(study, tmp_path):
+    asked, given = study
+    for number in (1, 2, 3):
+        asked.compute(tmp_path / str(number), (number, 3), progress=False)
+        asked.compute(tmp_path / "shared", (number, 3), progress=False)
+    with pytest.raises(ValueError, match="combinations are missing"):
+        rw.merge([tmp_path / "1", tmp_path / "3"], tmp_path / "part")
+    with pytest.raises(ValueError, match="needs an output folder"):
+        rw.merge([tmp_path / "1", tmp_path / "3"])
+    with pytest.warns(UserWarning):
+        merged = rw.merge([tmp_path / str(number) for number in (1, 2, 3)], tmp_path / "merged")
+    with pytest.warns(UserWarning):
+        rw.merge(tmp_path / "shared")
+    assert files(tmp_path / "merged") == files(given) == files(tmp_path / "shared")
+    assert len(merged.rates["wall"]) == 3 * 2 * 2
+    for shard in ((0, 2), (3, 2)):
+        with pytest.raises(ValueError, match="such as"):
+            asked.compute(tmp_path / "x", shard)
+    other = rw.Study(
+        walls=[rw.Wall()], records=rw.synthetic_record(), models=["CR"], levels={"method": "grid", "values": [1]}
+    )
+    with pytest.raises(ValueError, match="holds results of another study"):
+        other.run(tmp_path / "merged", progress=False)
+
+
+def test_what_is_no_folder(tmp_path):
+    with pytest.raises(FileNotFoundError, match="expected a folder that"):
+        rw.read_results(tmp_path)
+
+
+def test_reliability_is_kept_too(program, tmp_path):
+    text = (ROOT / "docs/tutorials/reliability.md").read_text(encoding="utf-8")
+    path = tmp_path / "study.toml"
+    path.write_text(text.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    program("study", "reliability", path, "-o", tmp_path / "program")
+    asked = rw.Study(path)
+    asked.compute(tmp_path / "python", (1, 2), progress=False)
+    asked.reliability(tmp_path / "python", progress=False)
+    assert files(tmp_path / "python") == files(tmp_path / "program")
+
+
+def test_curves_are_drawn(study, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    found = rw.read_results(study[1])
+    ax = found.plot()
+    rows = [row for row in found.curves.rows() if row["u_max_over_u_ins"] == 1.0]
+    drawn = [row for row in rows if math.isfinite(row["theta"])]
+    assert [line.get_label() for line in ax.lines] == [f"{row['wall']}, {row['model']}" for row in drawn]
+    for line, row in zip(ax.lines, drawn):
+        x, y = line.get_data()
+        assert abs(np.interp(0.5, y, x) / row["theta"] - 1) < 1e-9
+    assert len(found.plot(["1"]).lines) == 2
+    with pytest.raises(ValueError, match="no wall or class 'none'"):
+        found.plot(["none"])
