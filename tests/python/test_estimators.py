@@ -33,7 +33,7 @@ name = "both"
 weights = [2, 1]
 """
 HUNT = '{ method = "hunt", first = 0.1, increase = 0.1, top = 1.2, gap = 0.3, resolution = 0.1 }'
-GRID = '{ method = "grid", values = [0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0] }'
+GRID = '{ method = "grid", values = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0] }'
 HAZARD = [(0.05, 0.033), (0.1, 0.01), (0.2, 0.002), (0.8, 5e-5), (3.0, 1e-7)]
 
 
@@ -55,28 +55,37 @@ def likeliest(log_likelihood):
     return np.exp(best.x)
 
 
-def brackets(levels, fraction):
-    """Returns for each record the highest level below the first exceedance, and that of the exceedance."""
+def first_exceedances(levels, fraction):
+    """Returns for each record the ends between which it first exceeds; one that overturns there exceeds
+    somewhere between the levels, another where a line between its demands does."""
     runs = defaultdict(list)
     for row in levels:
-        runs[row["record"]].append((float(row["intensity_g"]), float(row["u_max_over_u_ins"])))
+        run = float(row["intensity_g"]), float(row["u_max_over_u_ins"]), row["overturned"] == "true"
+        runs[row["record"]].append(run)
     found = []
     for curve in runs.values():
-        curve.sort()
-        above = next((place for place, (_, demand) in enumerate(curve) if demand >= fraction), len(curve))
-        low = curve[above - 1][0] if above else 0.0
-        found.append((low, curve[above][0] if above < len(curve) else np.inf))
-    return found
+        low, below = 0.0, 0.0
+        for level, demand, overturned in sorted(curve):
+            if demand >= fraction:
+                at = low + (fraction - below) / (demand - below) * (level - low)
+                found.append((low, level) if overturned else (at, at))
+                break
+            low, below = level, demand
+        else:
+            found.append((low, np.inf))
+    return np.array(found)
 
 
-def of_brackets(levels, fraction):
-    """The likelihood of intervals: Φ at the upper end less Φ at the lower one."""
-    ends = np.array(brackets(levels, fraction))
+def of_records(levels, fraction):
+    """The likelihood of records that count once: Φ at the upper end less that at the lower, or density."""
+    low, high = first_exceedances(levels, fraction).T
+    at, between = low[low == high], low < high
 
     def log_likelihood(theta, beta):
         with np.errstate(divide="ignore"):
-            low, high = (norm.cdf(np.log(end / theta) / beta) for end in ends.T)
-        return np.log(high - low).sum()
+            below, above = (norm.cdf(np.log(end[between] / theta) / beta) for end in (low, high))
+        density = norm.logpdf(np.log(at / theta) / beta) - np.log(at * beta)
+        return np.log(above - below).sum() + density.sum()
 
     return likeliest(log_likelihood)
 
@@ -97,7 +106,7 @@ def of_stripes(levels, fraction):
     return likeliest(log_likelihood)
 
 
-@pytest.mark.parametrize(("levels", "estimate"), [(HUNT, of_brackets), (GRID, of_stripes)])
+@pytest.mark.parametrize(("levels", "estimate"), [(HUNT, of_records), (GRID, of_stripes)])
 def test_curves_and_rates_are_those_of_scipy(wall, tmp_path, levels, estimate):
     (tmp_path / "study.toml").write_text(STUDY.replace("LEVELS", levels), encoding="utf-8")
     subprocess.run(

@@ -20,6 +20,8 @@ models = ["CR", "CDC"]
 levels = { method = "hunt", first = 0.05, increase = 0.05, top = 8, gap = 0.02 }
 records = { files = ["beat.csv"], unit = "g", synthetic = { count = 3, duration = 20, step = 0.005 } }
 report = { resamples = 100 }
+classes = [{ name = "all" }]
+hazard = { points = [[0.05, 0.03], [0.2, 0.002], [0.8, 1e-4]] }
 
 [[walls]]
 name = "parapet"

@@ -25,7 +25,7 @@ geometry = { height = 2, thickness = 0.3 }
 [[walls]]
 name = "2"
 geometry = { height = 3, thickness = 0.3 }
-tie = { height = 2.6, stiffness = 2e5, slack = 5e-3, strength = 5e2, ultimate = 0.05 }
+tie = { tie_height = 2.6, tie_stiffness = 2e5, tie_slack = 5e-3, tie_strength = 1e3, tie_ultimate = 0.05 }
 """
 
 
@@ -104,9 +104,8 @@ def test_shards_are_merged(study, tmp_path):
     for shard in ((0, 2), (3, 2)):
         with pytest.raises(ValueError, match="such as"):
             asked.compute(tmp_path / "x", shard)
-    other = rw.Study(
-        walls=[rw.Wall()], records=rw.synthetic_record(), models=["CR"], levels={"method": "grid", "values": [1]}
-    )
+    levels = {"method": "grid", "values": [1]}
+    other = rw.Study(walls=[rw.Wall()], records=rw.synthetic_record(), models=["CR"], levels=levels)
     with pytest.raises(ValueError, match="holds results of another study"):
         other.run(tmp_path / "merged", progress=False)
 

@@ -39,7 +39,8 @@ pub const TIES: Kind = ("ties", ties);
 
 /// Every run of a wall, from all its curves.
 pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
-    let runs = curves.iter().enumerate().flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
+    let runs =
+        curves.iter().enumerate().flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
     let mut table = names
         .with_curves(wall, runs, |(index, _)| *index)
         .value("intensity_g", |(_, run)| in_g(run.intensity))

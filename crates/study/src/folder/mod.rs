@@ -14,6 +14,7 @@
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
 //! | `merge` | takes together the parts of several folders |
+//! | `curves` | the curves of a complete folder, read part by part |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
@@ -27,6 +28,7 @@
 mod comparison;
 mod compute;
 mod contents;
+mod curves;
 mod error;
 mod legend;
 mod merge;
@@ -42,9 +44,11 @@ mod store;
 
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
+pub(crate) use curves::Curves;
+pub use curves::curve_tables;
 pub use error::FolderError;
 pub use merge::merge;
 pub use part::{decode, encode};
-pub(crate) use report::{Curves, MOST_WALLS};
-pub use report::{Report, curve_tables, finish};
+pub(crate) use report::MOST_WALLS;
+pub use report::{Report, finish};
 pub use store::Folder;

@@ -26,7 +26,9 @@ pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
 /// the description; `None` for the others.
 pub(crate) fn measure(name: &str) -> Option<String> {
     let period = name.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
-    period.map(|period| format!("SA({period})")).or_else(|| ["PGA", "AvgSA"].contains(&name).then(|| name.into()))
+    period
+        .map(|period| format!("SA({period})"))
+        .or_else(|| ["PGA", "AvgSA"].contains(&name).then(|| name.into()))
 }
 
 /// Writes the functions of a study one by one.

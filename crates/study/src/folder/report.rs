@@ -1,6 +1,5 @@
 //! All results of a complete folder, made wall by wall: memory does not grow with the runs.
 
-use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -9,7 +8,7 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES, collapses, in_g, levels};
+use crate::tables::{KINDS, Kind, Names, TIES, in_g};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Digits, Table};
@@ -17,7 +16,8 @@ use run::file::{self, Draft};
 use run::parallel;
 
 use super::comparison::Comparison;
-use super::contents::{Contents, Manifest};
+use super::contents::Manifest;
+use super::curves::{Curves, names};
 use super::error::FolderError;
 use super::legend;
 use super::page;
@@ -78,36 +78,6 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     output.finish()
 }
 
-/// Returns the tables of all runs and of the collapses of a complete folder, of any size.
-///
-/// # Errors
-/// [`FolderError`] if parts are missing.
-pub fn curve_tables(folder: &Folder) -> Result<[Table; 2], FolderError> {
-    let contents = folder.contents();
-    let (names, mut curves) = (names(folder), Curves::of(folder));
-    let mut all = [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2];
-    for wall in 0..contents.walls.len() {
-        let own = curves.next_curves(contents.models.len() * contents.records.len())?;
-        for (all, table) in all.iter_mut().zip([levels, collapses]) {
-            let Table { columns, rows } = table(&names, wall, &own);
-            all.columns = columns;
-            all.rows.extend(rows);
-        }
-    }
-    Ok(all)
-}
-
-fn names(folder: &Folder) -> Names<'_> {
-    let Contents { walls, models, records, .. } = folder.contents();
-    Names {
-        walls: walls.iter().map(|wall| &*wall.name).collect(),
-        models: models.iter().map(|model| &*model.name).collect(),
-        records: records.iter().map(|record| &*record.name).collect(),
-        fractions: &folder.manifest().report.fractions,
-        has_yielding_ties: folder.contents().has_yielding_ties(),
-    }
-}
-
 /// Checks that all parts are there, and counts their runs.
 fn survey(folder: &Folder) -> Result<usize, FolderError> {
     let (mut runs, mut missing) = (0, Vec::new());
@@ -118,31 +88,6 @@ fn survey(folder: &Folder) -> Result<usize, FolderError> {
         }
     }
     if missing.is_empty() { Ok(runs) } else { Err(folder.incomplete(&missing)) }
-}
-
-/// The curves of a folder in the order of their numbers.
-pub(crate) struct Curves<'a> {
-    folder: &'a Folder,
-    /// The next part to read.
-    part: usize,
-    read: VecDeque<Curve>,
-}
-
-impl<'a> Curves<'a> {
-    pub(crate) fn of(folder: &'a Folder) -> Self {
-        Self { folder, part: 0, read: VecDeque::new() }
-    }
-
-    /// Returns the next `count` curves, and reads as many parts as this takes.
-    pub(crate) fn next_curves(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
-        while self.read.len() < count {
-            let curves = self.folder.part(self.part);
-            // it was found complete when the report began, and has been removed or damaged since
-            self.read.extend(curves.ok_or_else(|| self.folder.incomplete(&[self.part]))?);
-            self.part += 1;
-        }
-        Ok(self.read.drain(..count).collect())
-    }
 }
 
 /// The results under construction.

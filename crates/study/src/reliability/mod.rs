@@ -110,9 +110,7 @@ impl Reliability {
     /// The reason why there is no check.
     fn of_wall(&self, place: usize, curves: &[Curve], fitting: &Fitting) -> Result<WallReliability, String> {
         let wall = &self.walls[place];
-        deciding(self.codes.of(wall), |code| {
-            WallReliability::of((wall, code), curves, fitting, self.target)
-        })
+        deciding(self.codes.of(wall), |code| WallReliability::of((wall, code), curves, fitting, self.target))
     }
 }
 

@@ -209,7 +209,8 @@ fn functions_of_several_models() {
 #[test]
 fn other_measures_have_no_nrml() {
     let code = "intensity = { measure = \"code\" }";
-    let check = "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nSLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
+    let check = "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n\
+                 SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
     let study = STUDY.replace("intensity = { measure = \"PGA\" }", code) + check;
     let [xml, table, told] = run("risk_measures", &study);
     assert!(xml.is_empty() && !table.is_empty());
