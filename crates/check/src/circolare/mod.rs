@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `table` | the table `[check]` as it is written |
 //! | `statement`, `states` | the table `[check]`, validated |
+//! | `grid`, `site` | the hazard of a site from a grid, and what limit states take from it |
 //! | `ground`, `floor` | spectra on the ground and at a height |
 //! | `case` | a wall as the check takes it, and its checks with the hinge in one place |
 //! | `curve`, `set_back`, `tie` | a(d) of one side of a wall, its hinges and its tie |
@@ -30,6 +31,7 @@ mod demand;
 mod dynamic;
 mod figure;
 mod floor;
+mod grid;
 mod ground;
 mod hinge;
 mod report;
@@ -37,6 +39,7 @@ mod rows;
 mod set_back;
 mod side_verdict;
 mod sides;
+mod site;
 mod statement;
 mod states;
 mod table;
@@ -67,7 +70,7 @@ pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 pub use states::{Source, StateStatement};
 pub use table::{
     Activation, AtActivation, BarTable, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
-    LimitStateTable, Method, Polarities, RecordScale, Rocks, TieTable, Topography, UseClass,
+    LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, Topography, UseClass,
 };
 pub use tie::{TieAtLimit, TieState};
 pub use verdict::{
@@ -197,6 +200,11 @@ impl LimitState {
     /// The key of its table.
     pub fn key(self) -> &'static str {
         ["SLD", "SLV", "SLC"][self as usize]
+    }
+
+    /// P of being exceeded in `V_R`, NTC Tab. 3.2.I \[-\].
+    pub fn exceeded(self) -> f64 {
+        crate::report::EXCEEDED[self as usize].1
     }
 
     /// ξ of the mechanism where nothing better is known, C8.7.1.2.1.5 and C8.7.1.2.1.8 \[-\].

@@ -129,6 +129,7 @@ impl<'a> Checked<'a> {
             ),
             format!("{} decide; the other checks are for information.", deciding(self.statement)),
         ];
+        notes.extend(self.statement.site_notes.iter().cloned());
         for (name, _, side) in self.sides() {
             notes.extend(self.of_side(side).into_iter().map(|note| format!("{name}: {note}")));
         }

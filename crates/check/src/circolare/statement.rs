@@ -6,6 +6,7 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
 
+use super::site::{self, FromGrid};
 use super::states::{StateStatement, limit_state};
 use super::table::{
     Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, LEAST_STRENGTH,
@@ -50,6 +51,8 @@ pub struct Statement {
     pub(super) masonry: Option<f64>,
     /// Range in which the hinge of a strip is searched, of h \[-\].
     pub(super) hinge_range: [f64; 2],
+    /// What is to be said of the numbers from a grid.
+    pub(super) site_notes: Vec<String>,
 }
 
 impl Statement {
@@ -58,13 +61,19 @@ impl Statement {
     /// # Errors
     /// [`CheckError`] of the first value that cannot be used, or of a record.
     pub fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
-        let mut statement = Self::new(file.table()?)?;
+        let mut table: CheckTable = file.table()?;
+        let from_grid = site::fill(&mut table, file.folder())?;
+        let mut statement = Self::new(table)?;
         let bar = statement.table.tie.as_ref().and_then(|tie| tie.bar.as_ref());
         if bar.is_some() && file.states(&["tie", "bar"]) {
             let message = "the bar of the tie is stated in [tie] and in [check.tie]; leave one out";
             return Err(CheckError::value(&["tie", "bar"], message));
         }
         statement.records = file.records(statement.table.records.as_ref())?;
+        if let Some(FromGrid { file, notes }) = from_grid {
+            statement.records.files.push(file);
+            statement.site_notes = notes;
+        }
         let count = statement.records.named.len();
         if (1..FEWEST_RECORDS).contains(&count) {
             let message = format!("records: found {count}; at least {FEWEST_RECORDS} records (NTC 7.3.5)");
@@ -142,6 +151,7 @@ impl Statement {
             records,
             masonry,
             hinge_range,
+            site_notes: Vec::new(),
         })
     }
 

@@ -49,7 +49,10 @@ pub(super) fn limit_state(
 ) -> Result<StateStatement, CheckError> {
     let name = state.key();
     let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
-    let ag = given.ag;
+    let Some(ag) = given.ag else {
+        let message = "ag is missing; state a_g in g, with F0 and TC, or the site on a grid in [check.site]";
+        return Err(refused("ag", message.into()));
+    };
     if !(ag > 0.0 && ag <= 1.0) {
         return Err(refused("ag", format!("a_g = {ag} must be above 0 and at most 1 g; give it in g")));
     }
@@ -69,7 +72,7 @@ pub(super) fn limit_state(
         let message = "a displacement of local instability belongs to SLC (C8.7.1.2.1.6)";
         return Err(refused("displacement", message.into()));
     }
-    let source = source(state, given, table)?;
+    let source = source(state, ag, given, table)?;
     let mut modes = table.building.as_ref().map(modes).transpose()?.unwrap_or_default();
     if let (Some(first), Some(period)) = (modes.first().copied(), given.building_period) {
         for mode in &mut modes {
@@ -94,7 +97,12 @@ pub(super) fn limit_state(
     })
 }
 
-fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Result<Source, CheckError> {
+fn source(
+    state: LimitState,
+    ag: f64,
+    given: &LimitStateTable,
+    table: &CheckTable,
+) -> Result<Source, CheckError> {
     let name = state.key();
     let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
     match (given.f0, given.tc, &given.spectrum) {
@@ -108,7 +116,7 @@ fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Res
             if !(tc > 0.0 && tc.is_finite()) {
                 return Err(refused("TC", format!("T_C* = {tc} s must be above 0")));
             }
-            let hazard = Hazard { ag: given.ag, f0, tc };
+            let hazard = Hazard { ag, f0, tc };
             Ok(Source::Code(GroundSpectrum::new(hazard, soil(table)?, topography(table)?)))
         }
         (None, None, Some(points)) => {

@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use super::ENTRY;
 use super::floor::Mode;
+use super::grid::UNITS;
 use super::ground::Soil;
 use super::statement::LARGEST_CONFIDENCE_FACTOR;
 
@@ -72,6 +73,8 @@ tables! {
         #[serde(default)]
         #[key(default = "nonlinear")]
         pub method: Method,
+        /// The site on a grid of the hazard, for limit states without `ag`.
+        pub site: Option<SiteTable>,
         /// Limit state of damage.
         #[serde(rename = "SLD")]
         pub sld: Option<LimitStateTable>,
@@ -139,12 +142,30 @@ tables! {
         pub spacing: Option<f64>,
     }
 
+    /// A site on a grid of the hazard that the user brings.
+    #[derive(Clone, Debug)]
+    pub struct SiteTable {
+        /// File of the grid (CSV): columns lon, lat and, for return periods T in years, `ag_T`, `F0_T`, `TC_T`.
+        pub grid: String,
+        /// Unit of its `a_g`.
+        #[key(enum = UNITS.map(|(name, _)| name).to_vec(), default = "g")]
+        pub ag_unit: Option<String>,
+        /// Latitude and longitude \[°\].
+        pub coordinates: [f64; 2],
+        /// Nominal life `V_N` \[years\], NTC 2.4.1.
+        #[key(exclusiveMinimum = 0)]
+        pub nominal_life: f64,
+        /// Use coefficient `C_U` (-), NTC 2.4.3.
+        #[key(exclusiveMinimum = 0)]
+        pub use_coefficient: f64,
+    }
+
     /// A limit state: its hazard, or the spectrum at the wall's place.
     #[derive(Clone, Debug, Default)]
     pub struct LimitStateTable {
-        /// `a_g` on rigid ground \[g\].
+        /// `a_g` on rigid ground \[g\]; that of `site` unless given.
         #[key(exclusiveMinimum = 0, maximum = 1)]
-        pub ag: f64,
+        pub ag: Option<f64>,
         /// F0 (-).
         #[serde(rename = "F0")]
         #[key(minimum = 2.2)]

@@ -23,6 +23,7 @@ use language::translated;
 pub use language::{Language, terms};
 use markup::{formula, list, table};
 use project::as_written;
+pub(crate) use project::{EXCEEDED, return_period};
 pub use project::{ReportTable, report_schema};
 
 /// Width of a figure on a phone \[px\].

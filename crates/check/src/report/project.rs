@@ -61,10 +61,10 @@ pub fn report_schema() -> Schema {
 }
 
 /// Limit states and their probabilities of exceedance in `V_R`, NTC Tab. 3.2.I \[-\].
-const EXCEEDED: [(&str, f64); 3] = [("SLD", 0.63), ("SLV", 0.10), ("SLC", 0.05)];
+pub(crate) const EXCEEDED: [(&str, f64); 3] = [("SLD", 0.63), ("SLV", 0.10), ("SLC", 0.05)];
 
 /// Returns `T_R` = −`V_R`/ln(1 − P) of NTC 2.4.3, in the unit of `V_R`.
-fn return_period(reference: f64, exceeded: f64) -> f64 {
+pub(crate) fn return_period(reference: f64, exceeded: f64) -> f64 {
     -reference / libm::log1p(-exceeded)
 }
 

@@ -14,5 +14,6 @@ mod circolare_second;
 mod circolare_second_cases;
 mod circolare_second_messages;
 mod circolare_second_ties;
+mod circolare_site;
 mod codes;
 mod messages;

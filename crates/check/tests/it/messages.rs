@@ -47,7 +47,7 @@ fn messages_name_line_and_key_and_what_is_expected() {
             check(&CHECK.replace("\"T1\"", "true")),
             "line 8: topography = true: expected \"T1\" to \"T4\", or S_T",
         ),
-        (check(&CHECK.replace("ag = 0.15\n", "")), "line 12: check.SLV needs ag; add it"),
+        (check(&CHECK.replace("ag = 0.15\n", "")), "line 12: [check] SLV: ag is missing; state a_g in g"),
         (check(&CHECK.replace("[0.0, 0.2]", "[0.0]")), "spectrum = [0.0]: expected a list of 2 values"),
         (check(&CHECK.replace("F0", "f0")), "unknown key \"f0\" in [check.SLV] (did you mean \"F0\"?)"),
         (check(&CHECK.replace("2019", "2018")), "line 2: [check] code = \"circolare-2018\" (did you mean"),

@@ -1,0 +1,104 @@
+//! What limit states take from the site on a grid of the hazard: the table `[check.site]`.
+
+use std::path::{Path, PathBuf};
+
+use report::number;
+use rocking_wall::scene::{SceneError, read_text};
+
+use crate::error::CheckError;
+use crate::report::return_period;
+
+use super::LimitState;
+use super::grid::{Grid, SiteHazard, UNITS};
+use super::table::{CheckTable, SiteTable};
+
+/// Largest grid that is read.
+const MAX_FILE_BYTES: u64 = 64 << 20;
+
+/// The file that was read, and what is to be said of the numbers from it.
+pub(super) struct FromGrid {
+    pub(super) file: PathBuf,
+    pub(super) notes: Vec<String>,
+}
+
+/// Fills in `ag`, F0 and TC of the limit states that leave them out; a spectrum needs `ag` alone. Files are
+/// beside the one of the table.
+pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromGrid>, CheckError> {
+    let Some(site) = table.site.clone() else { return Ok(None) };
+    let file = folder.join(&site.grid);
+    let hazard = read(&site, &file)?;
+    let [first, last] = hazard.periods();
+    let mut notes = Vec::new();
+    for (state, given) in LimitState::ALL.into_iter().zip([&mut table.sld, &mut table.slv, &mut table.slc]) {
+        let Some(given) = given.as_mut().filter(|given| given.ag.is_none()) else { continue };
+        if given.f0.is_some() || given.tc.is_some() {
+            let message =
+                format!("{state}: the grid of the site gives ag, F0 and TC together; state all or none");
+            return Err(CheckError::value(&[state.key(), "ag"], message));
+        }
+        let years = return_period(site.nominal_life * site.use_coefficient, state.exceeded());
+        let found = hazard.hazard(years);
+        given.ag = Some(found.ag);
+        if given.spectrum.is_none() {
+            (given.f0, given.tc) = (Some(found.f0), Some(found.tc));
+        }
+        let limited = if (first..=last).contains(&years) {
+            String::new()
+        } else {
+            format!(", taken as {}, the nearest of the grid", number(years.clamp(first, last), 4))
+        };
+        notes.push(format!(
+            "{state}: T_R = {} years{limited}: a_g = {} g, F0 = {}, T_C* = {} s.",
+            number(years, 4),
+            number(found.ag, 4),
+            number(found.f0, 4),
+            number(found.tc, 4)
+        ));
+    }
+    if notes.is_empty() {
+        let message =
+            "no limit state takes its numbers from the grid; leave out ag, F0 and TC, or [check.site]";
+        return Err(CheckError::value(&["site"], message));
+    }
+    let [latitude, longitude] = site.coordinates;
+    let file_name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+    notes.push(format!(
+        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}: the mean of its four \
+         nodes by the inverse of their distances, straight over log T_R, as NTC 2008, Annex A, is known in the \
+         field; its text was not seen. Compare the numbers with those of the ministry."
+    ));
+    Ok(Some(FromGrid { file, notes }))
+}
+
+fn read(site: &SiteTable, file: &Path) -> Result<SiteHazard, CheckError> {
+    let refused = |key, message: String| Err(CheckError::value(&["site", key], format!("site: {message}")));
+    let SiteTable { ag_unit, coordinates, nominal_life, use_coefficient, .. } = site;
+    let [latitude, longitude] = *coordinates;
+    if !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0) {
+        let message = format!(
+            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as [42.35, \
+             13.40]"
+        );
+        return refused("coordinates", message);
+    }
+    for (key, value) in [("nominal_life", *nominal_life), ("use_coefficient", *use_coefficient)] {
+        if !(value > 0.0 && value.is_finite()) {
+            return refused(key, format!("{key} = {value} must be above 0"));
+        }
+    }
+    let unit = UNITS.into_iter().find(|(name, _)| ag_unit.as_deref().unwrap_or("g") == *name);
+    let Some((_, unit)) = unit else {
+        let names = UNITS.map(|(name, _)| format!("{name:?}")).join(", ");
+        let given = ag_unit.as_deref().unwrap_or_default();
+        return refused("ag_unit", format!("ag_unit = {given:?} is none of {names}"));
+    };
+    let text = read_text(file, "a grid of the hazard (CSV)", MAX_FILE_BYTES)?;
+    let grid = Grid::read(&text, unit).map_err(|(line, message)| SceneError::Line {
+        file: file.display().to_string(),
+        line,
+        key: None,
+        message,
+    })?;
+    let found = grid.at(*coordinates);
+    found.or_else(|message| refused("coordinates", message))
+}
