@@ -14,7 +14,7 @@ models = ["CR", "CDC"]
 intensity = { measure = "PGA" }
 levels = { method = "hunt", first = 0.1, increase = 0.1, top = 1.2, gap = 0.3 }
 records = { synthetic = { count = 4, duration = 12, step = 0.01 } }
-report = { fractions = [0.4, 1.0], resamples = 100, modelling_uncertainty = 0.2 }
+report = { fractions = [0.4, 1.0], loss_ratios = [0.2, 1.0], resamples = 100, modelling_uncertainty = 0.2 }
 classes = [{ name = "both", weights = [2, 1] }]
 hazard = { points = [[0.05, 0.033], [0.2, 0.002], [0.8, 5e-5]], target = 1e-3 }
 
@@ -25,7 +25,13 @@ geometry = { height = 2, thickness = 0.3 }
 [[walls]]
 name = "2"
 geometry = { height = 3, thickness = 0.3 }
-tie = { tie_height = 2.6, tie_stiffness = 2e5, tie_slack = 5e-3, tie_strength = 1e3, tie_ultimate = 0.05 }
+
+[walls.tie]
+tie_height = 2.6
+tie_stiffness = 2e5
+tie_slack = 5e-3
+tie_strength = 1e3
+tie_ultimate = 0.05
 """
 
 
@@ -51,7 +57,8 @@ def test_results_have_every_table_of_the_program(study, tmp_path):
     assert files(tmp_path / "out") == files(given)
     for one in (found, rw.read_results(given)):
         assert repr(one) == f"StudyResults({len(one.levels['wall'])} runs, 16 curves)"
-        tables = ("levels", "collapses", "fragilities", "rates", "rate_shares", "ties")
+        tables = ("levels", "collapses", "fragilities", "rates", "rate_shares", "losses")
+        tables += ("vulnerability", "ties")
         for name, path in (*((name, name) for name in tables), ("curves", "fragility_curves")):
             table = getattr(one, name)
             told = [name for name, column in table.items() if column.dtype.kind in "fib"]

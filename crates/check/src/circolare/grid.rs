@@ -120,8 +120,8 @@ impl Grid {
                 format!("; the nearest node is at lon {lon}, lat {lat}")
             });
             format!(
-                "the site at lat {latitude}, lon {longitude} is in no cell of the grid{near}; give ag, F0 and \
-                 TC of each limit state"
+                "the site at lat {latitude}, lon {longitude} is in no cell of the grid{near}; give ag, F0 \
+                 and TC of each limit state"
             )
         };
         let corner = nearest([0.0; 2]).ok_or_else(|| outside(None))?;

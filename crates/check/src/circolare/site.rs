@@ -32,8 +32,7 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     for (state, given) in LimitState::ALL.into_iter().zip([&mut table.sld, &mut table.slv, &mut table.slc]) {
         let Some(given) = given.as_mut().filter(|given| given.ag.is_none()) else { continue };
         if given.f0.is_some() || given.tc.is_some() {
-            let message =
-                format!("{state}: the grid of the site gives ag, F0 and TC together; state all or none");
+            let message = format!("{state}: the site's grid gives ag, F0 and TC together; state all or none");
             return Err(CheckError::value(&[state.key(), "ag"], message));
         }
         let years = return_period(site.nominal_life * site.use_coefficient, state.exceeded());
@@ -56,16 +55,15 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         ));
     }
     if notes.is_empty() {
-        let message =
-            "no limit state takes its numbers from the grid; leave out ag, F0 and TC, or [check.site]";
+        let message = "no limit state takes its numbers from the grid; leave out ag, F0 and TC, or site";
         return Err(CheckError::value(&["site"], message));
     }
     let [latitude, longitude] = site.coordinates;
     let file_name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
     notes.push(format!(
-        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}: the mean of its four \
-         nodes by the inverse of their distances, straight over log T_R, as NTC 2008, Annex A, is known in the \
-         field; its text was not seen. Compare the numbers with those of the ministry."
+        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}: the mean of its \
+         four nodes by the inverse of their distances, straight over log T_R, as NTC 2008, Annex A, is known \
+         in the field; its text was not seen. Compare the numbers with those of the ministry."
     ));
     Ok(Some(FromGrid { file, notes }))
 }
@@ -76,8 +74,8 @@ fn read(site: &SiteTable, file: &Path) -> Result<SiteHazard, CheckError> {
     let [latitude, longitude] = *coordinates;
     if !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0) {
         let message = format!(
-            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as [42.35, \
-             13.40]"
+            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
+             [42.35, 13.40]"
         );
         return refused("coordinates", message);
     }

@@ -45,6 +45,10 @@ class StudyResults(Tabular):
     return period and probability; None for a study without `hazard`."""
     rate_shares: Table | None
     """The part of each rate from each segment of the hazard curve; None for a study without `hazard`."""
+    vulnerability: Table | None
+    """The mean loss ratio of each wall and class by intensity; None without `loss_ratios` in `report`."""
+    losses: Table | None
+    """The average annual loss, of the value of the wall; None without `loss_ratios` and `hazard`."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -127,7 +131,7 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
-    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "ties")
+    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "vulnerability", "losses", "ties")
     tables = [read_table(path / f"{name}.csv") for name in names]
     fragilities, curves = (Table({}) if table is None else table for table in tables[:2])
     xml = path / "fragilities.xml"

@@ -40,6 +40,9 @@ pub struct ReportOptions {
     /// Hazard of the site.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hazard: Option<Hazard>,
+    /// Loss as a part of the value of a wall, for each of the fractions \[-\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loss_ratios: Option<Vec<f64>>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -79,6 +82,9 @@ tables! {
         /// Dispersion due to modelling, for the fragilities of risk engines \[-\].
         #[key(minimum = 0, maximum = MOST_UNCERTAINTY, default = 0)]
         modelling_uncertainty: Option<f64>,
+        /// Loss as a part of the value of a wall, for each of the fractions (-).
+        #[key(minItems = 1)]
+        loss_ratios: Option<Spanned<Vec<f64>>>,
     }
 
     /// A class of walls that risk engines see as one.
@@ -171,6 +177,7 @@ pub(super) fn report(
         modelling_uncertainty: 0.0,
         classes: read_classes(classes, place)?,
         hazard: None,
+        loss_ratios: None,
     };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();
@@ -210,7 +217,30 @@ pub(super) fn report(
         report.modelling_uncertainty = beta;
     }
     report.seed = spec.seed.unwrap_or(report.seed);
+    if let Some(ratios) = &spec.loss_ratios {
+        check_losses(&report.fractions, ratios.get_ref())
+            .map_err(|fault| place.error(ratios.span(), fault))?;
+        report.loss_ratios = Some(ratios.get_ref().clone());
+    }
     Ok(report)
+}
+
+/// Says what is wrong with the loss ratios of limit states.
+fn check_losses(fractions: &[f64], ratios: &[f64]) -> Result<(), String> {
+    if ratios.len() != fractions.len() {
+        let (count, states) = (counted(ratios.len(), "loss ratio"), counted(fractions.len(), "limit state"));
+        return Err(format!("loss_ratios: {count} for {states}; give one for each of the fractions"));
+    }
+    if let Some(ratio) = ratios.iter().find(|ratio| !(0.0..=1.0).contains(*ratio)) {
+        return Err(format!("loss_ratios: {ratio} must be from 0 to 1, a part of the value"));
+    }
+    let mut states: Vec<_> = fractions.iter().zip(ratios).collect();
+    states.sort_by(|a, b| a.0.total_cmp(b.0));
+    let falls = states.windows(2).find(|pair| pair[1].1 < pair[0].1);
+    falls.map_or(Ok(()), |pair| {
+        let [(low, less), (high, more)] = [pair[0], pair[1]];
+        Err(format!("loss_ratios: {more} at {high} u_ins must not be below {less} at {low} u_ins"))
+    })
 }
 
 /// Returns the variant that a word names.

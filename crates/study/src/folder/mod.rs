@@ -20,6 +20,7 @@
 //! | `plots` | the plots of a wall |
 //! | `nrml` | fragility functions in the format of risk engines |
 //! | `rates` | annual rates of walls and classes |
+//! | `losses` | losses of walls and classes |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
@@ -31,6 +32,7 @@ mod contents;
 mod curves;
 mod error;
 mod legend;
+mod losses;
 mod merge;
 mod nrml;
 mod page;

@@ -31,11 +31,60 @@ pub(crate) fn measure(name: &str) -> Option<String> {
         .or_else(|| ["PGA", "AvgSA"].contains(&name).then(|| name.into()))
 }
 
+/// What precedes the functions of a model: the kind of model, more than its description, and its end.
+fn head(manifest: &Manifest, model: &str, more: &str) -> String {
+    let periods = match &manifest.contents.measure[..] {
+        "AvgSA" => format!("; {}", manifest.contents.measure_details),
+        _ => String::new(),
+    };
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
+         <{model} id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n    \
+         <description>{}: {more}; intensities in g{}</description>\n",
+        escaped(&manifest.title),
+        escaped(&periods)
+    )
+}
+
+/// Returns what precedes vulnerability functions, and their names; `None` if NRML has no name for the
+/// study's measure.
+pub(crate) fn vulnerability(manifest: &Manifest) -> Option<(Names, String)> {
+    measure(&manifest.contents.measure)?;
+    let more = "loss ratios of limit states, which are fractions of the static instability displacement";
+    Some((Names::of(manifest), head(manifest, "vulnerabilityModel", more)))
+}
+
+/// What follows vulnerability functions.
+pub(crate) const VULNERABILITY_END: &str = "  </vulnerabilityModel>\n</nrml>\n";
+
+/// Names of functions, each of which occurs once.
+pub(crate) struct Names {
+    has_models: bool,
+    ids: BTreeSet<String>,
+}
+
+impl Names {
+    fn of(manifest: &Manifest) -> Self {
+        Self { has_models: manifest.contents.models.len() > 1, ids: BTreeSet::new() }
+    }
+
+    /// Makes the name of a wall or class with a model that no other function has.
+    pub(crate) fn id(&mut self, name: &str, model: &str) -> String {
+        let id = if self.has_models { format!("{name} ({model})") } else { name.to_owned() };
+        let mut id = id.replace(REFUSED, "_");
+        while !self.ids.insert(id.clone()) {
+            id.push('_');
+        }
+        id
+    }
+}
+
 /// Writes the functions of a study one by one.
 pub(crate) struct Writer {
     measure: String,
     states: Vec<(usize, String)>,
-    ids: BTreeSet<String>,
+    names: Names,
 }
 
 impl Writer {
@@ -44,22 +93,10 @@ impl Writer {
         let measure = measure(&manifest.contents.measure)?;
         let states = limit_states(&manifest.report);
         let names: Vec<_> = states.iter().map(|(_, name)| name.as_str()).collect();
-        let periods = match &measure[..] {
-            "AvgSA" => format!("; {}", manifest.contents.measure_details),
-            _ => String::new(),
-        };
-        let text = format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-             <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
-             <fragilityModel id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n\
-             \x20   \
-             <description>{}: a limit state is named by its fraction of the static instability displacement; \
-             intensities in g{}</description>\n    <limitStates>{}</limitStates>\n",
-            escaped(&manifest.title),
-            escaped(&periods),
-            names.join(" ")
-        );
-        Some((Self { measure, states, ids: BTreeSet::new() }, text))
+        let more = "a limit state is named by its fraction of the static instability displacement";
+        let head = head(manifest, "fragilityModel", more);
+        let text = format!("{head}    <limitStates>{}</limitStates>\n", names.join(" "));
+        Some((Self { measure, states, names: Names::of(manifest) }, text))
     }
 
     /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
@@ -68,7 +105,7 @@ impl Writer {
     pub(crate) fn function(
         &mut self,
         out: &mut dyn Write,
-        name: &str,
+        [name, model]: [&str; 2],
         function: &FragilityFunction,
     ) -> io::Result<bool> {
         let curves = function.states.iter().enumerate();
@@ -84,7 +121,7 @@ impl Writer {
             out,
             "    <fragilityFunction id=\"{}\" format=\"continuous\" shape=\"logncdf\">\n      \
              <imls imt=\"{}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" maxIML=\"{most:e}\"/>",
-            escaped(&self.unique(name)),
+            escaped(&self.names.id(name, model)),
             self.measure
         )?;
         for ((_, state), [mean, deviation]) in self.states.iter().zip(&params) {
@@ -105,15 +142,6 @@ impl Writer {
     /// Writes what follows the functions.
     pub(crate) fn finish(out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  </fragilityModel>\n</nrml>")
-    }
-
-    /// Makes a name that no other function has.
-    fn unique(&mut self, name: &str) -> String {
-        let mut id = name.replace(REFUSED, "_");
-        while !self.ids.insert(id.clone()) {
-            id.push('_');
-        }
-        id
     }
 }
 
@@ -142,20 +170,22 @@ mod tests {
     #[test]
     fn a_function_of_infinite_numbers_is_left_out() {
         let states = vec![(0, "u_ins_1".to_owned())];
-        let mut writer = Writer { measure: "PGA".into(), states, ids: BTreeSet::new() };
+        let names = Names { has_models: false, ids: BTreeSet::new() };
+        let mut writer = Writer { measure: "PGA".into(), states, names };
         for (beta, is_written) in [(0.5, true), (50.0, false)] {
             let curve = crate::fragility::Lognormal { median: 3.0, dispersion: beta };
             let (function, mut out) = (FragilityFunction::new(&[curve], 0.0), Vec::new());
-            assert_eq!(writer.function(&mut out, "wall", &function).unwrap(), is_written);
+            assert_eq!(writer.function(&mut out, ["wall", "CR"], &function).unwrap(), is_written);
             assert_eq!(out.is_empty(), !is_written);
         }
     }
 
     #[test]
     fn names_are_unique_and_free_of_what_engines_refuse() {
-        let mut writer = Writer { measure: "PGA".into(), states: Vec::new(), ids: BTreeSet::new() };
-        let ids = ["a#1", "a'1", "a_1", "b"].map(|name| writer.unique(name));
+        let mut names = Names { has_models: false, ids: BTreeSet::new() };
+        let ids = ["a#1", "a'1", "a_1", "b"].map(|name| names.id(name, "CR"));
         assert_eq!(ids, ["a_1", "a_1_", "a_1__", "b"]);
+        assert_eq!(Names { has_models: true, ..names }.id("b", "CR"), "b (CR)");
     }
 
     #[test]
@@ -176,6 +206,7 @@ mod tests {
             modelling_uncertainty: 0.0,
             classes: Vec::new(),
             hazard: None,
+            loss_ratios: None,
         };
         let expected = [(1, "u_ins_0_1"), (0, "u_ins_0_4"), (2, "u_ins_1")];
         assert_eq!(limit_states(&report), expected.map(|(place, name)| (place, name.to_owned())));

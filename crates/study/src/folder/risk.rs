@@ -15,6 +15,7 @@ use run::file::{self, Draft};
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::losses::Losses;
 use super::nrml;
 use super::rates::{Fitted, Rates};
 use report::table::{Cell, Table};
@@ -37,6 +38,7 @@ pub(crate) struct Risk<'a> {
     /// Resamples of each class, of each model and limit state.
     resamples: Vec<Vec<Vec<ClassResamples>>>,
     rates: Option<Rates<'a>>,
+    losses: Option<Losses<'a>>,
     /// Number of functions without a curve, and of those that NRML cannot hold.
     left_out: [usize; 2],
 }
@@ -64,6 +66,7 @@ impl<'a> Risk<'a> {
         Ok(Self {
             manifest,
             rates: Rates::new(folder, manifest)?,
+            losses: Losses::new(folder, manifest)?,
             resamples: vec![of_class; classes.len()],
             states,
             table: Draft::new(&table, b"")?,
@@ -87,10 +90,8 @@ impl<'a> Risk<'a> {
                 curves.map(|curves| FragilityFunction::new(curves.as_slice(), report.modelling_uncertainty));
             let known: Vec<_> = summaries.iter().map(|summary| Known::of_wall(summary, report)).collect();
             self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &known)?;
-            if let Some(rates) = &mut self.rates {
-                let states = summaries.iter().map(|summary| of_summary(summary, report));
-                rates.add(&note.name, false, model, &states.collect::<Vec<_>>())?;
-            }
+            let states = || summaries.iter().map(|summary| of_summary(summary, report)).collect();
+            self.follow(&note.name, false, model, states)?;
             for (class, (of, walls)) in self.classes.iter().enumerate() {
                 let Some(place) = walls.iter().position(|member| *member == wall) else { continue };
                 let share = of.shares(walls.len())[place];
@@ -124,16 +125,14 @@ impl<'a> Risk<'a> {
                 };
                 let known: Vec<_> = self.resamples[number][model].iter().enumerate().map(known).collect();
                 self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &known)?;
-                if let Some(rates) = &mut self.rates {
-                    let beta_modelling = self.manifest.report.modelling_uncertainty;
-                    let state = |(k, resamples): (usize, &ClassResamples)| {
-                        let curve = function.as_ref().map(|f| [f.states[k].median, f.dispersion(k)]);
-                        Fitted { curve, resamples: resamples.curves(beta_modelling) }
-                    };
-                    let states: Vec<_> =
-                        self.resamples[number][model].iter().enumerate().map(state).collect();
-                    rates.add(&class.name, true, model, &states)?;
-                }
+                let beta_modelling = self.manifest.report.modelling_uncertainty;
+                let resamples = std::mem::take(&mut self.resamples[number][model]);
+                let state = |(k, resamples): (usize, &ClassResamples)| {
+                    let curve = function.as_ref().map(|f| [f.states[k].median, f.dispersion(k)]);
+                    Fitted { curve, resamples: resamples.curves(beta_modelling) }
+                };
+                let states = || resamples.iter().enumerate().map(state).collect();
+                self.follow(&class.name, true, model, states)?;
                 told.extend(function.map(|function| self.line(class, model, &function)));
             }
         }
@@ -146,13 +145,31 @@ impl<'a> Risk<'a> {
         let paths = drafts.into_iter().map(|draft| draft.commit(true));
         let mut paths: Vec<_> = paths.collect::<Result<_, _>>()?;
         let mut section = String::new();
-        if let Some(rates) = self.rates {
-            let (files, words, html) = rates.finish()?;
+        let rates = self.rates.map(Rates::finish).transpose()?;
+        let losses = self.losses.map(Losses::finish).transpose()?;
+        for (files, words, html) in rates.into_iter().chain(losses) {
             paths.extend(files);
             told.push_str(&words);
-            section = html;
+            section.push_str(&html);
         }
         Ok((paths, told, section))
+    }
+
+    /// Adds what follows from the curves of a wall or a class with one model, where the study asks for it.
+    fn follow(
+        &mut self,
+        name: &str,
+        is_class: bool,
+        model: usize,
+        states: impl Fn() -> Vec<Fitted>,
+    ) -> Result<(), FolderError> {
+        if let Some(rates) = &mut self.rates {
+            rates.add(name, is_class, model, &states())?;
+        }
+        if let Some(losses) = &mut self.losses {
+            losses.add(name, is_class, model, &states())?;
+        }
+        Ok(())
     }
 
     /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
@@ -200,15 +217,15 @@ impl<'a> Risk<'a> {
         self.table.write(|file| file.write_all(text.as_bytes()))?;
         self.left_out[0] += usize::from(function.is_none());
         let Some((draft, writer)) = &mut self.xml else { return Ok(()) };
-        let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
         let Some(function) = function else {
+            let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
             let theta = |((_, state), known): (&(usize, String), &Known)| {
                 (state.clone(), known.theta.texts(STANDARD_GRAVITY, 3)[0].clone())
             };
             let thetas: Vec<_> = self.states.iter().zip(known).map(theta).collect();
             return Ok(draft.write(|file| nrml::Writer::note(file, &id, &thetas))?);
         };
-        let is_written = draft.write(|file| writer.function(file, &id, function))?;
+        let is_written = draft.write(|file| writer.function(file, [name, model], function))?;
         self.left_out[1] += usize::from(!is_written);
         Ok(())
     }

@@ -145,3 +145,55 @@ fn a_study_whose_walls_cannot_be_checked_is_refused() {
     let words = ["study.toml: no wall can be checked; wall \"low\": density not stated"];
     refused(&folder, &["study", "reliability", "study.toml", "-o", "out"], &words);
 }
+
+/// At each intensity the probabilities of the loss ratios add up to 1, and give the mean of the table; the
+/// annual loss is the sum of the rates of the limit states times the steps of the ratios.
+#[test]
+fn losses_follow_the_limit_states() {
+    let folder = folder("hazard_losses");
+    let ratios = "fractions = [1, 0.4], loss_ratios = [1, 0.3],";
+    let study = STUDY.replace("\"code\"", "\"PGA\"").replace("fractions = [0.4, 1],", ratios);
+    fs::write(folder.join("study.toml"), &study).unwrap();
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
+    assert_has(&told, &["average annual loss, of the value of the wall"]);
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    let (rates, losses) = (rows(&folder, "out/rates.csv"), rows(&folder, "out/losses.csv"));
+    assert_eq!(losses.len(), 3 * 2);
+    for (pair, loss) in rates.chunks(2).zip(&losses) {
+        assert_eq!([&pair[0][..2], &pair[1][..2]], [&loss[..2]; 2]);
+        let wanted = 0.3 * number(&pair[0][5]) + 0.7 * number(&pair[1][5]);
+        let [found, low, high] = [2, 3, 4].map(|cell| number(&loss[cell]));
+        assert!((found / wanted - 1.0).abs() < 1e-12 && low < found && found < high, "{loss:?}");
+    }
+    // lists of numbers between > and <, function by function
+    let (xml, curves) = (content(&folder, "out/vulnerability.xml"), rows(&folder, "out/vulnerability.csv"));
+    assert_has(
+        &xml,
+        &["<vulnerabilityModel id=\"rocking_walls\"", "<vulnerabilityFunction id=\"low (CR)\" dist"],
+    );
+    let list =
+        |line: &str| -> Vec<f64> { line.split(['>', '<']).nth(2).unwrap().split(' ').map(number).collect() };
+    let functions: Vec<_> = xml.split("<vulnerabilityFunction").skip(1).collect();
+    assert_eq!((functions.len(), curves.len()), (6, 6 * 41));
+    for (function, curve) in functions.iter().zip(curves.chunks(41)) {
+        let lines: Vec<_> = function.lines().skip(1).take(4).map(list).collect();
+        for (k, row) in curve.iter().enumerate() {
+            assert_eq!(lines[0][k], number(&row[2]));
+            let [none, some, all] = [1, 2, 3].map(|line| lines[line][k]);
+            assert!((none + some + all - 1.0).abs() < 1e-15);
+            let mean = 0.3 * some + all;
+            assert!((mean - number(&row[3])).abs() < 1e-15);
+            let deviation = (0.09 * some + all - mean * mean).max(0.0).sqrt();
+            // the square root of a rounding
+            assert!((deviation - number(&row[4])).abs() < 1e-7);
+        }
+    }
+    for (change, words) in [
+        ("[1]", "loss_ratios: 1 loss ratio for 2 limit states; give one for each"),
+        ("[1, 1.5]", "loss_ratios: 1.5 must be from 0 to 1"),
+        ("[0.3, 1]", "loss_ratios: 0.3 at 1 u_ins must not be below 1 at 0.4 u_ins"),
+    ] {
+        fs::write(folder.join("study.toml"), study.replace("[1, 0.3]", change)).unwrap();
+        refused(&folder, &["study", "ida", "study.toml", "-o", "other"], &["line 6", words]);
+    }
+}

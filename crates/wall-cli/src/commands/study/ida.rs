@@ -67,7 +67,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 11] = [
+const FILES: [&str; 14] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -78,6 +78,9 @@ const FILES: [&str; 11] = [
     "ties.csv",
     "rates.csv",
     "rate_shares.csv",
+    "vulnerability.csv",
+    "vulnerability.xml",
+    "losses.csv",
     "study.html",
 ];
 
