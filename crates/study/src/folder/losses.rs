@@ -1,5 +1,5 @@
-//! Losses of walls and classes: `vulnerability.csv`, `vulnerability.xml`, with a hazard `losses.csv`, and what
-//! the page and the terminal show of them.
+//! Losses of walls and classes: `vulnerability.csv`, `vulnerability.xml`, with a hazard `losses.csv`, and
+//! what the page and the terminal show of them.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -200,7 +200,8 @@ impl Manifest {
         let measure = nrml::measure(&self.contents.measure).unwrap_or_default();
         let imls = list(&mut points.iter().map(|point| point.intensity));
         let mut text = format!(
-            "    <vulnerabilityFunction id=\"{}\" dist=\"PM\">\n      <imls imt=\"{measure}\">{imls}</imls>\n",
+            "    <vulnerabilityFunction id=\"{}\" dist=\"PM\">\n      \
+             <imls imt=\"{measure}\">{imls}</imls>\n",
             escaped(id)
         );
         for (place, ratio) in [0.0].iter().chain(ratios).enumerate() {

@@ -21,11 +21,13 @@
 //! | `nrml` | fragility functions in the format of risk engines |
 //! | `rates` | annual rates of walls and classes |
 //! | `losses` | losses of walls and classes |
+//! | `classes` | the section of a page about classes |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
 
+mod classes;
 mod comparison;
 mod compute;
 mod contents;

@@ -13,6 +13,7 @@ use ground_motion::STANDARD_GRAVITY;
 
 use run::file::{self, Draft};
 
+use super::classes::Classes;
 use super::contents::Manifest;
 use super::error::FolderError;
 use super::losses::Losses;
@@ -28,6 +29,8 @@ pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
     states: Vec<(usize, String)>,
     table: Draft,
+    /// Keys of the geometry of walls, each a column.
+    geometry: Vec<String>,
     /// Whether the table has its line of names.
     is_begun: bool,
     xml: Option<(Draft, nrml::Writer)>,
@@ -62,6 +65,12 @@ impl<'a> Risk<'a> {
         });
         let classes: Vec<_> = classes.collect();
         let states = nrml::limit_states(&manifest.report);
+        let mut geometry: Vec<String> = Vec::new();
+        for (key, _) in walls.iter().flat_map(|wall| self::geometry(&wall.parameters)) {
+            if !geometry.iter().any(|own| own == key) {
+                geometry.push(key.to_owned());
+            }
+        }
         let of_class = vec![vec![ClassResamples::default(); states.len()]; manifest.contents.models.len()];
         Ok(Self {
             manifest,
@@ -70,6 +79,7 @@ impl<'a> Risk<'a> {
             resamples: vec![of_class; classes.len()],
             states,
             table: Draft::new(&table, b"")?,
+            geometry,
             is_begun: false,
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
@@ -89,7 +99,7 @@ impl<'a> Risk<'a> {
             let function =
                 curves.map(|curves| FragilityFunction::new(curves.as_slice(), report.modelling_uncertainty));
             let known: Vec<_> = summaries.iter().map(|summary| Known::of_wall(summary, report)).collect();
-            self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &known)?;
+            self.write((&note.name, 1, &note.parameters), model, function.as_ref(), &known)?;
             let states = || summaries.iter().map(|summary| of_summary(summary, report)).collect();
             self.follow(&note.name, false, model, states)?;
             for (class, (of, walls)) in self.classes.iter().enumerate() {
@@ -111,10 +121,10 @@ impl<'a> Risk<'a> {
     pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
         let contents = &self.manifest.contents;
         let mut told = String::new();
+        let states = self.states.clone();
+        let mut classes = Classes::new(self.manifest, &states);
         for (number, (class, walls)) in std::mem::take(&mut self.classes).into_iter().enumerate() {
             let shares = class.shares(walls.len());
-            let named = |(share, &wall): (&f64, &usize)| format!("{share} {}", contents.walls[wall].name);
-            let stated: Vec<_> = shares.iter().zip(&walls).map(named).collect();
             for model in 0..contents.models.len() {
                 let members = walls.iter().map(|wall| self.members[wall][model].clone());
                 let members: Option<Vec<_>> = members.collect();
@@ -124,7 +134,8 @@ impl<'a> Risk<'a> {
                     Known::of_class(function.as_ref(), k, &resamples.curves(beta_modelling))
                 };
                 let known: Vec<_> = self.resamples[number][model].iter().enumerate().map(known).collect();
-                self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &known)?;
+                self.write((&class.name, walls.len(), ""), model, function.as_ref(), &known)?;
+                classes.add((&class.name, walls.len()), model, function.as_ref(), &known);
                 let beta_modelling = self.manifest.report.modelling_uncertainty;
                 let resamples = std::mem::take(&mut self.resamples[number][model]);
                 let state = |(k, resamples): (usize, &ClassResamples)| {
@@ -144,7 +155,7 @@ impl<'a> Risk<'a> {
         }
         let paths = drafts.into_iter().map(|draft| draft.commit(true));
         let mut paths: Vec<_> = paths.collect::<Result<_, _>>()?;
-        let mut section = String::new();
+        let mut section = classes.section();
         let rates = self.rates.map(Rates::finish).transpose()?;
         let losses = self.losses.map(Losses::finish).transpose()?;
         for (files, words, html) in rates.into_iter().chain(losses) {
@@ -172,11 +183,11 @@ impl<'a> Risk<'a> {
         Ok(())
     }
 
-    /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
+    /// Writes the function of a wall or a class, by its name, number of walls and parameters, with one model.
     /// `known` is what is known of each limit state beside its curve.
     fn write(
         &mut self,
-        [name, geometry]: [&str; 2],
+        (name, walls, parameters): (&str, usize, &str),
         model: usize,
         function: Option<&FragilityFunction>,
         known: &[Known],
@@ -186,9 +197,9 @@ impl<'a> Risk<'a> {
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         let bounds = |k: usize, part: usize| Cell::Between(known[k].theta.bounds(STANDARD_GRAVITY)[part]);
         let covariance = |k: usize, part: usize| known[k].covariance.map(|moments| moments[part]);
-        let table = Table::over(self.states.iter().enumerate())
+        let mut table = Table::over(self.states.iter().enumerate())
             .text("wall", "", |_| name.to_owned())
-            .text("geometry", "", |_| geometry.to_owned())
+            .value("walls", |_| walls)
             .text("model", "", |_| model.clone())
             .text("measure", "", |_| contents.measure.clone())
             .text("unit", "", |_| "g")
@@ -210,8 +221,16 @@ impl<'a> Risk<'a> {
             .value("var_ln_theta", |(k, _)| covariance(*k, 0))
             .value("cov_ln_theta_beta", |(k, _)| covariance(*k, 1))
             .value("var_beta", |(k, _)| covariance(*k, 2))
-            .value("misfit", |(k, _)| known[*k].misfit)
-            .done();
+            .value("misfit", |(k, _)| known[*k].misfit);
+        for key in &self.geometry {
+            let value = geometry(parameters).find(|(own, _)| own == key).map(|(_, value)| value);
+            let cell = value.map_or(Cell::Empty, |value| match value.parse() {
+                Ok(number) => Cell::Number(number),
+                Err(_) => value.trim_matches('"').to_owned().into(),
+            });
+            table = table.value(key.clone(), move |_| cell.clone());
+        }
+        let table = table.done();
         let text = if self.is_begun { table.csv_rows() } else { table.csv() };
         self.is_begun = true;
         self.table.write(|file| file.write_all(text.as_bytes()))?;
@@ -274,10 +293,10 @@ impl<'a> Risk<'a> {
 }
 
 /// What is known of a limit state of a wall or a class beside its curve.
-struct Known {
-    theta: Interval,
+pub(crate) struct Known {
+    pub(crate) theta: Interval,
     /// With the β of the model.
-    beta: Interval,
+    pub(crate) beta: Interval,
     /// Variance of ln θ, covariance of ln θ and β, variance of β.
     covariance: Option<[f64; 3]>,
     misfit: Option<f64>,
@@ -312,9 +331,8 @@ fn of_summary(summary: &Summary, report: &ReportOptions) -> Fitted {
     }
 }
 
-/// Returns the geometry among the parameters of a wall, in one line.
-fn geometry(parameters: &str) -> String {
+/// Lists the geometry among the parameters of a wall: keys and values.
+fn geometry(parameters: &str) -> impl Iterator<Item = (&str, &str)> {
     let lines = parameters.lines().skip_while(|line| *line != "[geometry]").skip(1);
-    let lines: Vec<_> = lines.take_while(|line| !line.starts_with('[')).collect();
-    lines.join("; ").replace(" = ", "=").replace('"', "")
+    lines.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once(" = "))
 }
