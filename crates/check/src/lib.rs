@@ -15,7 +15,7 @@ pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_
 pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
-pub use report::{Figure, Language, Origin, ReportTable, page, report_schema, terms};
+pub use report::{Figure, Language, Origin, ReportTable, page, page_of_walls, report_schema, terms};
 pub use rule::Rule;
 pub use site::Records;
 pub use walls::{WallCodes, WallVerdicts, check_walls};

@@ -14,6 +14,12 @@ impl Origin<'_> {
     fn of_parameter(&self, group: &str, name: &str) -> &'static str {
         let is_set = |set: &String| set.split_once('=').map_or(set.as_str(), |set| set.0).trim() == name;
         let has_points = name == "force_law" && self.file.states(&[group, "points"]);
+        if let Some(wall) = self.wall {
+            // a table of walls, and scenes that they name, state parameters without a key of the file
+            let usual = parameter_text(&Parameters::default(), name);
+            let is_own = parameter_text(&wall.parameters, name) != usual;
+            return if is_own || self.file.wall_states(wall.entry, group, name) { "file" } else { "default" };
+        }
         if self.set.iter().any(is_set) {
             "--set"
         } else if has_points || self.file.states(&[group, name]) {

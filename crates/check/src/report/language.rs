@@ -108,16 +108,19 @@ fn skipped(rest: &str) -> Option<usize> {
 
 /// Where the text that begins here ends.
 fn text_end(rest: &str) -> usize {
-    let mut at = 0;
+    let (mut at, mut open) = (0, 0);
     while let Some(next) = rest[at..].find('<') {
         let tag = &rest[at + next..];
         let name = tag[1..].trim_start_matches('/');
         let name = &name[..name.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(name.len())];
         // a class makes a tag more than a formula
         let is_plain = tag[1..].trim_start_matches('/')[name.len()..].starts_with('>');
-        if !(INLINE.contains(&name) && is_plain) {
+        let is_end = tag.starts_with("</");
+        // the mark of a legend, a tag with a class, ends before its words
+        if !(INLINE.contains(&name) && is_plain) || is_end && open == 0 {
             return at + next;
         }
+        open = if is_end { open - 1 } else { open + 1 };
         at += next + tag.find('>').map_or(tag.len(), |end| end + 1);
     }
     rest.len()

@@ -5,6 +5,7 @@ pub(crate) mod inputs;
 pub(crate) mod language;
 pub(crate) mod markup;
 pub(crate) mod project;
+mod walls;
 
 use std::path::Path;
 
@@ -12,6 +13,7 @@ use ::report::escaped;
 use ::report::page::Page;
 use ::report::plot::Plot;
 use rocking_wall::scene::{SceneError, fingerprint};
+use run::walls::NamedWall;
 
 use crate::code::Verdict;
 use crate::error::CheckError;
@@ -25,14 +27,18 @@ use markup::{formula, list, table};
 use project::as_written;
 pub(crate) use project::{EXCEEDED, return_period};
 pub use project::{ReportTable, report_schema};
+pub use walls::page_of_walls;
 
 /// Width of a figure on a phone \[px\].
 const NARROW: f64 = 390.0;
 
 /// Where the wall of a report comes from.
+#[derive(Clone, Copy)]
 pub struct Origin<'a> {
-    /// Title of the wall.
+    /// Title of the wall, or of the file of walls.
     pub title: &'a str,
+    /// The wall, where the file has several.
+    pub wall: Option<&'a NamedWall>,
     /// Its file.
     pub file: &'a CheckFile<'a>,
     /// What `--set` replaces.
@@ -72,36 +78,45 @@ impl Figure {
 /// # Errors
 /// [`CheckError`] of a demand, or of a record that cannot be read again.
 pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckError> {
-    let passed = if verdict.passed { "holds" } else { "fails" };
-    let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
-    let head = format!(
-        "<p class=\"subtitle\">{}</p>\n<p class=\"subtitle\">{}</p>\n<p class=\"verdict \
-         {passed}\">{headline}</p>",
-        escaped(verdict.code.source),
-        origin.date()
-    );
-    let page = Page::new(origin.title).styled(include_str!("page.css")).text(&head);
+    let top = origin.source(verdict) + "\n" + &head(verdict);
+    let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
-    let mut page = page.section(
-        "Verdict",
-        &format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&verdict.notes)),
-    );
+    let page = sheet(page, verdict, origin)?.section("Document", &document(origin)?).text(SIGNED);
+    let title = format!("<h1>{}</h1>", escaped(origin.title));
+    let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
+    Ok(translated(page, origin.report.language))
+}
+
+/// Adds the sections about a wall: verdict, those of the code, warnings.
+fn sheet(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<Page, CheckError> {
+    let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&verdict.notes));
+    let mut page = page.section("Verdict", &checks);
     for (heading, markup) in verdict.details.sections(origin)? {
         page = page.section(&heading, &markup);
     }
     let warnings: Vec<_> = verdict.warnings.iter().chain(&origin.records.warnings).cloned().collect();
     let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
-    let page = page.section("Warnings", &warnings).section("Document", &document(origin)?).text(SIGNED);
-    let title = format!("<h1>{}</h1>", escaped(origin.title));
-    let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(translated(page, origin.report.language))
+    Ok(page.section("Warnings", &warnings))
+}
+
+/// The headline of a verdict as markup.
+fn head(verdict: &Verdict<'_>) -> String {
+    let passed = if verdict.passed { "holds" } else { "fails" };
+    let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
+    format!("<p class=\"verdict {passed}\">{headline}</p>")
 }
 
 /// The box for stamp and signature.
 const SIGNED: &str = "<div class=\"signed\"><p>Date</p><p>Stamp and signature</p></div>";
 
 impl Origin<'_> {
+    /// The code and the date as markup.
+    fn source(&self, verdict: &Verdict<'_>) -> String {
+        let (source, date) = (escaped(verdict.code.source), self.date());
+        format!("<p class=\"subtitle\">{source}</p>\n<p class=\"subtitle\">{date}</p>")
+    }
+
     /// The date as markup, as the user gives it.
     fn date(&self) -> String {
         self.report.date.as_deref().map_or_else(String::new, as_written)

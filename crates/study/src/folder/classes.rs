@@ -113,10 +113,11 @@ impl<'a> Classes<'a> {
         }
         let Self { states, manifest, .. } = self;
         let highest = manifest.report.fractions[states[states.len() - 1].0];
+        let words = "β² is the sum of the squares of its parts; intervals are those of the records";
         format!(
-            "<section><h2>Classes of walls</h2><p class=\"subtitle\">β² is the sum of the squares of its parts; \
-             {:.0} % intervals of the records.</p><div class=\"scroll\">{}</div><h3>P(u<sub>max</sub>/u<sub>ins</sub> \
-             &gt; {highest})</h3><div class=\"row\">{}</div></section>\n",
+            "<section><h2>Classes of walls</h2><p class=\"subtitle\">{words}, {:.0} %.</p><div \
+             class=\"scroll\">{}</div><h3>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {highest})</h3><div \
+             class=\"row\">{}</div></section>\n",
             100.0 * CONFIDENCE,
             self.table.html(),
             self.plots

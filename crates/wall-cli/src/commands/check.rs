@@ -1,12 +1,12 @@
 //! `wall check`: walls against a building code.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use check::{
-    CheckFile, Code, Language, Origin, Sought, Subject, WallCodes, check_walls, find, how_to_write, page,
-    read, with_assignments,
+    CheckFile, Code, Language, Origin, ReportTable, Sought, Subject, WallCodes, check_walls, find,
+    how_to_write, page, page_of_walls, read, with_assignments,
 };
 use clap::Args;
 use rocking_wall::scene::{Scene, read_text};
@@ -61,16 +61,12 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let file = CheckFile::parse_with(&name, &extended, text.len())?;
     let code = || read(&file).map_err(|error| file.located(error));
     if file.has_walls() {
-        let one_wall = [
-            ("--find", arguments.find.is_some()),
-            ("--report", arguments.report.is_some()),
-            ("--set of a parameter", !of_wall.is_empty()),
-        ];
+        let one_wall = [("--find", arguments.find.is_some()), ("--set of a parameter", !of_wall.is_empty())];
         refuse(one_wall, "takes one wall; give a scene").context(name.clone())?;
         return walls(console, arguments, &file);
     }
     let many_walls = [("--html", arguments.html.is_some())];
-    refuse(many_walls, "lists the walls of a file; --report is the page of one wall")
+    refuse(many_walls, "lists the walls of a file; a scene has one, and --report is its page")
         .context(name.clone())?;
     let mut scene = Scene::parse(&name, &text, file.folder())?;
     apply_set(&of_wall, &mut scene)?;
@@ -108,11 +104,9 @@ fn one(
     }
     let verdict = code.check(subject).map_err(|error| file.located(error))?;
     if let Some(path) = report {
-        let mut report = file.report()?;
-        report.date = arguments.date.clone().or(report.date);
-        report.language = arguments.lang.unwrap_or(report.language);
+        let report = project(arguments, file)?;
         let (set, records) = (&arguments.scene.set, code.records());
-        let origin = Origin { title: &scene.title, file, set, records, report: &report };
+        let origin = Origin { title: &scene.title, wall: None, file, set, records, report: &report };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
     console.save(csv.as_ref(), || verdict.table().csv())?;
@@ -121,6 +115,14 @@ fn one(
     }
     verdict.warnings.iter().for_each(|warning| console.warn(warning));
     console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
+}
+
+/// What the report says of the project.
+fn project(arguments: &Arguments, file: &CheckFile<'_>) -> Result<ReportTable> {
+    let mut report = file.report()?;
+    report.date = arguments.date.clone().or(report.date);
+    report.language = arguments.lang.unwrap_or(report.language);
+    Ok(report)
 }
 
 /// Tells every ten seconds how far a search with runs is, and what is left.
@@ -142,17 +144,25 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
     let walls = read_walls(file.text(), file.name().as_ref(), &mut inputs, &mut warnings)?;
     let codes = WallCodes::read(file, &walls)?;
     let code = codes.shared();
-    let Arguments { csv, html, .. } = arguments;
-    console.check_distinct(inputs.iter().chain(&code.records().files), html.iter().chain(csv))?;
+    let Arguments { csv, html, report, .. } = arguments;
+    let outputs = || html.iter().chain(csv).chain(report);
+    console.check_distinct(inputs.iter().chain(&code.records().files), outputs())?;
     let verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
     console.save(csv.as_ref(), || verdicts.table().csv())?;
     console.save(html.as_ref(), || verdicts.page(file.name()))?;
+    if let Some(path) = report {
+        let report = project(arguments, file)?;
+        let title = Path::new(file.name()).file_stem().unwrap_or_default().to_string_lossy();
+        let (set, records) = (&arguments.scene.set, code.records());
+        let origin = Origin { title: &title, wall: None, file, set, records, report: &report };
+        console.write(path, page_of_walls(&verdicts, (&walls, &codes), &origin)?.as_bytes())?;
+    }
     warnings.iter().chain(&code.records().warnings).for_each(|warning| console.warn(warning));
     if arguments.json {
         console.json(&verdicts.json())?;
     } else {
         console.report_all(verdicts.warnings());
-        console.print(&(verdicts.table().text() + &written("written  ", csv.iter().chain(html))))?;
+        console.print(&(verdicts.table().text() + &written("written  ", outputs())))?;
     }
     match verdicts.refused() {
         0 => Ok(()),

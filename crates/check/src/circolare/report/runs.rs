@@ -58,9 +58,9 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     );
     lines.say(
         "Runs beyond the zero of the curve",
-        &format!("<b>{}</b> of {}", state.beyond_d0, state.runs.len()),
+        &format!("<b>{}</b>/{}", state.beyond_d0, state.runs.len()),
     );
-    let said = format!("<b>{}</b> of {}", state.at_strength, state.runs.len());
+    let said = format!("<b>{}</b>/{}", state.at_strength, state.runs.len());
     lines.say("Runs at the strength of the tie", &said);
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
     lines.say("Result", result(state.passed));

@@ -1,0 +1,73 @@
+//! The report of the walls of a file: a cover with the wall that governs, and a sheet for each wall.
+
+use std::fmt::Write as _;
+
+use ::report::escaped;
+use ::report::page::Page;
+use run::walls::NamedWall;
+
+use super::language::translated;
+use super::project::as_written;
+use super::{Origin, SIGNED, document, head, sheet};
+use crate::error::CheckError;
+use crate::walls::{WallCodes, WallVerdicts};
+
+/// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover
+/// with the reason, and have no sheet.
+///
+/// # Errors
+/// [`CheckError`] of a demand, of a file that cannot be read again, or where no wall could be checked.
+pub fn page_of_walls(
+    verdicts: &WallVerdicts<'_>,
+    (walls, codes): (&[NamedWall], &WallCodes),
+    origin: &Origin<'_>,
+) -> Result<String, CheckError> {
+    let checked =
+        || verdicts.walls.iter().filter_map(|(name, verdict)| Some((*name, verdict.as_ref().ok()?)));
+    let Some((governing, worst)) = checked().next() else {
+        let reason = verdicts.walls.iter().find_map(|(name, verdict)| Some((name, verdict.as_ref().err()?)));
+        let reason = reason.map_or_else(String::new, |(name, error)| format!("; wall {name:?}: {error}"));
+        return Err(CheckError::wall(format!("no wall could be checked{reason}")));
+    };
+    let all = verdicts.walls.len();
+    let passed = checked().filter(|(_, verdict)| verdict.passed).count();
+    let mut cover = format!("<p class=\"verdict\">{passed} of {all} walls pass</p>\n");
+    let refused = verdicts.refused();
+    if refused > 0 {
+        // writing to a String cannot fail
+        let _ = write!(cover, "<p class=\"fails\">{refused} of {all} walls could not be checked</p>");
+    }
+    let mut rows = verdicts.table().html_with(|index| match &verdicts.walls[index].1 {
+        Ok(verdict) if verdict.passed => "",
+        _ => "fails",
+    });
+    for (name, _) in &verdicts.walls {
+        let cell = |name: &str| format!("<td>{name}</td>");
+        rows = rows.replacen(&cell(&escaped(name)), &cell(&as_written(name)), 1);
+    }
+    let _ = write!(
+        cover,
+        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>",
+        as_written(governing),
+        head(worst)
+    );
+    let title = origin.report.project.as_deref().unwrap_or(origin.title);
+    let mut page = Page::new(title).styled(include_str!("page.css")).text(&origin.source(worst));
+    let project = origin.report.project_data();
+    if !project.is_empty() {
+        page = page.section("Project", &project);
+    }
+    page = page.section("Summary of the walls", &cover).text(SIGNED);
+    for (name, verdict) in checked() {
+        let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
+        let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
+        let own =
+            Origin { title: name, file: own.as_ref().unwrap_or(origin.file), wall: Some(wall), ..*origin };
+        page = page.text(&format!("<div class=\"sheet\"><h1>{}</h1>{}", as_written(name), head(verdict)));
+        page = sheet(page, verdict, &own)?.text("</div>");
+    }
+    let page = page.section("Document", &document(origin)?);
+    let plain = format!("<h1>{}</h1>", escaped(title));
+    let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
+    Ok(translated(page, origin.report.language))
+}
