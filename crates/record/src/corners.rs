@@ -31,7 +31,7 @@ pub(crate) struct Part<N: Number> {
     pub(crate) forcing: N,
     pub(crate) rate: N,
     /// Passages of u = 0 before it.
-    impacts: N,
+    pub(crate) impacts: N,
 }
 
 /// Where lanes have come to, past corners.

@@ -124,3 +124,6 @@ impl<O: Observer> Lanes<'_, O> {
         true
     }
 }
+
+#[cfg(test)]
+mod tests;
