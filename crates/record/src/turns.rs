@@ -26,11 +26,11 @@ enum Turn {
 impl Part<f64> {
     /// Finds where u goes, if ü is sure to keep its sign.
     ///
-    /// As |dü/dt| ≤ J, ü has no zero between values of one sign whose sizes add up to more than J L. J
-    /// follows from dü/dt = dp/dt − c ü − k u̇ with |ü| ≤ A and |u̇| ≤ S + A L/2, S being the larger |u̇| of both
-    /// ends. While ü < 0, u lies above its chord, by A L²/8 at most, and comes down to each value once at most:
-    /// it leaves through the lower end where it is below that at the end, and else stays above. ü > 0 is the
-    /// mirror image.
+    /// ü obeys the free equation, d²ü/dt² + c dü/dt + k ü = 0: its zeros are π/√k apart or more, which is
+    /// longer than any part whose γ is finite, and without k > 0 it has one at most. So values of one sign at
+    /// both ends have no zero between them. While ü < 0, u lies above its chord, by A L²/8 at most, and comes
+    /// down to each value once at most: it leaves through the lower end where it is below that at the end, and
+    /// else stays above. ü > 0 is the mirror image.
     #[inline(always)]
     fn turn(&self, bounds: &Bounds<f64>) -> Turn {
         let Self { line, from: [u, v, a], to, length, forcing, rate, .. } = *self;
@@ -38,9 +38,7 @@ impl Part<f64> {
         let fastest = v.abs().max(to[1].abs());
         let change = line.most(forcing.abs().max(last.abs()), [u, v], to) * length;
         let a_last = line.acceleration(to, last);
-        // J L
-        let twist = (rate.abs() + line.k.abs() * (fastest + 0.5 * change)) * length + line.c * change;
-        let bends = a * a_last > 0.0 && a.abs() + a_last.abs() > twist;
+        let bends = a * a_last > 0.0;
         if !bends || fastest > bounds.speed {
             return Turn::Unclear;
         }

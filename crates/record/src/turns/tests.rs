@@ -80,3 +80,15 @@ fn sure_turns_pass_their_corner_once() {
     }
     assert!(stays > 100 && leaves > 100 && unclear > 10, "{stays} {leaves} {unclear}");
 }
+
+/// A guess that a large jerk takes back to the start does not find the corner from which u starts.
+#[test]
+fn the_corner_at_the_start_is_not_found() {
+    let (speed, length) = (1e-3, 0.01);
+    let found = |rate: f64| {
+        let (part, terms) = part(line(0.0, 0.0), [0.0, speed], [-1.0, rate], length);
+        part.find_after_turn(0.0, terms).0
+    };
+    // u = 0 after 2 ms without the jerk, and 1.1 ms with it
+    assert!(found(0.0) && !found(-2000.0));
+}
