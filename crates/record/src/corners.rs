@@ -2,7 +2,7 @@
 
 use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, Line};
-use crate::number::{BranchRow, Number, Row, index};
+use crate::number::{Number, Row, index};
 use crate::solver::{Observer, RecordSolver};
 use crate::table::end_kind;
 
@@ -20,18 +20,18 @@ const MOST_GUESSES: u32 = 4;
 pub(crate) struct Part<N: Number> {
     /// Lanes that have come to it.
     pub(crate) lanes: N::Mask,
-    branch: N,
-    line: Line<N>,
+    pub(crate) branch: N,
+    pub(crate) line: Line<N>,
     /// u, u̇ and ü at its start, and u and u̇ at its end if the branch goes on.
-    from: [N; 3],
-    to: [N; 2],
+    pub(crate) from: [N; 3],
+    pub(crate) to: [N; 2],
     /// Its length \[s\].
-    length: N,
+    pub(crate) length: N,
     /// p at its start \[m/s²\], and the rate of p \[m/s³\].
-    forcing: N,
-    rate: N,
+    pub(crate) forcing: N,
+    pub(crate) rate: N,
     /// Passages of u = 0 before it.
-    impacts: N,
+    pub(crate) impacts: N,
 }
 
 /// Where lanes have come to, past corners.
@@ -49,7 +49,13 @@ pub(crate) struct Arrival<N: Number> {
 
 impl<N: Number> Arrival<N> {
     #[inline(always)]
-    fn take(&mut self, lanes: N::Mask, part: &Part<N>, [u, v]: [N; 2], corners: u32, left: N) {
+    pub(crate) fn none(part: &Part<N>) -> Self {
+        let (lanes, zero) = (part.lanes & !part.lanes, part.length.like(0.0));
+        Self { lanes, end: [zero; 2], branch: part.branch, corners: zero, impacts: zero, left: zero }
+    }
+
+    #[inline(always)]
+    pub(crate) fn take(&mut self, lanes: N::Mask, part: &Part<N>, [u, v]: [N; 2], corners: u32, left: N) {
         self.lanes = self.lanes | lanes;
         self.end = [N::select(lanes, u, self.end[0]), N::select(lanes, v, self.end[1])];
         self.branch = N::select(lanes, part.branch, self.branch);
@@ -83,14 +89,25 @@ impl<N: Number> Part<N> {
         line.course([from[0], from[1]], to, forcing, length, bounds)
     }
 
-    /// Finds when lanes reach a corner, and u̇ there: a guess is corrected by the derivatives at its time,
-    /// again and again until the correction is small (docs/record-path.md, Eq. (4)).
+    /// Finds when lanes whose u̇ keeps its sign reach a corner, and u̇ there.
     #[inline(always)]
     fn find(&self, corner: N, terms: usize) -> (N::Mask, N, N) {
-        let Self { lanes, line, from, length, rate, .. } = *self;
+        let sought = self.lanes & (self.from[0].below(corner) | corner.below(self.from[0]));
+        self.find_near(sought, self.guess(corner), corner, terms)
+    }
+
+    /// Finds when u passes a corner, and u̇ there: a guess is corrected by the derivatives at its time, again
+    /// and again until the correction is small (docs/record-path.md, Eq. (4)).
+    #[inline(always)]
+    pub(crate) fn find_near(
+        &self,
+        mut sought: N::Mask,
+        mut time: N,
+        corner: N,
+        terms: usize,
+    ) -> (N::Mask, N, N) {
+        let Self { line, from, length, rate, .. } = *self;
         let zero = corner.like(0.0);
-        let mut time = self.guess(corner);
-        let mut sought = lanes & (from[0].below(corner) | corner.below(from[0]));
         let (mut found, mut found_time, mut found_velocity) = (sought & !sought, zero, zero);
         for _ in 0..MOST_GUESSES {
             let [u, v, a] = line.after(terms, time, from, rate);
@@ -143,21 +160,15 @@ impl<O: Observer> Lanes<'_, O> {
         mut part: Part<N>,
     ) -> Arrival<N> {
         let (rows, table, zero) = (&self.rows, &self.solver.table, N::splat(token, 0.0));
-        let none = part.lanes & !part.lanes;
-        let mut arrival = Arrival {
-            lanes: none,
-            end: [zero; 2],
-            branch: part.branch,
-            corners: zero,
-            impacts: zero,
-            left: zero,
-        };
+        let mut arrival = Arrival::none(&part);
         for corners in 1..=MOST_CORNERS {
             if N::bits(part.lanes) == 0 {
                 break;
             }
             let curved;
-            (part, curved) = self.cross(token, &part);
+            let ahead = self.ahead(token, &part);
+            let passage = part.find(ahead[0], table.terms);
+            (part, curved) = self.cross(token, &part, ahead, passage);
             if N::bits(curved) != 0 {
                 arrival.take(curved, &part, [part.from[0], part.from[1]], corners, part.length);
             }
@@ -169,18 +180,28 @@ impl<O: Observer> Lanes<'_, O> {
         arrival
     }
 
-    /// Goes on beyond the corner by which lanes leave their branch, where it is found and open. Returns the
+    /// Returns the corner by which lanes leave their branch, and how they do.
+    #[inline(always)]
+    pub(crate) fn ahead<N: Number>(&self, token: N::Token, part: &Part<N>) -> [N; 2] {
+        let (table, branches) = (&self.solver.table, part.branch.branches());
+        let upwards = part.from[0].below(part.to[0]);
+        [&table.ends, &table.exits].map(|[lower, upper]| {
+            N::select(upwards, N::look_up(token, upper, branches), N::look_up(token, lower, branches))
+        })
+    }
+
+    /// Goes on beyond the corner ahead, where it is found and open, from the time and u̇ there. Returns the
     /// lanes that have come to a branch with secant damping, too: their part ends there.
     #[inline(always)]
-    fn cross<N: Number>(&self, token: N::Token, part: &Part<N>) -> (Part<N>, N::Mask) {
+    pub(crate) fn cross<N: Number>(
+        &self,
+        token: N::Token,
+        part: &Part<N>,
+        [corner, exit]: [N; 2],
+        (found, time, velocity): (N::Mask, N, N),
+    ) -> (Part<N>, N::Mask) {
         let (table, zero) = (&self.solver.table, N::splat(token, 0.0));
-        let branches = part.branch.branches();
         let upwards = part.from[0].below(part.to[0]);
-        let side = |rows: &[BranchRow; 2]| {
-            N::select(upwards, N::look_up(token, &rows[1], branches), N::look_up(token, &rows[0], branches))
-        };
-        let (corner, exit) = (side(&table.ends), side(&table.exits));
-        let (found, time, velocity) = part.find(corner, table.terms);
         // kinds of exits rise: closed, ordinary, curved, impact
         let beyond = |kind: f64| N::splat(token, kind).below(exit);
         let impact = beyond(end_kind::CURVED);
@@ -229,9 +250,9 @@ impl<O: Observer> Lanes<'_, O> {
         put(&mut rows.impacts, counted);
     }
 
-    /// Takes the rest of a step of a lane that came to its branch within the step.
+    /// Returns what is left of the step of a lane, on the branch that it is on.
     #[inline(always)]
-    pub(crate) fn rest_of_step<N: Number>(&mut self, token: N::Token, first: usize) -> Waiting {
+    pub(crate) fn rest<N: Number>(&self, token: N::Token, first: usize) -> Part<N> {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solver);
         let load = |row| N::load(token, row, first);
         let (branch, share) = (load(&rows.branch), load(&rows.share));
@@ -243,12 +264,18 @@ impl<O: Observer> Lanes<'_, O> {
         let forcing = p0 + (p1 - p0) * share;
         let from = [now[0], now[1], line.acceleration(now, forcing)];
         let [u, v, _] = line.after(table.terms, length, from, rate);
-        let to = [u, v];
         let (lanes, zero) = (N::mask(token, 1), N::splat(token, 0.0));
-        let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts: zero };
-        let Course { stays, leaves } = part.course(&Bounds::look_up(token, table, rows, first, branch));
+        Part { lanes, branch, line, from, to: [u, v], length, forcing, rate, impacts: zero }
+    }
+
+    /// Takes the rest of a step of a lane that came to its branch within the step.
+    #[inline(always)]
+    pub(crate) fn rest_of_step<N: Number>(&mut self, token: N::Token, first: usize) -> Waiting {
+        let (part, zero) = (self.rest(token, first), N::splat(token, 0.0));
+        let bounds = Bounds::look_up(token, &self.solver.table, &self.rows, first, part.branch);
+        let Course { stays, leaves } = part.course(&bounds);
         let mut arrival = self.pass_corners(token, first, Part { lanes: leaves, ..part });
-        arrival.take(stays, &part, to, 0, zero);
+        arrival.take(stays, &part, part.to, 0, zero);
         self.arrive(token, first, &arrival);
         let stuck = 1 & !N::bits(arrival.lanes);
         if O::SEES && self.rows.share[first] == 0.0 && stuck == 0 {

@@ -33,6 +33,7 @@ mod solver;
 mod table;
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;
+mod turns;
 
 pub use batch::{Batch, LANES};
 pub use forcing::Forcing;

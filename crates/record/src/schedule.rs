@@ -192,7 +192,12 @@ impl<O: Observer> Lanes<'_, O> {
             return true;
         }
         self.rows.stride[lane] = f64::INFINITY;
-        if self.stepping(lane) == Stepping::Curved && self.pass_curved_corner(lane) {
+        let taken = match self.stepping(lane) {
+            Stepping::Affine => self.follow_turns(lane),
+            Stepping::Curved => self.pass_curved_corner(lane),
+            Stepping::General => false,
+        };
+        if taken {
             return true;
         }
         let Err(error) = self.search(lane) else { return true };
