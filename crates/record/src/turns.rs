@@ -1,8 +1,8 @@
 //! Steps in which u turns, and may come back to a corner that it has passed: of one lane, where no other rule
 //! serves (docs/record-path.md, §4).
 //!
-//! A wall that settles passes u = 0 a hundred times in a step, each time a little slower. Between two passages
-//! ü keeps its sign: u is a convex or a concave function, which no more than one passage ends.
+//! A wall that settles passes u = 0 a hundred times in a step, each time a little slower. Between two
+//! passages ü keeps its sign: u is a convex or a concave function, which no more than one passage ends.
 
 use crate::corners::{Arrival, Part};
 use crate::lanes::Lanes;
@@ -26,11 +26,11 @@ enum Turn {
 impl Part<f64> {
     /// Finds where u goes, if ü is sure to keep its sign.
     ///
-    /// ü obeys the free equation, d²ü/dt² + c dü/dt + k ü = 0: its zeros are π/√k apart or more, which is
-    /// longer than any part whose γ is finite, and without k > 0 it has one at most. So values of one sign at
-    /// both ends have no zero between them. While ü < 0, u lies above its chord, by A L²/8 at most, and comes
-    /// down to each value once at most: it leaves through the lower end where it is below that at the end, and
-    /// else stays above. ü > 0 is the mirror image.
+    /// ü obeys the free equation, d²ü/dt² + c dü/dt + k ü = 0: its zeros are π/√k apart or more, longer than
+    /// any part whose γ is finite, and without k > 0 it has one at most. So values of one sign at both ends
+    /// have no zero between them. While ü < 0, u lies above its chord, by A L²/8 at most, and comes down to
+    /// each value once at most: it leaves through the lower end where it is below that at the end, and else
+    /// stays above. ü > 0 is the mirror image.
     #[inline(always)]
     fn turn(&self, bounds: &Bounds<f64>) -> Turn {
         let Self { line, from: [u, v, a], to, length, forcing, rate, .. } = *self;

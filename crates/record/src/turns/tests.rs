@@ -40,8 +40,8 @@ fn turns_are_sure_within_their_bounds() {
     }
 }
 
-/// Where a turn is sure, ü keeps its sign, u keeps its bounds, and it passes its corner once: at the time that
-/// is found, with the u̇ there.
+/// Where a turn is sure, ü keeps its sign, u keeps its bounds, and it passes its corner once: at the time
+/// that is found, with the u̇ there.
 #[test]
 fn sure_turns_pass_their_corner_once() {
     const INSTANTS: u32 = 200;
