@@ -108,6 +108,7 @@ class Study:
         collapse_is: str | None = None,
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
+        uncertain: Mapping[str, Any] | None = None,
         check: Mapping[str, Any] | None = None,
         reliability: Mapping[str, Any] | None = None,
     ) -> None:
@@ -127,6 +128,8 @@ class Study:
             those that do not come back ("falls").
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
+        :param uncertain: Distributions of parameters, of which each wall stands for samples, such as
+            `{"samples": 100, "parameters": {"height": {"normal": [3.0, 0.1]}}}`.
         :param check: The table `[check]`, for `reliability`.
         :param reliability: What `reliability` asks, such as `{"probability": 0.1}`.
 
@@ -137,6 +140,7 @@ class Study:
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
         options["classes"], options["collapse_is"] = classes, collapse_is
         options["check"], options["reliability"] = check, reliability
+        options["uncertain"] = uncertain
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:

@@ -6,6 +6,7 @@ use toml::Spanned;
 use crate::fragility::Dispersion;
 use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
+use crate::uncertain::Samples;
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
 use rocking_wall::tables;
@@ -40,6 +41,9 @@ pub struct ReportOptions {
     /// Hazard of the site.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hazard: Option<Hazard>,
+    /// Samples of uncertain parameters: what the walls of the study are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<Samples>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -130,6 +134,17 @@ impl WallClass {
         weights.iter().map(|weight| weight / sum).collect()
     }
 
+    /// Returns the class of the samples of its walls. Samples of a wall share its weight.
+    pub(crate) fn of_samples(&self, samples: &Samples) -> Self {
+        let count = samples.rows.len();
+        let shares = |weight: &f64| std::iter::repeat_n(*weight, count);
+        Self {
+            name: self.name.clone(),
+            walls: self.walls.iter().flat_map(|wall| samples.names(wall)).collect(),
+            weights: self.weights.iter().flat_map(shares).collect(),
+        }
+    }
+
     /// Checks the class against the names of the study's walls.
     ///
     /// # Errors
@@ -171,6 +186,7 @@ pub(super) fn report(
         modelling_uncertainty: 0.0,
         classes: read_classes(classes, place)?,
         hazard: None,
+        samples: None,
     };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();

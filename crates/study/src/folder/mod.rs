@@ -18,6 +18,7 @@
 //! | `plots` | the plots of a wall |
 //! | `nrml` | fragility functions in the format of risk engines |
 //! | `rates` | annual rates of walls and classes |
+//! | `samples` | samples of uncertain parameters, and what they explain |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
@@ -36,6 +37,7 @@ mod population;
 mod rates;
 mod report;
 mod risk;
+mod samples;
 mod store;
 
 pub use compute::{ComputeError, compute};

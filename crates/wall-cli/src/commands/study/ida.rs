@@ -66,7 +66,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 10] = [
+const FILES: [&str; 12] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -76,6 +76,8 @@ const FILES: [&str; 10] = [
     "fragilities.svg",
     "rates.csv",
     "rate_shares.csv",
+    "samples.csv",
+    "sensitivity.csv",
     "study.html",
 ];
 
