@@ -168,6 +168,7 @@ mod tests {
             modelling_uncertainty: 0.0,
             classes: Vec::new(),
             hazard: None,
+            samples: None,
         };
         let expected = [(1, "u_ins_0_1"), (0, "u_ins_0_4"), (2, "u_ins_1")];
         assert_eq!(limit_states(&report), expected.map(|(place, name)| (place, name.to_owned())));

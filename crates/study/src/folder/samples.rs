@@ -84,8 +84,8 @@ impl<'a> Sampled<'a> {
         let count = rows.len();
         let mut all = Vec::new();
         for (wall, of_wall) in walls.iter().zip(self.logarithms.chunks(count)) {
-            for model in 0..self.manifest.contents.models.len() {
-                for state in 0..self.manifest.report.fractions.len() {
+            for (model, _) in self.manifest.contents.models.iter().enumerate() {
+                for (state, _) in self.manifest.report.fractions.iter().enumerate() {
                     let known = |sample: &usize| Some((*sample, of_wall[*sample][state][model]?));
                     let (places, numbers): (Vec<usize>, Vec<f64>) =
                         (0..count).filter_map(|sample| known(&sample)).unzip();

@@ -118,7 +118,7 @@ impl Shape {
                 if let Some([_, weight]) = values.iter().find(|[_, weight]| *weight <= 0.0) {
                     return Err(format!("its weight {weight} must be above 0"));
                 }
-                let outside = values.iter().find(|[value, _]| !(least..=most).contains(&value));
+                let outside = values.iter().find(|[value, _]| !(least..=most).contains(value));
                 outside.map_or(Ok(()), |[value, _]| {
                     Err(format!("its value {value} is outside the limits {least} to {most}"))
                 })

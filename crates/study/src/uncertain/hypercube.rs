@@ -14,7 +14,7 @@ pub fn pearson_of_spearman(correlation: f64) -> f64 {
 }
 
 /// Draws a Latin hypercube: for each variable, the part of its distribution that each sample is above. Each
-/// n-th of a distribution has one of its n samples, at random within (M. D. McKay, R. J. Beckman, W. J.
+/// n-th of a distribution has one of its n samples, at random within (M. D. `McKay`, R. J. Beckman, W. J.
 /// Conover: A comparison of three methods for selecting values of input variables. Technometrics 21(2), 1979).
 ///
 /// Samples are paired so that normal scores of the variables have the correlations of a matrix: R. L. Iman,
@@ -44,12 +44,14 @@ pub fn hypercube(samples: usize, correlation: &[Vec<f64>], seed: u64) -> Result<
     }
     let found = cholesky(&correlations(&scores)).ok_or_else(|| format!("{}; take more", too_few()))?;
     let mut paired = vec![Vec::with_capacity(samples); count];
+    let of_sample = |sample: usize| scores.iter().map(move |column| column[sample]);
     for sample in 0..samples {
+        let scores: Vec<f64> = of_sample(sample).collect();
         // P Q⁻¹ takes scores of the correlations Q Qᵀ to those of P Pᵀ
         let mut free = vec![0.0; count];
         for row in 0..count {
             let known: f64 = (0..row).map(|column| found[row][column] * free[column]).sum();
-            free[row] = (scores[row][sample] - known) / found[row][row];
+            free[row] = (scores[row] - known) / found[row][row];
         }
         for row in 0..count {
             paired[row].push((0..=row).map(|column| wanted[row][column] * free[column]).sum::<f64>());

@@ -68,7 +68,9 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
     let mut before = 0;
     for alike in order.chunk_by(|&a, &b| values[a] == values[b]) {
         let rank = before as f64 + 0.5 * (alike.len() as f64 + 1.0);
-        alike.iter().for_each(|&place| ranks[place] = rank);
+        for &place in alike {
+            ranks[place] = rank;
+        }
         before += alike.len();
     }
     ranks
