@@ -140,11 +140,13 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         ("[uncertain.parameters]\na1 = { values = [0.1, 3] }", "its value 3 is outside the limits"),
         (
-            "samples = 3\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\nd1 = { uniform = [0.1, 0.3] }",
+            "samples = 3\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\n\
+             d1 = { uniform = [0.1, 0.3] }",
             "are too few",
         ),
         (
-            "correlation = [[\"a1\", \"d1\", 1.5]]\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\nd1 = { uniform = [0.1, 0.3] }",
+            "correlation = [[\"a1\", \"d1\", 1.5]]\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\n\
+             d1 = { uniform = [0.1, 0.3] }",
             "line 6: correlation: 1.5 must be above -1 and below 1",
         ),
         (
