@@ -15,7 +15,8 @@ pub fn pearson_of_spearman(correlation: f64) -> f64 {
 
 /// Draws a Latin hypercube: for each variable, the part of its distribution that each sample is above. Each
 /// n-th of a distribution has one of its n samples, at random within (M. D. `McKay`, R. J. Beckman,
-/// W. J. Conover: A comparison of three methods for selecting values of input variables. Technometrics 21(2), 1979).
+/// W. J. Conover: A comparison of three methods for selecting values of input variables. Technometrics
+/// 21(2), 1979).
 ///
 /// Samples are paired so that normal scores of the variables have the correlations of a matrix: R. L. Iman,
 /// W. J. Conover: A distribution-free approach to inducing rank correlation among input variables.
