@@ -117,6 +117,28 @@ def test_shards_are_merged(study, tmp_path):
         other.run(tmp_path / "merged", progress=False)
 
 
+def test_uncertain_parameters_are_samples(program, tmp_path):
+    uncertain = {"samples": 12, "seed": 3, "parameters": {"height": {"normal": [3.0, 0.1]}}}
+    motions = [rw.synthetic_record(seed, duration=10.0) for seed in (1, 2, 3)]
+    study = rw.Study(
+        walls=[rw.Wall(3, 0.3)],
+        records=motions,
+        models=["CDC"],
+        levels={"method": "step", "step": 0.2, "top": 4},
+        report={"resamples": 100},
+        uncertain=uncertain,
+    )
+    assert study.walls == [f"1 {number:02}" for number in range(1, 13)]
+    found = study.run(tmp_path / "out", progress=False)
+    heights = found.samples["height"]
+    # each of twelve equally probable parts of the distribution has one sample
+    parts = [math.floor(12 * 0.5 * math.erfc((3.0 - h) / (0.1 * math.sqrt(2)))) for h in heights]
+    assert sorted(parts) == list(range(12))
+    assert set(found.sensitivity["parameter"]) == {"height"}
+    assert "1" in set(found.curves["wall"])
+    program("study", "merge", tmp_path / "out")
+
+
 def test_what_is_no_folder(tmp_path):
     with pytest.raises(FileNotFoundError, match="expected a folder that"):
         rw.read_results(tmp_path)

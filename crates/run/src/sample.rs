@@ -30,6 +30,12 @@ impl Pcg {
     pub fn below(&mut self, count: usize) -> usize {
         ((u64::from(self.next()) * count as u64) >> 32) as usize
     }
+
+    /// Draws a number between 0 and 1, neither of them: one of 2⁵² that are equally far apart.
+    pub fn part(&mut self) -> f64 {
+        let [high, low] = [self.next(), self.next()].map(|bits| u64::from(bits >> 6));
+        ((high << 26 | low) as f64 + 0.5) / (1_u64 << 52) as f64
+    }
 }
 
 /// Returns a fractile of a sorted sample: its smallest value that at least a fraction `part` of it does not

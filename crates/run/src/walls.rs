@@ -156,6 +156,8 @@ struct WallsDocument {
     _reliability: Option<IgnoredAny>,
     #[serde(rename = "classes")]
     _classes: Option<IgnoredAny>,
+    #[serde(rename = "uncertain")]
+    _uncertain: Option<IgnoredAny>,
     #[serde(default)]
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,

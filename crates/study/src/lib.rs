@@ -9,6 +9,7 @@
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`hazard`] | hazard curves, and the annual rate of a fragility |
+//! | [`uncertain`] | samples of uncertain parameters, and which of them explains θ |
 //! | [`document`] | study files |
 //! | [`loaded`] | studies read from files, with their scenes and records |
 //! | [`results`] | the curves and the fragilities of each wall of a study |
@@ -34,6 +35,7 @@ pub mod results;
 pub mod spectrum;
 pub mod tables;
 pub mod tie;
+pub mod uncertain;
 
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of
 /// other crates. Builds with equal fingerprints compute the same runs, on every machine.

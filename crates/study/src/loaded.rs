@@ -9,12 +9,15 @@ use run::model::Model;
 use run::records::{NamedRecord, all_records, record_files};
 use run::walls::{Ignored, NamedWall, check_unique, wall_of_text, wall_text, walls};
 
-use crate::document::{ReportOptions, StudyFile};
+use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Study};
 use report::counted;
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
+
+/// Most walls that samples make.
+const MOST_WALLS: usize = 1_000_000;
 
 /// A study ready to run, and the options of its report.
 #[derive(Clone, Debug)]
@@ -31,6 +34,8 @@ pub struct LoadedStudy {
     pub warnings: Vec<String>,
     /// Text of the study file.
     text: String,
+    /// Its walls where each of them stands for samples.
+    sampled: Vec<NamedWall>,
     /// Probability of a fall for which the numbers of a code are sought \[-\].
     target: f64,
 }
@@ -61,12 +66,13 @@ impl LoadedStudy {
         for entry in std::mem::take(&mut file.walls) {
             all.extend(walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
         }
-        warn(&all, &ignored, (&file.models, &file.measure), &mut warnings);
+        let walls = Walls::of(&name, &mut file, all, &mut warnings)?;
+        warn(&walls.told(), &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
         open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
-        let study = Self::assemble(&name, text, file, all, records)?;
+        let study = Self::assemble(&name, text, file, walls, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings, ..study })
     }
@@ -84,7 +90,8 @@ impl LoadedStudy {
         let mut file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
-        warn(&walls, &[], (&file.models, &file.measure), &mut warnings);
+        let walls = Walls::of(name, &mut file, walls, &mut warnings)?;
+        warn(&walls.told(), &[], (&file.models, &file.measure), &mut warnings);
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
 
@@ -104,9 +111,11 @@ impl LoadedStudy {
         let record = |record: &NamedRecord| {
             (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
         };
+        // the samples follow from the text
+        let walls = if self.sampled.is_empty() { self.study.walls() } else { &self.sampled };
         Sent {
             text: self.text.clone(),
-            walls: self.study.walls().iter().map(wall).collect(),
+            walls: walls.iter().map(wall).collect(),
             records: self.study.records().iter().map(record).collect(),
         }
     }
@@ -117,9 +126,10 @@ impl LoadedStudy {
     /// [`SceneError`] if they are not those of [`Self::sent`].
     pub fn received(sent: Sent) -> Result<Self, SceneError> {
         let name = "a study that was sent";
-        let file = StudyFile::parse(name, &sent.text)?;
+        let mut file = StudyFile::parse(name, &sent.text)?;
         let wall = |(name, text): (String, String)| wall_of_text(name, &text);
         let walls = sent.walls.into_iter().map(wall).collect::<Result<_, _>>()?;
+        let walls = Walls::of(name, &mut file, walls, &mut Vec::new())?;
         let record = |(name, step, samples)| {
             let motion = GroundMotion::new(step, samples);
             let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
@@ -133,16 +143,13 @@ impl LoadedStudy {
         name: &str,
         text: String,
         file: StudyFile,
-        walls: Vec<NamedWall>,
+        Walls { walls, sampled }: Walls,
         records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
         let StudyFile { title, models, measure, select, levels, tail, collapse, report, target, .. } = file;
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
         check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
-        for class in &report.classes {
-            class.check(walls.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
-        }
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
             None => records,
@@ -151,7 +158,60 @@ impl LoadedStudy {
             .and_then(|study| study.with_tail(tail))
             .map_err(|error| in_file(error.to_string()))?
             .with_collapse(collapse);
-        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text, target })
+        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text, target, sampled })
+    }
+}
+
+/// The walls of a study, and those of its file where each of them stands for samples.
+struct Walls {
+    walls: Vec<NamedWall>,
+    sampled: Vec<NamedWall>,
+}
+
+impl Walls {
+    /// Checks the classes against the walls of a file, and makes the samples of its uncertain parameters: the
+    /// samples of a wall are the walls of its classes, and a class of its name.
+    fn of(
+        name: &str,
+        file: &mut StudyFile,
+        walls: Vec<NamedWall>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self, SceneError> {
+        let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
+        let report = &mut file.report;
+        for class in &report.classes {
+            class.check(walls.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
+        }
+        let Some((uncertain, told)) = file.uncertain.take() else {
+            return Ok(Self { walls, sampled: Vec::new() });
+        };
+        let count = walls.len() * uncertain.samples;
+        if count > MOST_WALLS {
+            let samples = uncertain.samples;
+            let walls = counted(walls.len(), "wall");
+            return Err(in_file(format!(
+                "[uncertain] samples = {samples} of {walls} are {count} walls; at most {MOST_WALLS} are taken"
+            )));
+        }
+        warnings.extend(told.iter().map(|warning| format!("{name}: {warning}")));
+        check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
+        let samples = uncertain.samples(&walls).map_err(in_file)?;
+        let classes = report.classes.iter().map(|class| class.of_samples(&samples));
+        let of_wall = |wall: &NamedWall| {
+            let class =
+                WallClass { name: wall.name.clone(), walls: vec![wall.name.clone()], weights: Vec::new() };
+            class.of_samples(&samples)
+        };
+        report.classes = classes.chain(walls.iter().map(of_wall)).collect();
+        let all = samples.of_walls(&walls).map_err(|error| in_file(error.to_string()))?;
+        report.samples = Some(samples);
+        Ok(Self { walls: all, sampled: walls })
+    }
+
+    /// Returns the walls that are warned of: of samples the first of each wall.
+    fn told(&self) -> Vec<NamedWall> {
+        let every = self.walls.len().checked_div(self.sampled.len()).unwrap_or(1);
+        self.walls.iter().step_by(every.max(1)).cloned().collect()
     }
 }
 

@@ -49,6 +49,10 @@ class StudyResults(Tabular):
     """The mean loss ratio of each wall and class by intensity; None without `loss_ratios` in `report`."""
     losses: Table | None
     """The average annual loss, of the value of the wall; None without `loss_ratios` and `hazard`."""
+    samples: Table | None
+    """The values of the samples of each wall; None without `uncertain`."""
+    sensitivity: Table | None
+    """How far each parameter explains θ over the samples; None without `uncertain`."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -131,7 +135,8 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
-    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "vulnerability", "losses", "ties")
+    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "vulnerability", "losses")
+    names += ("samples", "sensitivity", "ties")
     tables = [read_table(path / f"{name}.csv") for name in names]
     fragilities, curves = (Table({}) if table is None else table for table in tables[:2])
     xml = path / "fragilities.xml"

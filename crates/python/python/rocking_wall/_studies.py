@@ -64,6 +64,7 @@ class Study:
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
         hazard: Mapping[str, Any] | None = None,
+        uncertain: Mapping[str, Any] | None = None,
         check: Mapping[str, Any] | None = None,
         reliability: Mapping[str, Any] | None = None,
     ) -> None:
@@ -85,6 +86,8 @@ class Study:
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
         :param hazard: The hazard of the site, such as `{"points": [[0.1, 0.01], [0.4, 4e-4]]}` (intensities
             in g and annual rates at which they are exceeded), or `{"file": "curve.csv"}`; for annual rates.
+        :param uncertain: Distributions of parameters, of which each wall stands for samples, such as
+            `{"samples": 100, "parameters": {"height": {"normal": [3.0, 0.1]}}}`.
         :param check: The table `[check]`, for `reliability`.
         :param reliability: What `reliability` asks, such as `{"probability": 0.1}`.
 
@@ -95,6 +98,7 @@ class Study:
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
         options["classes"], options["collapse_is"] = classes, collapse_is
         options["hazard"], options["check"], options["reliability"] = hazard, check, reliability
+        options["uncertain"] = uncertain
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:

@@ -19,6 +19,7 @@ mod hazard;
 mod levels;
 mod model;
 mod report;
+mod uncertain;
 
 use rocking_wall::scene::{
     DEFAULT_TAIL, Place, SceneError, Schema, StoreyTable, SupportsTable, file_schema, parse_toml, with,
@@ -31,11 +32,13 @@ use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
 use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
+use crate::uncertain::Uncertain;
 
 use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, chosen, report, target};
+use uncertain::{UncertainTable, uncertain};
 
 pub use hazard::HazardEntry;
 pub use report::{ReportOptions, WallClass};
@@ -67,6 +70,8 @@ pub struct StudyFile {
     pub target: f64,
     /// The hazard.
     pub hazard: Option<HazardEntry>,
+    /// Uncertain parameters, and warnings about their distributions.
+    pub uncertain: Option<(Uncertain, Vec<String>)>,
 }
 
 tables! {
@@ -96,6 +101,8 @@ tables! {
         reliability: Option<Spanned<ReliabilityTable>>,
         /// Annual rates of intensities.
         hazard: Option<Spanned<HazardTable>>,
+        /// Parameters of the walls that are not known: each wall stands for samples of them.
+        uncertain: Option<Spanned<UncertainTable>>,
         /// Classes of walls that risk engines see as one.
         #[serde(default)]
         classes: Vec<Spanned<ClassTable>>,
@@ -165,6 +172,7 @@ impl StudyFile {
                 .transpose()?
                 .unwrap_or_default(),
             hazard: document.hazard.as_ref().map(|table| hazard(table, place)).transpose()?,
+            uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
             target: target(document.reliability.as_ref(), place)?,
             levels,

@@ -6,6 +6,7 @@ use toml::Spanned;
 use crate::fragility::Dispersion;
 use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
+use crate::uncertain::Samples;
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
 use rocking_wall::tables;
@@ -43,6 +44,9 @@ pub struct ReportOptions {
     /// Loss as a part of the value of a wall, for each of the fractions \[-\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loss_ratios: Option<Vec<f64>>,
+    /// Samples of uncertain parameters: what the walls of the study are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<Samples>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -136,6 +140,17 @@ impl WallClass {
         weights.iter().map(|weight| weight / sum).collect()
     }
 
+    /// Returns the class of the samples of its walls. Samples of a wall share its weight.
+    pub(crate) fn of_samples(&self, samples: &Samples) -> Self {
+        let count = samples.rows.len();
+        let shares = |weight: &f64| std::iter::repeat_n(*weight, count);
+        Self {
+            name: self.name.clone(),
+            walls: self.walls.iter().flat_map(|wall| samples.names(wall)).collect(),
+            weights: self.weights.iter().flat_map(shares).collect(),
+        }
+    }
+
     /// Checks the class against the names of the study's walls.
     ///
     /// # Errors
@@ -178,6 +193,7 @@ pub(super) fn report(
         classes: read_classes(classes, place)?,
         hazard: None,
         loss_ratios: None,
+        samples: None,
     };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();

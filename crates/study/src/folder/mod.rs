@@ -22,6 +22,7 @@
 //! | `rates` | annual rates of walls and classes |
 //! | `losses` | losses of walls and classes |
 //! | `classes` | the section of a page about classes |
+//! | `samples` | samples of uncertain parameters, and what they explain |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
@@ -44,6 +45,7 @@ mod population;
 mod rates;
 mod report;
 mod risk;
+mod samples;
 mod store;
 
 pub use compute::{ComputeError, compute};

@@ -207,6 +207,7 @@ mod tests {
             classes: Vec::new(),
             hazard: None,
             loss_ratios: None,
+            samples: None,
         };
         let expected = [(1, "u_ins_0_1"), (0, "u_ins_0_4"), (2, "u_ins_1")];
         assert_eq!(limit_states(&report), expected.map(|(place, name)| (place, name.to_owned())));

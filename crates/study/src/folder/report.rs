@@ -24,6 +24,7 @@ use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
+use super::samples::Sampled;
 use super::store::Folder;
 
 /// Most walls that the page and the summary show one by one.
@@ -97,6 +98,7 @@ struct Output<'a> {
     tables: Vec<(Kind, Draft)>,
     names: Names<'a>,
     risk: Risk<'a>,
+    sampled: Option<Sampled<'a>>,
     sections: String,
     comparison: Comparison,
     panels: Vec<(String, String)>,
@@ -128,6 +130,7 @@ impl<'a> Output<'a> {
             tables: kinds.iter().chain(ties).copied().map(draft).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
+            sampled: Sampled::new(folder.path(), folder.manifest())?,
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
@@ -151,6 +154,7 @@ impl<'a> Output<'a> {
             draft.write(|file| file.write_all(text.as_bytes()))?;
         }
         self.risk.add(wall, results)?;
+        self.sampled.iter_mut().for_each(|sampled| sampled.add(results));
         for tie in results.all_curves().iter().flat_map(Curve::runs).filter_map(|run| run.tie) {
             self.tied[0] += 1;
             self.tied[1] += usize::from(tie.elongation > 0.0);
@@ -202,6 +206,11 @@ impl<'a> Output<'a> {
         self.sections.insert_str(0, &together);
         let (summary, warning) = (self.summary(manifest, is_large), self.warning(manifest));
         let (mut files, about_risk, rates) = self.risk.finish()?;
+        if let Some(sampled) = self.sampled {
+            let (paths, section) = sampled.finish(self.folder.path())?;
+            files.extend(paths);
+            self.sections.insert_str(0, &section);
+        }
         self.sections.insert_str(0, &rates);
         for (_, draft) in self.tables {
             files.push(draft.commit(true)?);

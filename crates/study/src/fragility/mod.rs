@@ -34,5 +34,5 @@ pub use class::{ClassResamples, FragilityFunction, StateCurve};
 pub use compare::{CONFIDENCE, Summary, compare, covariance};
 pub use dispersion::{Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
-pub use normal::cumulative;
+pub use normal::{cumulative, quantile};
 pub use observation::{Observation, Sample, median, steps};

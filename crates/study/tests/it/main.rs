@@ -17,3 +17,4 @@ mod reliability;
 mod rocking_spectrum;
 mod storeys;
 mod ties;
+mod uncertain;

@@ -110,3 +110,40 @@ fn a_large_study_shows_distributions() {
     // the table is an input, and no place for results
     refused(&folder, &["study", "ida", "study.toml", "-o", "walls.csv"], &["walls.csv"]);
 }
+
+/// Samples are walls, an output, and explain θ; the bytes depend on nothing but the study.
+#[test]
+fn samples_of_uncertain_parameters_are_walls() {
+    let folder = folder("ida_uncertain");
+    let study = "models = [\"CR\"]\n\
+                 levels = { method = \"hunt\", first = 0.05, increase = 0.05, top = 8 }\n\
+                 intensity = { measure = \"PGA\" }\n\
+                 records = { synthetic = { count = 6, duration = 12, step = 0.01 } }\n\
+                 report = { resamples = 100, fractions = [0.4, 1] }\n\
+                 walls = [{ name = \"a\", geometry = { height = 2, thickness = 0.3 } }]\n[uncertain]\n\
+                 samples = 6\n[uncertain.parameters]\nthickness = { uniform = [0.2, 0.4] }\n";
+    fs::write(folder.join("study.toml"), study).unwrap();
+    let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out", "--threads", "2"]);
+    assert!(told.contains("class \"a\" with CR: theta"), "{told}");
+    let samples = content(&folder, "out/samples.csv");
+    assert!(samples.starts_with("wall,of,sample,thickness\na 1,a,1,0."), "{samples}");
+    assert_eq!(samples.lines().count(), 1 + 6);
+    let sensitivity = content(&folder, "out/sensitivity.csv");
+    // two limit states
+    assert_eq!(sensitivity.lines().count(), 1 + 2, "{sensitivity}");
+    assert!(content(&folder, "out/study.html").contains("Which parameter explains"));
+    // killed after a part, and resumed
+    let first = part_files(&folder.join("out")).remove(0);
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "one", "--threads", "1"]);
+    let part = first.strip_prefix(folder.join("out")).unwrap();
+    fs::remove_file(folder.join("one").join(part)).unwrap();
+    succeed(&folder, &["study", "ida", "study.toml", "-o", "one", "--threads", "1"]);
+    assert!(bytes(&folder.join("out")) == bytes(&folder.join("one")));
+    // without uncertain parameters their files go
+    let certain = study.split("[uncertain]").next().unwrap();
+    fs::write(folder.join("certain.toml"), certain).unwrap();
+    fs::create_dir_all(folder.join("certain")).unwrap();
+    fs::write(folder.join("certain/samples.csv"), "").unwrap();
+    succeed(&folder, &["study", "ida", "certain.toml", "-o", "certain"]);
+    assert!(!folder.join("certain/samples.csv").exists());
+}

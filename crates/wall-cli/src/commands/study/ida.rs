@@ -67,7 +67,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 14] = [
+const FILES: [&str; 16] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -81,6 +81,8 @@ const FILES: [&str; 14] = [
     "vulnerability.csv",
     "vulnerability.xml",
     "losses.csv",
+    "samples.csv",
+    "sensitivity.csv",
     "study.html",
 ];
 

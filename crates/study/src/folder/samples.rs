@@ -1,0 +1,154 @@
+//! The samples of uncertain parameters, and which of them explains θ: `samples.csv`, `sensitivity.csv`, and a
+//! section of the page.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::results::WallResults;
+use crate::uncertain::{Samples, Sensitivity, sensitivities};
+use report::escaped;
+use report::table::{Digits, Table};
+use run::file;
+
+use super::contents::Manifest;
+use super::error::FolderError;
+
+/// Names of the files.
+const FILES: [&str; 2] = ["samples.csv", "sensitivity.csv"];
+
+/// What the samples show, wall by wall.
+pub(crate) struct Sampled<'a> {
+    manifest: &'a Manifest,
+    samples: &'a Samples,
+    /// ln θ of each wall of the study, limit state by limit state, model by model; `None` without a curve.
+    logarithms: Vec<Vec<Vec<Option<f64>>>>,
+}
+
+/// A wall of the file with a model at a limit state: what each parameter explains, how many samples have a
+/// curve, and R².
+struct Row<'a> {
+    wall: &'a str,
+    model: usize,
+    state: usize,
+    parameter: &'a str,
+    found: Sensitivity,
+    fitted: usize,
+    explained: Option<f64>,
+}
+
+impl<'a> Sampled<'a> {
+    /// Begins; `None` for a study without uncertain parameters.
+    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
+        let Some(samples) = &manifest.report.samples else {
+            // those that an earlier study has left
+            FILES.iter().try_for_each(|name| file::remove(&folder.join(name)))?;
+            return Ok(None);
+        };
+        Ok(Some(Self { manifest, samples, logarithms: Vec::new() }))
+    }
+
+    /// Adds the next wall.
+    pub(crate) fn add(&mut self, results: &WallResults) {
+        let states = 0..self.manifest.report.fractions.len();
+        let logarithm =
+            |summary: &crate::fragility::Summary| summary.fitted.ok().map(|curve| libm::log(curve.median));
+        let of_state = |state| results.summaries(state).map(logarithm).collect();
+        self.logarithms.push(states.map(of_state).collect());
+    }
+
+    /// Writes the files; returns their paths and the section of the page.
+    pub(crate) fn finish(self, folder: &Path) -> Result<(Vec<PathBuf>, String), FolderError> {
+        let rows = self.rows();
+        let [samples, sensitivity] = FILES.map(|name| folder.join(name));
+        file::to_file(&samples, self.table().csv().as_bytes())?;
+        file::to_file(&sensitivity, self.sensitivity(&rows).csv().as_bytes())?;
+        Ok((vec![samples, sensitivity], self.section(&rows)))
+    }
+
+    /// The value of each parameter in each wall of the study.
+    fn table(&self) -> Table {
+        let Samples { parameters, walls, rows } = self.samples;
+        let items = walls.iter().flat_map(|wall| rows.iter().enumerate().map(move |(k, row)| (wall, k, row)));
+        let mut table = Table::over(items)
+            .text("wall", "", |(wall, sample, _)| self.samples.name(wall, *sample))
+            .text("of", "", |(wall, ..)| (*wall).clone())
+            .value("sample", |(_, sample, _)| sample + 1);
+        for (place, name) in parameters.iter().enumerate() {
+            table = table.value(name.clone(), move |(.., row)| row[place]);
+        }
+        table.done()
+    }
+
+    fn rows(&self) -> Vec<Row<'a>> {
+        let Samples { parameters, walls, rows } = self.samples;
+        let count = rows.len();
+        let mut all = Vec::new();
+        for (wall, of_wall) in walls.iter().zip(self.logarithms.chunks(count)) {
+            for (model, _) in self.manifest.contents.models.iter().enumerate() {
+                for (state, _) in self.manifest.report.fractions.iter().enumerate() {
+                    let known = |sample: &usize| Some((*sample, of_wall[*sample][state][model]?));
+                    let (places, numbers): (Vec<usize>, Vec<f64>) =
+                        (0..count).filter_map(|sample| known(&sample)).unzip();
+                    let column = |place| places.iter().map(|&sample| rows[sample][place]).collect();
+                    let columns: Vec<Vec<f64>> = (0..parameters.len()).map(column).collect();
+                    let (found, explained) = sensitivities(&columns, &numbers);
+                    let fitted = numbers.len();
+                    let row =
+                        |(parameter, found)| Row { wall, model, state, parameter, found, fitted, explained };
+                    all.extend(parameters.iter().map(String::as_str).zip(found).map(row));
+                }
+            }
+        }
+        all
+    }
+
+    fn sensitivity(&self, rows: &[Row<'_>]) -> Table {
+        let Manifest { contents, report, .. } = self.manifest;
+        Table::over(rows)
+            .text("wall", "", |row| row.wall.to_owned())
+            .text("model", "", |row| contents.models[row.model].name.clone())
+            .value("u_max_over_u_ins", |row| report.fractions[row.state])
+            .value("samples", |_| self.samples.rows.len())
+            .value("with_curve", |row| row.fitted)
+            .text("parameter", "", |row| row.parameter.to_owned())
+            .value("rank_correlation", |row| row.found.rank_correlation)
+            .value("logarithm", |row| row.found.is_logarithmic)
+            .value("coefficient", |row| row.found.coefficient)
+            .value("standardised_coefficient", |row| row.found.standardised)
+            .value("r_squared", |row| row.explained)
+            .done()
+    }
+
+    /// Shows the last limit state to be exceeded.
+    fn section(&self, rows: &[Row<'_>]) -> String {
+        let Manifest { contents, report, .. } = self.manifest;
+        let fractions = &report.fractions;
+        let last = (0..fractions.len()).max_by(|a, b| fractions[*a].total_cmp(&fractions[*b])).unwrap_or(0);
+        let two = Digits::Decimals(2);
+        let table = Table::over(rows.iter().filter(|row| row.state == last))
+            .text("", "wall", |row| row.wall.to_owned())
+            .text("", "model", |row| contents.models[row.model].name.clone())
+            .text("", "parameter", |row| row.parameter.to_owned())
+            .number("", "rank correlation", two, |row| row.found.rank_correlation)
+            .number("", "standardised coefficient", two, |row| row.found.standardised)
+            .number("", "coefficient", two, |row| row.found.coefficient)
+            .number("", "R²", two, |row| row.explained)
+            .number("", "samples with a curve", Digits::AtMost(6), |row| row.fitted)
+            .done();
+        let mut html = String::new();
+        let _ = writeln!(
+            html,
+            "<section><h2>Which parameter explains θ</h2><p class=\"subtitle\">Each wall stands for {} \
+             samples of {}; samples.csv has their values. For u<sub>max</sub>/u<sub>ins</sub> = {}: \
+             Spearman’s correlation of each parameter with θ, and a linear regression of ln θ on the \
+             logarithms of the parameters, or on a parameter itself where a sample of it is not positive. A \
+             standardised coefficient is in standard deviations. Other limit states are in sensitivity.csv.\
+             </p><div class=\"scroll\">{}</div></section>",
+            self.samples.rows.len(),
+            escaped(&self.samples.parameters.join(", ")),
+            fractions[last],
+            table.html()
+        );
+        html
+    }
+}

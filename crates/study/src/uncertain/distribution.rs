@@ -1,0 +1,174 @@
+//! Distributions of parameters, and their truncation.
+
+use crate::fragility::{cumulative, quantile};
+
+/// A distribution before it is truncated. Numbers have the unit of the parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Normal.
+    Normal {
+        /// Mean.
+        mean: f64,
+        /// Standard deviation.
+        deviation: f64,
+    },
+    /// Lognormal.
+    Lognormal {
+        /// Median.
+        median: f64,
+        /// Standard deviation of the logarithm \[-\].
+        beta: f64,
+    },
+    /// Uniform from an end to the other.
+    Uniform([f64; 2]),
+    /// Triangular: lower end, mode, upper end.
+    Triangular([f64; 3]),
+    /// Values with weights, of any sum.
+    Values(Vec<[f64; 2]>),
+}
+
+/// Most of a distribution that limits may cut off.
+const MOST_CUT: f64 = 0.5;
+
+/// A distribution within limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distribution {
+    shape: Shape,
+    limits: [f64; 2],
+    /// F at the limits.
+    parts: [f64; 2],
+}
+
+impl Distribution {
+    /// Truncates a distribution to its part within limits.
+    ///
+    /// # Errors
+    /// The reason: a number that its distribution cannot have, a value outside the limits, or limits that cut
+    /// off more than half.
+    pub fn new(shape: Shape, limits: [f64; 2]) -> Result<Self, String> {
+        shape.check(limits)?;
+        let parts = match shape {
+            Shape::Values(_) => [0.0, 1.0],
+            _ => limits.map(|limit| shape.cumulative(limit)),
+        };
+        let distribution = Self { shape, limits, parts };
+        let cut = distribution.cut();
+        if cut > MOST_CUT {
+            let [low, high] = limits;
+            return Err(format!(
+                "{:.3} % of it is outside the limits {low} to {high}, and at most {} % may be; are its unit \
+                 and order right?",
+                100.0 * cut,
+                100.0 * MOST_CUT
+            ));
+        }
+        Ok(distribution)
+    }
+
+    /// Returns the part that the limits cut off \[-\].
+    pub fn cut(&self) -> f64 {
+        self.parts[0] + (1.0 - self.parts[1])
+    }
+
+    /// Returns the limits.
+    pub fn limits(&self) -> [f64; 2] {
+        self.limits
+    }
+
+    /// Returns the value that a part, above 0 and below 1, of the truncated distribution is below.
+    pub fn value(&self, part: f64) -> f64 {
+        let [low, high] = self.parts;
+        self.shape.quantile(low + part * (high - low)).clamp(self.limits[0], self.limits[1])
+    }
+}
+
+impl Shape {
+    fn check(&self, [least, most]: [f64; 2]) -> Result<(), String> {
+        let is_finite = match self {
+            Self::Normal { mean: a, deviation: b } | Self::Lognormal { median: a, beta: b } => {
+                a.is_finite() && b.is_finite()
+            }
+            Self::Uniform(ends) => ends.iter().all(|end| end.is_finite()),
+            Self::Triangular(numbers) => numbers.iter().all(|number| number.is_finite()),
+            Self::Values(values) => values.iter().flatten().all(|number| number.is_finite()),
+        };
+        if !is_finite {
+            return Err("its numbers must be finite".to_owned());
+        }
+        match self {
+            Self::Normal { deviation, .. } if *deviation <= 0.0 => {
+                Err(format!("its standard deviation {deviation} must be above 0"))
+            }
+            Self::Lognormal { median, .. } if *median <= 0.0 => {
+                Err(format!("its median {median} must be above 0"))
+            }
+            Self::Lognormal { beta, .. } if *beta <= 0.0 => {
+                Err(format!("its standard deviation of the logarithm {beta} must be above 0"))
+            }
+            Self::Uniform([low, high]) if low >= high => {
+                Err(format!("its lower end {low} must be below its upper end {high}"))
+            }
+            Self::Triangular([low, mode, high]) if !(low <= mode && mode <= high && low < high) => {
+                Err(format!("its numbers {low}, {mode}, {high} must rise: lower end, mode, upper end"))
+            }
+            Self::Values(values) => {
+                if values.is_empty() {
+                    return Err("it has no values".to_owned());
+                }
+                if let Some([_, weight]) = values.iter().find(|[_, weight]| *weight <= 0.0) {
+                    return Err(format!("its weight {weight} must be above 0"));
+                }
+                let outside = values.iter().find(|[value, _]| !(least..=most).contains(value));
+                outside.map_or(Ok(()), |[value, _]| {
+                    Err(format!("its value {value} is outside the limits {least} to {most}"))
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns F(x) of a continuous distribution.
+    fn cumulative(&self, x: f64) -> f64 {
+        match *self {
+            Self::Normal { mean, deviation } => cumulative((x - mean) / deviation),
+            Self::Lognormal { .. } if x <= 0.0 => 0.0,
+            Self::Lognormal { median, beta } => cumulative(libm::log(x / median) / beta),
+            Self::Uniform([low, high]) => ((x - low) / (high - low)).clamp(0.0, 1.0),
+            Self::Triangular([low, _, _]) if x <= low => 0.0,
+            Self::Triangular([_, _, high]) if x >= high => 1.0,
+            Self::Triangular([low, mode, high]) if x < mode => {
+                (x - low) * (x - low) / ((high - low) * (mode - low))
+            }
+            Self::Triangular([low, mode, high]) => {
+                1.0 - (high - x) * (high - x) / ((high - low) * (high - mode))
+            }
+            Self::Values(_) => f64::NAN,
+        }
+    }
+
+    /// Returns the x at which F is a part.
+    fn quantile(&self, part: f64) -> f64 {
+        match self {
+            Self::Normal { mean, deviation } => mean + deviation * quantile(part),
+            Self::Lognormal { median, beta } => median * libm::exp(beta * quantile(part)),
+            Self::Uniform([low, high]) => low + part * (high - low),
+            Self::Triangular([low, mode, high]) => {
+                let range = high - low;
+                if part * range < mode - low {
+                    low + libm::sqrt(part * range * (mode - low))
+                } else {
+                    high - libm::sqrt((1.0 - part) * range * (high - mode))
+                }
+            }
+            Self::Values(values) => {
+                let all: f64 = values.iter().map(|[_, weight]| weight).sum();
+                let mut sum = 0.0;
+                let found = values.iter().find(|[_, weight]| {
+                    sum += weight;
+                    part * all < sum
+                });
+                found.or(values.last()).map_or(f64::NAN, |[value, _]| *value)
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Samples of uncertain parameters: strata, correlations, messages, and what explains a number.
+
+use study::document::StudyFile;
+use study::folder::Contents;
+use study::fragility::cumulative;
+use study::loaded::LoadedStudy;
+use study::uncertain::{Uncertain, hypercube, pearson_of_spearman, rank_correlation, sensitivities};
+
+fn with(uncertain: &str) -> String {
+    format!(
+        "models = [\"CR\"]\nlevels = {{ method = \"step\", step = 0.4, top = 2 }}\n\
+         records = {{ synthetic = {{ count = 2, duration = 10, step = 0.02 }} }}\n\
+         walls = [{{ name = \"a\", geometry = {{ height = 3, thickness = 0.3 }} }}]\n[uncertain]\n{uncertain}"
+    )
+}
+
+fn read(uncertain: &str) -> Uncertain {
+    StudyFile::parse("study.toml", &with(uncertain)).unwrap().uncertain.unwrap().0
+}
+
+fn column(rows: &[Vec<f64>], place: usize) -> Vec<f64> {
+    rows.iter().map(|row| row[place]).collect()
+}
+
+/// Each n-th of each distribution has one sample, also of correlated and truncated ones.
+#[test]
+fn each_stratum_has_one_sample() {
+    let uncertain = read(
+        "samples = 40\ncorrelation = [[\"height\", \"thickness\", -0.6]]\n[uncertain.parameters]\n\
+         height = { normal = [3, 0.2] }\nthickness = { lognormal = [0.3, 0.1] }\n\
+         a1 = { uniform = [0.02, 0.1] }\ndensity = { triangular = [1500, 1800, 2000] }\n\
+         overburden = { normal = [1000, 1000] }\nrestitution = { values = [0.8, 0.9], weights = [1, 3] }\n",
+    );
+    let rows = uncertain.rows().unwrap();
+    let names: Vec<_> = uncertain.parameters.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["a1", "density", "height", "overburden", "restitution", "thickness"]);
+    let below = cumulative(-1.0);
+    let triangular = |x: f64| {
+        if x < 1800.0 { (x - 1500.0).powi(2) / 150_000.0 } else { 1.0 - (2000.0 - x).powi(2) / 100_000.0 }
+    };
+    let parts: [&dyn Fn(f64) -> f64; 6] = [
+        &|x| (x - 0.02) / 0.08,
+        &triangular,
+        &|x| cumulative((x - 3.0) / 0.2),
+        &|x| (cumulative((x - 1000.0) / 1000.0) - below) / (1.0 - below),
+        &|_| f64::NAN,
+        &|x| cumulative((x / 0.3).ln() / 0.1),
+    ];
+    for (place, part) in parts.iter().enumerate().filter(|(place, _)| *place != 4) {
+        let mut strata: Vec<f64> = rows.iter().map(|row| (40.0 * part(row[place])).floor()).collect();
+        strata.sort_by(f64::total_cmp);
+        assert!(strata.into_iter().eq((0..40).map(f64::from)), "{}", names[place]);
+    }
+    assert_eq!(rows.iter().filter(|row| row[4] == 0.8).count(), 10);
+}
+
+/// Normal scores have the wanted correlation to a rounding. Of independent ranks Spearman's correlation then
+/// scatters by √(1 − (3/π)²)/√n = 0.3/√n, since its own correlation with that of normal scores is 3/π; of
+/// correlated ones by less. Four of these are allowed.
+#[test]
+fn ranks_have_their_correlation() {
+    for (samples, wanted) in [(30, 0.5), (100, -0.7), (1000, 0.9), (1000, 0.0)] {
+        let r = pearson_of_spearman(wanted);
+        let matrix = [vec![1.0, r, 0.0], vec![r, 1.0, 0.0], vec![0.0, 0.0, 1.0]];
+        for seed in 1..=5 {
+            let parts = hypercube(samples, &matrix, seed).unwrap();
+            let allowed = 1.2 / (samples as f64).sqrt();
+            for (a, b, wanted) in [(0, 1, wanted), (0, 2, 0.0), (1, 2, 0.0)] {
+                let found = rank_correlation(&parts[a], &parts[b]).unwrap();
+                assert!((found - wanted).abs() < allowed, "{samples} {seed}: {found} is not {wanted}");
+            }
+        }
+    }
+}
+
+/// The samples are those of every machine, to the last bit.
+#[test]
+fn samples_are_pinned() {
+    let text = "samples = 5\nseed = 7\n[uncertain.parameters]\nheight = { lognormal = [3, 0.1] }\n\
+                a1 = { uniform = [0.02, 0.08] }\n";
+    let found: Vec<String> = read(text).rows().unwrap().iter().map(|row| format!("{row:?}")).collect();
+    assert_eq!(found, PINNED);
+}
+
+const PINNED: [&str; 5] = [
+    "[0.021757955827941603, 3.0806595946598874]",
+    "[0.05567950515646426, 2.7045629646130083]",
+    "[0.06957158441972686, 2.945220030351941]",
+    "[0.06265844549531518, 3.3328115691865308]",
+    "[0.03539542063167425, 2.8979234326874237]",
+];
+
+/// Ranks against the formula 1 − 6Σd²/(n(n²−1)), the regression against numbers that it explains.
+#[test]
+fn sensitivities_are_those_of_formulas() {
+    let columns: [Vec<f64>; 3] =
+        [vec![1.0, 3.0, 2.0, 5.0, 4.0, 6.0], vec![2.0, -1.0, 4.0, 3.0, 6.0, 5.0], vec![7.0; 6]];
+    let number = |k: usize| 1.5 + 2.0 * columns[0][k].ln() - 0.25 * columns[1][k];
+    let numbers: Vec<f64> = (0..6).map(number).collect();
+    let (found, explained) = sensitivities(&columns, &numbers);
+    assert_eq!(found.iter().map(|one| one.is_logarithmic).collect::<Vec<_>>(), [true, false, true]);
+    // normal equations of two columns whose correlation is below 0.9 keep all but 2 digits
+    assert!((found[0].coefficient.unwrap() - 2.0).abs() < 1e-13, "{found:?}");
+    assert!((found[1].coefficient.unwrap() + 0.25).abs() < 1e-13);
+    assert!((explained.unwrap() - 1.0).abs() < 1e-13);
+    assert_eq!((found[2].rank_correlation, found[2].coefficient), (None, None));
+    // ranks of the numbers: 1, 5, 2, 6, 3, 4; those of the first parameter are its values
+    let order = |k: usize| 1 + numbers.iter().filter(|other| **other < numbers[k]).count();
+    let squares: f64 = (0..6).map(|k| (order(k) as f64 - columns[0][k]).powi(2)).sum();
+    let spearman = 1.0 - 6.0 * squares / (6.0 * 35.0);
+    assert!((found[0].rank_correlation.unwrap() - spearman).abs() < 1e-15);
+    // alike values share their ranks: 1.5, 1.5, 3 against 1, 2, 3 is √3/2
+    let tied = rank_correlation(&[1.0, 1.0, 2.0], &[1.0, 2.0, 3.0]).unwrap();
+    assert!((tied - 0.75_f64.sqrt()).abs() < 1e-15);
+}
+
+#[test]
+fn what_cannot_be_sampled_is_refused_with_its_line() {
+    let parameters = "[uncertain.parameters]\n";
+    for (text, words) in [
+        (
+            "samples = 1\n[uncertain.parameters]\nheight = { normal = [3, 1] }",
+            "study.toml, line 6: samples = 1 must",
+        ),
+        (parameters, "no parameter is uncertain"),
+        (
+            "[uncertain.parameters]\nheigth = { normal = [3, 1] }",
+            "line 7: \"heigth\" is not a number of a wall",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { normal = [3, -1] }",
+            "line 7: height: normal = [3.0, -1.0]: its",
+        ),
+        ("[uncertain.parameters]\nheight = { normal = [3] }", "expected [mean, standard deviation]"),
+        ("[uncertain.parameters]\nheight = 3", "height: expected a table with one of normal = "),
+        ("[uncertain.parameters]\nheight = { norml = [3, 1] }", "(did you mean \"normal\"?)"),
+        (
+            "[uncertain.parameters]\nhinge_ratio = { normal = [5, 1] }",
+            "of it is outside the limits 0.01 to 0.99",
+        ),
+        ("[uncertain.parameters]\na1 = { values = [0.1, 3] }", "its value 3 is outside the limits"),
+        (
+            "samples = 3\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\n\
+             d1 = { uniform = [0.1, 0.3] }",
+            "are too few",
+        ),
+        (
+            "correlation = [[\"a1\", \"d1\", 1.5]]\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\n\
+             d1 = { uniform = [0.1, 0.3] }",
+            "line 6: correlation: 1.5 must be above -1 and below 1",
+        ),
+        (
+            "correlation = [[\"a1\", \"b\", 0.5]]\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }",
+            "is not among",
+        ),
+    ] {
+        let error = StudyFile::parse("study.toml", &with(text)).unwrap_err().to_string();
+        assert!(error.contains(words), "{text}: {error}");
+    }
+    let cut = "[uncertain.parameters]\nthickness = { normal = [0.3, 0.1], within = [0.2, 0.6] }";
+    let (_, warnings) = StudyFile::parse("study.toml", &with(cut)).unwrap().uncertain.unwrap();
+    // Φ(−1) + Φ(−3)
+    assert_eq!(warnings, ["[uncertain] thickness: the limits 0.2 to 0.6 cut off 16.00 % of it"]);
+}
+
+/// Samples are walls of the study and of its classes, and stay the same on another machine.
+#[test]
+fn samples_are_walls_and_classes() {
+    let text = with("samples = 10\n[uncertain.parameters]\nheight = { normal = [3, 0.1] }\n")
+        + "[[classes]]\nname = \"mine\"\nwalls = [\"a\"]\nweights = [2]\n";
+    let folder = std::env::temp_dir().join(format!("uncertain_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("study.toml");
+    std::fs::write(&path, text).unwrap();
+    let loaded = LoadedStudy::read(&path).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let walls = loaded.study.walls();
+    assert_eq!((walls.len(), walls[0].name.as_str(), walls[9].name.as_str()), (10, "a 01", "a 10"));
+    let samples = loaded.report.samples.as_ref().unwrap();
+    let heights: Vec<f64> = walls.iter().map(|wall| wall.parameters.height).collect();
+    assert_eq!(heights, column(&samples.rows, 0));
+    let classes: Vec<_> =
+        loaded.report.classes.iter().map(|class| (&*class.name, class.walls.len())).collect();
+    assert_eq!(classes, [("mine", 10), ("a", 10)]);
+    assert_eq!(loaded.report.classes[0].weights, [2.0; 10]);
+    let received = LoadedStudy::received(loaded.sent()).unwrap();
+    assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
+    assert_eq!(received.report, loaded.report);
+}
