@@ -103,21 +103,25 @@ fn skipped(rest: &str) -> Option<usize> {
     };
     ends("<style", "</style>")
         .or_else(|| ends("<span translate=\"no\"", "</span>"))
+        .or_else(|| ends("<small translate=\"no\"", "</small>"))
         .or_else(|| ends("<title", "</title>"))
 }
 
 /// Where the text that begins here ends.
 fn text_end(rest: &str) -> usize {
-    let mut at = 0;
+    let (mut at, mut open) = (0, 0_u32);
     while let Some(next) = rest[at..].find('<') {
         let tag = &rest[at + next..];
         let name = tag[1..].trim_start_matches('/');
         let name = &name[..name.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(name.len())];
         // a class makes a tag more than a formula
         let is_plain = tag[1..].trim_start_matches('/')[name.len()..].starts_with('>');
-        if !(INLINE.contains(&name) && is_plain) {
+        let closes = tag.starts_with("</");
+        // an end without its beginning belongs to a tag with a class
+        if !(INLINE.contains(&name) && is_plain) || closes && open == 0 {
             return at + next;
         }
+        open = if closes { open - 1 } else { open + 1 };
         at += next + tag.find('>').map_or(tag.len(), |end| end + 1);
     }
     rest.len()
@@ -223,9 +227,12 @@ mod tests {
     #[test]
     fn gaps_are_translated_and_what_users_write_is_not() {
         let page = "<p title=\"tie\">the tie breaks</p><td>Overburden</td><small>tie</small>\
+                    <small translate=\"no\">tie</small><i class=\"chip\">▲</i>demand\
                     <span translate=\"no\">overburden</span><style>tie {}</style>";
         let italian = "<p title=\"tie\">rottura della catena</p><td>Carico in sommità</td>\
-                       <small>catena, tirante</small><span translate=\"no\">overburden</span>\
+                       <small>catena, tirante</small>\
+                       <small translate=\"no\">tie</small><i class=\"chip\">▲</i>domanda\
+                       <span translate=\"no\">overburden</span>\
                        <style>tie {}</style>";
         assert_eq!(translated(page.to_owned(), Language::It), italian);
         assert_eq!(translated(page.to_owned(), Language::En), page);
