@@ -78,7 +78,7 @@ fn parameter(
     // the conditions under which it matters hold
     let description = variable.description.split("; where ").next().unwrap_or_default();
     let value = format!("<span class=\"value\">{value} {unit}</span>");
-    Some([format!("{} <small>{name}</small>", escaped(description)), value, from])
+    Some([format!("{} <small translate=\"no\">{name}</small>", escaped(description)), value, from])
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.

@@ -103,6 +103,7 @@ fn skipped(rest: &str) -> Option<usize> {
     };
     ends("<style", "</style>")
         .or_else(|| ends("<span translate=\"no\"", "</span>"))
+        .or_else(|| ends("<small translate=\"no\"", "</small>"))
         .or_else(|| ends("<title", "</title>"))
 }
 
@@ -226,9 +227,12 @@ mod tests {
     #[test]
     fn gaps_are_translated_and_what_users_write_is_not() {
         let page = "<p title=\"tie\">the tie breaks</p><td>Overburden</td><small>tie</small>\
+                    <small translate=\"no\">tie</small><i class=\"chip\">▲</i>demand\
                     <span translate=\"no\">overburden</span><style>tie {}</style>";
         let italian = "<p title=\"tie\">rottura della catena</p><td>Carico in sommità</td>\
-                       <small>catena, tirante</small><span translate=\"no\">overburden</span>\
+                       <small>catena, tirante</small>\
+                       <small translate=\"no\">tie</small><i class=\"chip\">▲</i>domanda\
+                       <span translate=\"no\">overburden</span>\
                        <style>tie {}</style>";
         assert_eq!(translated(page.to_owned(), Language::It), italian);
         assert_eq!(translated(page.to_owned(), Language::En), page);

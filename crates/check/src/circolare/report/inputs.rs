@@ -21,12 +21,12 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         state(overburden(case), &["overburden_mass"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
-    let compression = if statement.table.compression_considered {
+    let compression = if statement.table.compression_considered || statement.masonry.is_some() {
         "The hinges are set back for the compressive strength of the masonry."
     } else {
         "The limited compressive strength of the masonry is neglected: hinges are at the edges."
     };
-    state(compression.into(), &["compression_considered"]);
+    state(compression.into(), &["compression_considered", "masonry_strength"]);
     state(
         format!("Behaviour factor {} = {}.", formula("q"), stated(statement.behaviour_factor)),
         &["behaviour_factor"],

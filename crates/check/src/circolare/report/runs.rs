@@ -4,6 +4,7 @@ use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNT
 use ::report::escaped;
 
 use crate::report::markup::{Calculation, formula, result, shown, table};
+use crate::report::project::as_written;
 
 /// The section of the dynamic check, if there is one.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
@@ -79,5 +80,11 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
 fn row(run: &DynamicRun) -> [String; 5] {
     let [positive, negative] = run.d.map(|d| ::report::number(1000.0 * d, 4));
     let beyond = if run.beyond_d0 { "<span class=\"fails\">yes</span>" } else { "no" };
-    [escaped(&run.record), ::report::number(run.sign * run.factor, 4), positive, negative, beyond.to_owned()]
+    [
+        as_written(&run.record),
+        ::report::number(run.sign * run.factor, 4),
+        positive,
+        negative,
+        beyond.to_owned(),
+    ]
 }
