@@ -77,7 +77,11 @@ method = "dynamic"
 before_activation = "rigid"
 soil = "B"
 record_scale = "none"
-site = { grid = "grid.csv", ag_unit = "g/10", coordinates = [42.02, 13.03], nominal_life = 50, use_coefficient = 1 }
+site.grid = "grid.csv"
+site.ag_unit = "g/10"
+site.coordinates = [42.02, 13.03]
+site.nominal_life = 50
+site.use_coefficient = 1
 SLD = { building_damping = 0.05 }
 SLV = { building_damping = 0.1 }
 SLC = { building_damping = 0.1 }
@@ -208,7 +212,8 @@ fn a_report_of_walls_has_a_cover_and_sheets() {
     let folder = folder("report_walls");
     let wall = |name: &str, height: f64| {
         format!(
-            "[[walls]]\nname = {name:?}\ngeometry = {{ height = {height}, thickness = 0.3, density = 1800 }}\n"
+            "[[walls]]\nname = {name:?}\n\
+             geometry = {{ height = {height}, thickness = 0.3, density = 1800 }}\n"
         )
     };
     let check = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
