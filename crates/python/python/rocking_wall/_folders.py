@@ -135,13 +135,24 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
-    names = ("fragilities", "fragility_curves", "rates", "rate_shares", "vulnerability", "losses")
-    names += ("samples", "sensitivity", "ties")
-    tables = [read_table(path / f"{name}.csv") for name in names]
-    fragilities, curves = (Table({}) if table is None else table for table in tables[:2])
+    def table(name: str) -> Table | None:
+        return read_table(path / f"{name}.csv")
+
     xml = path / "fragilities.xml"
-    nrml = xml.read_text(encoding="utf-8") if xml.exists() else None
-    return StudyResults(Table(levels), Table(collapses), fragilities, curves, *tables[2:], nrml)
+    return StudyResults(
+        levels=Table(levels),
+        collapses=Table(collapses),
+        fragilities=table("fragilities") or Table({}),
+        curves=table("fragility_curves") or Table({}),
+        rates=table("rates"),
+        rate_shares=table("rate_shares"),
+        vulnerability=table("vulnerability"),
+        losses=table("losses"),
+        samples=table("samples"),
+        sensitivity=table("sensitivity"),
+        ties=table("ties"),
+        nrml=xml.read_text(encoding="utf-8") if xml.exists() else None,
+    )
 
 
 def merge(
