@@ -135,6 +135,7 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
+
     def table(name: str) -> Table | None:
         return read_table(path / f"{name}.csv")
 
