@@ -1,6 +1,7 @@
 """Studies in folders from Python: the bytes of the program, resumed, in shards, and read again."""
 
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -93,6 +94,21 @@ def test_a_stopped_study_goes_on_in_its_folder(study, tmp_path):
     assert files(out) == files(given) and parts[0].stat().st_mtime_ns == before
 
 
+def test_results_of_another_report_are_not_read(study, tmp_path):
+    _, given = study
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY.replace("target = 1e-3", "target = 2e-3"), encoding="utf-8")
+    shutil.copytree(given, tmp_path / "out")
+    # one part is gone, so that the tables of the new report cannot be made
+    next((tmp_path / "out" / "runs").rglob("*.parquet")).unlink()
+    rw.Study(path).compute(tmp_path / "out", (2, 2), progress=False)
+    with pytest.raises(ValueError, match="combinations are missing|has no results yet"):
+        rw.read_results(tmp_path / "out")
+    rw.Study(path).compute(tmp_path / "out", progress=False)
+    with pytest.raises(ValueError, match="has no results yet"):
+        rw.read_results(tmp_path / "out")
+
+
 def test_shards_are_merged(study, tmp_path):
     asked, given = study
     for number in (1, 2, 3):
@@ -100,8 +116,16 @@ def test_shards_are_merged(study, tmp_path):
         asked.compute(tmp_path / "shared", (number, 3), progress=False)
     with pytest.raises(ValueError, match="combinations are missing"):
         rw.merge([tmp_path / "1", tmp_path / "3"], tmp_path / "part")
-    with pytest.raises(ValueError, match="needs an output folder"):
+    with pytest.raises(ValueError, match="needs one for the result"):
         rw.merge([tmp_path / "1", tmp_path / "3"])
+    with pytest.raises(ValueError, match="no folder to merge"):
+        rw.merge([])
+    part = next((tmp_path / "1" / "runs").rglob("*.parquet"))
+    whole = part.read_bytes()
+    part.write_bytes(whole[:-20])
+    with pytest.raises(ValueError, match="combinations are missing.*1 of .* parts are damaged"):
+        rw.merge([tmp_path / str(number) for number in (1, 2, 3)], tmp_path / "damaged")
+    part.write_bytes(whole)
     with pytest.warns(UserWarning):
         merged = rw.merge([tmp_path / str(number) for number in (1, 2, 3)], tmp_path / "merged")
     with pytest.warns(UserWarning):

@@ -40,12 +40,12 @@ impl Folder {
         Ok(Self { folder })
     }
 
-    /// Takes together the parts of several folders; returns the folder of all, and what is damaged.
+    /// Takes together the parts of several folders; returns the folder of all.
     #[staticmethod]
     fn merged(py: Python<'_>, paths: Vec<PathBuf>, into: Option<PathBuf>) -> PyResult<Self> {
         let merged = py.detach(|| {
             let folders = paths.iter().map(|path| study::folder::Folder::open(path));
-            merge(folders.collect::<Result<_, _>>()?, into.as_deref(), |_| ())
+            merge(folders.collect::<Result<_, _>>()?, into.as_deref())
         });
         Ok(Self { folder: merged.map_err(of_folder)? })
     }

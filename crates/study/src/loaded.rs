@@ -204,6 +204,8 @@ impl Walls {
         };
         report.classes = classes.chain(walls.iter().map(of_wall)).collect();
         let all = samples.of_walls(&walls).map_err(|error| in_file(error.to_string()))?;
+        let names = all.iter().map(|wall| &wall.name).chain(report.classes.iter().map(|class| &class.name));
+        check_unique("samples and classes", names).map_err(in_file)?;
         report.samples = Some(samples);
         Ok(Self { walls: all, sampled: walls })
     }

@@ -76,7 +76,7 @@ class StudyResults(Tabular):
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(self.nrml)
 
-    def plot(self, names: Sequence[str] | None = None, ax: Axes | None = None) -> Axes:
+    def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
         """Draws the curves of the highest limit state of some walls and classes, by default of all.
 
         Needs matplotlib. Raises `ValueError` for a name that is not there.
@@ -84,6 +84,7 @@ class StudyResults(Tabular):
         from matplotlib import pyplot
 
         curves = self.curves
+        names = [names] if isinstance(names, str) else names
         missing = sorted(set(names or ()) - set(curves["wall"].tolist()))
         if missing:
             raise ValueError(f"the study has no wall or class {missing[0]!r}")
@@ -186,7 +187,7 @@ def read_table(path: Path) -> Table | None:
     return Table({name: column_of(name, cells) for name, cells in zip(head, columns)})
 
 
-NAMES = {"wall", "model", "record"}
+NAMES = {"wall", "of", "model", "record", "parameter"}
 """Columns of words, even where a name is a number."""
 
 

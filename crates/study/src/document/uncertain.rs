@@ -8,7 +8,7 @@ use rocking_wall::wall::{Bar, COMPUTED};
 use run::walls::wall_parameters;
 use toml::{Spanned, Value};
 
-use crate::uncertain::{Distribution, Shape, Uncertain};
+use crate::uncertain::{Distribution, Shape, Uncertain, range};
 
 /// Samples of a table that states no number.
 const SAMPLES: u32 = 100;
@@ -116,8 +116,8 @@ pub(super) fn uncertain(
         let distribution = distribution(value.get_ref(), limits)
             .map_err(|message| place.error(value.span(), format!("{name}: {message}")))?;
         if distribution.cut() > MOST_CUT {
-            let ([low, high], cut) = (distribution.limits(), 100.0 * distribution.cut());
-            warnings.push(format!("[uncertain] {name}: the limits {low} to {high} cut off {cut:.2} % of it"));
+            let (limits, cut) = (range(distribution.limits()), 100.0 * distribution.cut());
+            warnings.push(format!("[uncertain] {name}: its limits ({limits}) cut off {cut:.2} % of it"));
         }
         all.push((name.clone(), distribution));
     }
@@ -185,9 +185,8 @@ fn distribution(value: &Value, [least, most]: [f64; 2]) -> Result<Distribution, 
     };
     let [low, high] = *within else { return Err("within must be [lower limit, upper limit]".to_owned()) };
     if !(least <= low && low < high && high <= most) {
-        return Err(format!(
-            "within = [{low}, {high}] must rise, and lie within the limits {least} to {most}"
-        ));
+        let limits = range([least, most]);
+        return Err(format!("within = [{low}, {high}] must rise, and lie within the limits ({limits})"));
     }
     Distribution::new(shape, [low, high]).map_err(|reason| format!("{words}: {reason}"))
 }

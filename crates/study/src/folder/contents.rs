@@ -81,7 +81,7 @@ pub struct RecordNote {
 }
 
 /// The description of a study in its folder.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Title.
     pub title: String,

@@ -28,7 +28,7 @@ impl<'a> Curves<'a> {
         while self.read.len() < count {
             let curves = self.folder.part(self.part);
             // it was found complete when the report began, and has been removed or damaged since
-            self.read.extend(curves.ok_or_else(|| self.folder.incomplete(&[self.part]))?);
+            self.read.extend(curves.ok_or_else(|| self.folder.incomplete(&[self.part], &[]))?);
             self.part += 1;
         }
         Ok(self.read.drain(..count).collect())

@@ -28,7 +28,7 @@ pub enum FolderError {
     Damaged { path: PathBuf },
     /// The folder holds results of another study.
     #[error(
-        "{}: holds results of another study ({difference}); give another folder with -o, or remove this one",
+        "{}: holds results of another study ({difference}); give another folder, or remove this one",
         path.display()
     )]
     OtherStudy { path: PathBuf, difference: String },
@@ -38,15 +38,18 @@ pub enum FolderError {
         path.display()
     )]
     OtherThanFirst { path: PathBuf, difference: String },
-    /// Several folders, or none, and no folder for what they hold together.
-    #[error("merging several folders needs an output folder; give -o FOLDER")]
+    /// Several folders, and none for what they hold together.
+    #[error("merging several folders needs one for the result; name it (-o FOLDER; in Python into=)")]
     NoTarget,
+    /// No folder.
+    #[error("there is no folder to merge; name those of the shards")]
+    NoFolder,
     /// The runs are not complete.
     #[error(
         "{missing} of {all} combinations are missing: {names}; run their shards again, or name the folders \
-         that hold them too"
+         that hold them too{damage}"
     )]
-    Missing { missing: usize, all: usize, names: String },
+    Missing { missing: usize, all: usize, names: String, damage: String },
     /// A part is damaged or of another study.
     #[error("part {part}: is damaged or of another study")]
     Part { part: usize },

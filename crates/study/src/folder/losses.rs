@@ -18,7 +18,7 @@ use super::error::FolderError;
 use super::legend::looks;
 use super::nrml::{self, limit_states};
 use super::plots::SIZE;
-use super::rates::Fitted;
+use super::rates::{Fitted, between};
 use super::report::MOST_WALLS;
 
 /// Names of the files.
@@ -40,8 +40,8 @@ pub(crate) struct Losses<'a> {
     is_begun: bool,
     /// Rows of the classes and of the walls that are shown.
     shown: [Table; 2],
-    /// Plots by names, and the lines of the one under construction, one for each model.
-    plots: Vec<(String, String)>,
+    /// Plots of classes and of walls by names, and the lines of the one under construction, model by model.
+    plots: [Vec<(String, String)>; 2],
     lines: Vec<(usize, Vec<[f64; 2]>)>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Losses<'a> {
             annual: annual.transpose()?,
             is_begun: false,
             shown: [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2],
-            plots: Vec::new(),
+            plots: Default::default(),
             lines: Vec::new(),
         }))
     }
@@ -127,13 +127,13 @@ impl<'a> Losses<'a> {
             let table = shown(name, model_name, &rows);
             self.shown[0].columns = table.columns;
             self.shown[usize::from(!is_class)].rows.extend(table.rows);
-            self.draw(name, model, &points);
+            self.draw(name, is_class, model, &points);
         }
         Ok(())
     }
 
     /// Adds a curve to the plot of a wall or class.
-    fn draw(&mut self, name: &str, model: usize, points: &[Point]) {
+    fn draw(&mut self, name: &str, is_class: bool, model: usize, points: &[Point]) {
         let line: Vec<_> = points.iter().map(|point| [point.intensity, point.mean]).collect();
         self.lines.push((model, line));
         if model + 1 < self.manifest.contents.models.len() {
@@ -151,8 +151,9 @@ impl<'a> Losses<'a> {
             plot.line(&line, "fit", looks[model].0);
         }
         let axis = format!("{} (g)", self.manifest.contents.measure);
-        let svg = plot.svg(&format!("loss{}", self.plots.len()), [&axis, "mean loss ratio"]);
-        self.plots.push((name.to_owned(), svg));
+        let number = self.plots.iter().map(Vec::len).sum::<usize>();
+        let svg = plot.svg(&format!("loss{number}"), [&axis, "mean loss ratio"]);
+        self.plots[usize::from(!is_class)].push((name.to_owned(), svg));
     }
 
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
@@ -182,11 +183,16 @@ impl<'a> Losses<'a> {
             );
         }
         html.push_str("<h3>Mean loss ratio by intensity</h3><div class=\"row\">");
-        // classes come last
-        for (name, svg) in plots.iter().rev().take(MOST_PLOTS) {
+        let all = plots.iter().map(Vec::len).sum::<usize>();
+        for (name, svg) in plots.iter().flatten().take(MOST_PLOTS) {
             let _ = write!(html, "<figure><figcaption>{}</figcaption>{svg}</figure>", escaped(name));
         }
-        html.push_str("</div></section>\n");
+        html.push_str("</div>");
+        if all > MOST_PLOTS {
+            let [file, ..] = FILES;
+            let _ = write!(html, "<p>These are {MOST_PLOTS} of {all}, classes first; {file} has all.</p>");
+        }
+        html.push_str("</section>\n");
         Ok((paths, told, html))
     }
 }
@@ -288,7 +294,7 @@ fn shown(name: &str, model: &str, rows: &[Annual]) -> Table {
         .text("", "wall or class", |_| name.to_owned())
         .text("", "model", |_| model.to_owned())
         .number("", "annual loss", two, |row| row.within)
-        .number("", "interval", two, |row| format!("{:.2e} … {:.2e}", row.range[0], row.range[1]))
+        .number("", "interval", two, |row| between(row.range))
         .number("", "at most", two, |row| row.most)
         .done()
 }

@@ -5,24 +5,20 @@ use std::path::Path;
 use super::error::FolderError;
 use super::store::Folder;
 
-/// Copies the parts of some folders into another one, or completes the only one. `warn` is called with what
-/// is damaged, where parts are missing.
+/// Copies the parts of some folders into another one, or completes the only one.
 ///
 /// # Errors
-/// [`FolderError`] if the folders hold different studies, parts are missing, there are several folders and
-/// none to merge into, or a file cannot be written.
-pub fn merge(
-    mut folders: Vec<Folder>,
-    into: Option<&Path>,
-    warn: impl Fn(&str),
-) -> Result<Folder, FolderError> {
+/// [`FolderError`] if the folders hold different studies, parts are missing (it counts those that are
+/// damaged), there are several folders and none to merge into, or a file cannot be written.
+pub fn merge(mut folders: Vec<Folder>, into: Option<&Path>) -> Result<Folder, FolderError> {
     for folder in folders.iter().skip(1) {
         folder.expect(folders[0].contents())?;
     }
     let target = match (into, folders.len()) {
         (Some(path), 1..) => Folder::like(path, folders[0].manifest())?,
         (None, 1) => folders.remove(0),
-        _ => return Err(FolderError::NoTarget),
+        (_, 0) => return Err(FolderError::NoFolder),
+        (None, _) => return Err(FolderError::NoTarget),
     };
     let mut missing = Vec::new();
     for part in target.missing(0..target.contents().parts()) {
@@ -31,9 +27,5 @@ pub fn merge(
             None => missing.push(part),
         }
     }
-    if missing.is_empty() {
-        return Ok(target);
-    }
-    folders.iter().chain([&target]).filter_map(|folder| folder.damage(&missing)).for_each(|told| warn(&told));
-    Err(target.incomplete(&missing))
+    if missing.is_empty() { Ok(target) } else { Err(target.incomplete(&missing, &folders)) }
 }

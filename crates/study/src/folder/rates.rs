@@ -252,7 +252,7 @@ fn shown(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
         .text("", "model", |_| model.to_owned())
         .number("", "u_max/u_ins", Digits::AtMost(6), |row| row.fraction)
         .number("", "rate\n[1/year]", two, |row| row.rate.within())
-        .number("", "interval", two, |row| format!("{:.2e} … {:.2e}", row.interval[0], row.interval[1]))
+        .number("", "interval", two, |row| between(row.interval))
         .number("", "at most", two, |row| row.rate.most())
         .number("", "return period\n[years]", Digits::Significant(3), |row| 1.0 / row.rate.within())
         .number("", format!("P in {years} years\n[%]"), Digits::Significant(3), |row| {
@@ -262,6 +262,11 @@ fn shown(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
         Some(_) => table.text("", "target met", |row| met(hazard, row)).done(),
         None => table.done(),
     }
+}
+
+/// Writes an interval; a dash where it is not known.
+pub(super) fn between([low, high]: [f64; 2]) -> String {
+    if low.is_finite() && high.is_finite() { format!("{low:.2e} … {high:.2e}") } else { "-".to_owned() }
 }
 
 /// Puts the kind of the rows before them.

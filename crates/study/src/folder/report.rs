@@ -25,7 +25,7 @@ use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
 use super::samples::Sampled;
-use super::store::Folder;
+use super::store::{Folder, PAGE};
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
@@ -57,6 +57,7 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let runs = survey(folder)?;
     folder.sweep();
+    file::remove(&folder.path().join(PAGE))?;
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let grid = contents.grid.clone();
     let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report);
@@ -88,7 +89,7 @@ fn survey(folder: &Folder) -> Result<usize, FolderError> {
             None => missing.push(part),
         }
     }
-    if missing.is_empty() { Ok(runs) } else { Err(folder.incomplete(&missing)) }
+    if missing.is_empty() { Ok(runs) } else { Err(folder.incomplete(&missing, &[])) }
 }
 
 /// The results under construction.
@@ -225,7 +226,7 @@ impl<'a> Output<'a> {
             file::to_file(&path, sheet.as_bytes())?;
             files.push(path);
         }
-        let path = self.folder.path().join("study.html");
+        let path = self.folder.path().join(PAGE);
         file::to_file(&path, page::page(manifest, self.runs, &self.sections).as_bytes())?;
         files.push(path);
         Ok(Report { summary: summary + &about_risk, warning, files })

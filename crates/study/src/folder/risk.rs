@@ -19,6 +19,7 @@ use super::error::FolderError;
 use super::losses::Losses;
 use super::nrml;
 use super::rates::{Fitted, Rates};
+use report::counted;
 use report::table::{Cell, Table};
 
 /// Names of the files.
@@ -36,6 +37,8 @@ pub(crate) struct Risk<'a> {
     xml: Option<(Draft, nrml::Writer)>,
     /// Numbers of the walls of each class.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
+    /// The classes of each wall, with its share of them.
+    shares: Vec<Vec<(usize, f64)>>,
     /// Functions of walls in classes, one for each model where it has all curves.
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
     /// Resamples of each class, of each model and limit state.
@@ -64,6 +67,12 @@ impl<'a> Risk<'a> {
             (class, if class.walls.is_empty() { (0..walls.len()).collect() } else { named })
         });
         let classes: Vec<_> = classes.collect();
+        let mut shares = vec![Vec::new(); walls.len()];
+        for (number, (class, members)) in classes.iter().enumerate() {
+            for (&wall, share) in members.iter().zip(class.shares(members.len())) {
+                shares[wall].push((number, share));
+            }
+        }
         let states = nrml::limit_states(&manifest.report);
         let mut geometry: Vec<String> = Vec::new();
         for (key, _) in walls.iter().flat_map(|wall| self::geometry(&wall.parameters)) {
@@ -84,6 +93,7 @@ impl<'a> Risk<'a> {
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
+            shares,
             left_out: [0; 2],
         })
     }
@@ -102,9 +112,7 @@ impl<'a> Risk<'a> {
             self.write((&note.name, 1, &note.parameters), model, function.as_ref(), &known)?;
             let states = || summaries.iter().map(|summary| of_summary(summary, report)).collect();
             self.follow(&note.name, false, model, states)?;
-            for (class, (of, walls)) in self.classes.iter().enumerate() {
-                let Some(place) = walls.iter().position(|member| *member == wall) else { continue };
-                let share = of.shares(walls.len())[place];
+            for &(class, share) in &self.shares[wall] {
                 for (resamples, summary) in self.resamples[class][model].iter_mut().zip(&summaries) {
                     resamples.add(share, summary.theta.estimate, &summary.resamples);
                 }
@@ -126,8 +134,12 @@ impl<'a> Risk<'a> {
         for (number, (class, walls)) in std::mem::take(&mut self.classes).into_iter().enumerate() {
             let shares = class.shares(walls.len());
             for model in 0..contents.models.len() {
-                let members = walls.iter().map(|wall| self.members[wall][model].clone());
-                let members: Option<Vec<_>> = members.collect();
+                let of_wall = |wall: &usize| self.members[wall][model].clone();
+                let members: Option<Vec<_>> = walls.iter().map(of_wall).collect();
+                if members.is_none() {
+                    let without = walls.iter().filter(|wall| self.members[wall][model].is_none());
+                    told.push_str(&self.without_curve(class, model, &without.copied().collect::<Vec<_>>()));
+                }
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
                 let known = |(k, resamples): (usize, &ClassResamples)| {
                     let beta_modelling = self.manifest.report.modelling_uncertainty;
@@ -269,6 +281,19 @@ impl<'a> Risk<'a> {
         let without_numbers =
             "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
         [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat()
+    }
+
+    /// Says that a class has no curve, as some of its walls have none.
+    fn without_curve(&self, class: &WallClass, model: usize, without: &[usize]) -> String {
+        let contents = &self.manifest.contents;
+        let first = &contents.walls[without[0]].name;
+        format!(
+            "class {:?} with {}: no curve, as {} of it, such as {first:?}, {} no curve\n",
+            class.name,
+            contents.models[model].name,
+            counted(without.len(), "wall"),
+            if without.len() == 1 { "has" } else { "have" },
+        )
     }
 
     /// Describes the result of a class.

@@ -31,6 +31,7 @@ struct Row<'a> {
     model: usize,
     state: usize,
     parameter: &'a str,
+    is_logarithmic: bool,
     found: Sensitivity,
     fitted: usize,
     explained: Option<f64>,
@@ -67,7 +68,7 @@ impl<'a> Sampled<'a> {
 
     /// The value of each parameter in each wall of the study.
     fn table(&self) -> Table {
-        let Samples { parameters, walls, rows } = self.samples;
+        let Samples { parameters, walls, rows, .. } = self.samples;
         let items = walls.iter().flat_map(|wall| rows.iter().enumerate().map(move |(k, row)| (wall, k, row)));
         let mut table = Table::over(items)
             .text("wall", "", |(wall, sample, _)| self.samples.name(wall, *sample))
@@ -80,7 +81,7 @@ impl<'a> Sampled<'a> {
     }
 
     fn rows(&self) -> Vec<Row<'a>> {
-        let Samples { parameters, walls, rows } = self.samples;
+        let Samples { parameters, is_logarithmic, walls, rows } = self.samples;
         let count = rows.len();
         let mut all = Vec::new();
         for (wall, of_wall) in walls.iter().zip(self.logarithms.chunks(count)) {
@@ -91,11 +92,19 @@ impl<'a> Sampled<'a> {
                         (0..count).filter_map(|sample| known(&sample)).unzip();
                     let column = |place| places.iter().map(|&sample| rows[sample][place]).collect();
                     let columns: Vec<Vec<f64>> = (0..parameters.len()).map(column).collect();
-                    let (found, explained) = sensitivities(&columns, &numbers);
+                    let (found, explained) = sensitivities(&columns, is_logarithmic, &numbers);
                     let fitted = numbers.len();
-                    let row =
-                        |(parameter, found)| Row { wall, model, state, parameter, found, fitted, explained };
-                    all.extend(parameters.iter().map(String::as_str).zip(found).map(row));
+                    let of_parameters = parameters.iter().zip(is_logarithmic).zip(found);
+                    all.extend(of_parameters.map(|((parameter, &is_logarithmic), found)| Row {
+                        wall,
+                        model,
+                        state,
+                        parameter,
+                        is_logarithmic,
+                        found,
+                        fitted,
+                        explained,
+                    }));
                 }
             }
         }
@@ -112,7 +121,7 @@ impl<'a> Sampled<'a> {
             .value("with_curve", |row| row.fitted)
             .text("parameter", "", |row| row.parameter.to_owned())
             .value("rank_correlation", |row| row.found.rank_correlation)
-            .value("logarithm", |row| row.found.is_logarithmic)
+            .value("logarithm", |row| row.is_logarithmic)
             .value("coefficient", |row| row.found.coefficient)
             .value("standardised_coefficient", |row| row.found.standardised)
             .value("r_squared", |row| row.explained)
@@ -130,6 +139,7 @@ impl<'a> Sampled<'a> {
             .text("", "model", |row| contents.models[row.model].name.clone())
             .text("", "parameter", |row| row.parameter.to_owned())
             .number("", "rank correlation", two, |row| row.found.rank_correlation)
+            .text("", "taken as", |row| if row.is_logarithmic { "logarithm" } else { "itself" }.to_owned())
             .number("", "standardised coefficient", two, |row| row.found.standardised)
             .number("", "coefficient", two, |row| row.found.coefficient)
             .number("", "R²", two, |row| row.explained)
@@ -141,7 +151,7 @@ impl<'a> Sampled<'a> {
             "<section><h2>Which parameter explains θ</h2><p class=\"subtitle\">Each wall stands for {} \
              samples of {}; samples.csv has their values. For u<sub>max</sub>/u<sub>ins</sub> = {}: \
              Spearman’s correlation of each parameter with θ, and a linear regression of ln θ on the \
-             logarithms of the parameters, or on a parameter itself where a sample of it is not positive. A \
+             logarithms of the parameters; a parameter whose distribution reaches near 0 is taken itself. A \
              standardised coefficient is in standard deviations. Other limit states are in sensitivity.csv.\
              </p><div class=\"scroll\">{}</div></section>",
             self.samples.rows.len(),

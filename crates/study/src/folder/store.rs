@@ -18,6 +18,8 @@ use super::error::FolderError;
 use super::part;
 
 const STUDY: &str = "study.json";
+/// The page. It is removed before the tables are written, and comes last: with it they are complete.
+pub(crate) const PAGE: &str = "study.html";
 /// Largest description that is read; it has room for millions of walls.
 const MAX_STUDY_BYTES: u64 = 4 << 30;
 const RUNS: &str = "runs";
@@ -65,6 +67,10 @@ impl Folder {
 
     fn create(path: &Path, manifest: Manifest) -> Result<Self, FolderError> {
         file::make_folder(&path.join(RUNS))?;
+        if read(path).is_ok_and(|earlier| earlier != manifest) {
+            // its tables are those of another report
+            file::remove(&path.join(PAGE))?;
+        }
         let mut draft = Draft::new(&path.join(STUDY), b"")?;
         draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
         draft.write(|file| file.write_all(b"\n"))?;
@@ -170,8 +176,8 @@ impl Folder {
         })
     }
 
-    /// Makes the error that names what is missing.
-    pub fn incomplete(&self, missing: &[usize]) -> FolderError {
+    /// Makes the error that names what is missing, and what of it is damaged, here or in other folders.
+    pub(crate) fn incomplete(&self, missing: &[usize], others: &[Self]) -> FolderError {
         let contents = self.contents();
         let name = |index: usize| {
             let case = contents.case(index);
@@ -186,7 +192,13 @@ impl Folder {
         let cases = missing.iter().flat_map(|&part| contents.part(part));
         let names: Vec<_> = cases.take(NAMED).map(name).collect();
         let more = if count > NAMED { " …" } else { "" };
-        FolderError::Missing { missing: count, all: contents.count(), names: names.join(", ") + more }
+        let damage = others.iter().chain([self]).filter_map(|folder| folder.damage(missing));
+        FolderError::Missing {
+            missing: count,
+            all: contents.count(),
+            names: names.join(", ") + more,
+            damage: damage.map(|told| format!("; {told}")).collect(),
+        }
     }
 
     /// Removes the incomplete files of killed processes, unless another process works on the folder.

@@ -29,6 +29,18 @@ pub enum Shape {
 
 /// Most of a distribution that limits may cut off.
 const MOST_CUT: f64 = 0.5;
+/// A distribution whose lowest thousandth ends above this part of its median is one of positive values.
+const FAR_FROM_ZERO: f64 = 0.1;
+
+/// Writes limits; the largest numbers stand for none.
+pub fn range([least, most]: [f64; 2]) -> String {
+    match (least == f64::MIN, most == f64::MAX) {
+        (true, true) => "any number".to_owned(),
+        (true, false) => format!("at most {most}"),
+        (false, true) => format!("at least {least}"),
+        (false, false) => format!("{least} to {most}"),
+    }
+}
 
 /// A distribution within limits.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,11 +66,11 @@ impl Distribution {
         let distribution = Self { shape, limits, parts };
         let cut = distribution.cut();
         if cut > MOST_CUT {
-            let [low, high] = limits;
             return Err(format!(
-                "{:.3} % of it is outside the limits {low} to {high}, and at most {} % may be; are its unit \
-                 and order right?",
+                "{:.3} % of it is outside its limits ({}), and at most {} % may be; are its unit and order \
+                 right?",
                 100.0 * cut,
+                range(limits),
                 100.0 * MOST_CUT
             ));
         }
@@ -73,6 +85,15 @@ impl Distribution {
     /// Returns the limits.
     pub fn limits(&self) -> [f64; 2] {
         self.limits
+    }
+
+    /// Returns whether its logarithm is the natural scale: it is lognormal, or its values are positive and
+    /// not near 0 (the thousandth is above a tenth of the median).
+    pub fn is_logarithmic(&self) -> bool {
+        matches!(self.shape, Shape::Lognormal { .. }) || {
+            let [thousandth, median] = [0.001, 0.5].map(|part| self.value(part));
+            median > 0.0 && thousandth > FAR_FROM_ZERO * median
+        }
     }
 
     /// Returns the value that a part, above 0 and below 1, of the truncated distribution is below.
@@ -120,7 +141,7 @@ impl Shape {
                 }
                 let outside = values.iter().find(|[value, _]| !(least..=most).contains(value));
                 outside.map_or(Ok(()), |[value, _]| {
-                    Err(format!("its value {value} is outside the limits {least} to {most}"))
+                    Err(format!("its value {value} is outside its limits ({})", range([least, most])))
                 })
             }
             _ => Ok(()),

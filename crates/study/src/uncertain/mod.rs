@@ -20,7 +20,7 @@ use rocking_wall::scene::{Scene, SceneError};
 use run::walls::NamedWall;
 use serde::{Deserialize, Serialize};
 
-pub use distribution::{Distribution, Shape};
+pub use distribution::{Distribution, Shape, range};
 pub use hypercube::{hypercube, pearson_of_spearman};
 pub use sensitivity::{Sensitivity, rank_correlation, ranks, sensitivities};
 
@@ -42,6 +42,8 @@ pub struct Uncertain {
 pub struct Samples {
     /// Names of the parameters.
     pub parameters: Vec<String>,
+    /// Whether the logarithm of a parameter is its natural scale ([`Distribution::is_logarithmic`]).
+    pub is_logarithmic: Vec<bool>,
     /// Names of the walls of the file, whose samples are the walls of the study in their order.
     pub walls: Vec<String>,
     /// The value of each parameter in each sample, in the units of the parameters.
@@ -77,6 +79,7 @@ impl Uncertain {
     pub fn samples(&self, walls: &[NamedWall]) -> Result<Samples, String> {
         Ok(Samples {
             parameters: self.parameters.iter().map(|(name, _)| name.clone()).collect(),
+            is_logarithmic: self.parameters.iter().map(|(_, of)| of.is_logarithmic()).collect(),
             walls: walls.iter().map(|wall| wall.name.clone()).collect(),
             rows: self.rows()?,
         })

@@ -7,8 +7,6 @@ use super::hypercube::cholesky;
 pub struct Sensitivity {
     /// Spearman's correlation of the ranks \[-\]; `None` where all samples are alike.
     pub rank_correlation: Option<f64>,
-    /// Whether the regression takes the logarithm of the parameter: all its samples are above 0.
-    pub is_logarithmic: bool,
     /// Coefficient of the regression; of a logarithm the exponent with which θ changes \[-\].
     pub coefficient: Option<f64>,
     /// The coefficient in standard deviations of the number, per standard deviation of the parameter \[-\].
@@ -16,14 +14,17 @@ pub struct Sensitivity {
 }
 
 /// Returns what each parameter explains of the numbers of some samples, and R² of the regression on all
-/// parameters together. `columns` has the samples of each parameter.
+/// parameters together. `columns` has the samples of each parameter; of some, all above 0, the regression
+/// takes the logarithm.
 ///
 /// There is no regression where the samples are not more than the parameters and 1, or a parameter follows
 /// from others.
-pub fn sensitivities(columns: &[Vec<f64>], numbers: &[f64]) -> (Vec<Sensitivity>, Option<f64>) {
-    let is_logarithmic: Vec<bool> =
-        columns.iter().map(|column| column.iter().all(|value| *value > 0.0)).collect();
-    let scaled = columns.iter().zip(&is_logarithmic).map(|(column, is_logarithmic)| {
+pub fn sensitivities(
+    columns: &[Vec<f64>],
+    is_logarithmic: &[bool],
+    numbers: &[f64],
+) -> (Vec<Sensitivity>, Option<f64>) {
+    let scaled = columns.iter().zip(is_logarithmic).map(|(column, is_logarithmic)| {
         if *is_logarithmic { column.iter().copied().map(libm::log).collect() } else { column.clone() }
     });
     let scaled: Vec<Vec<f64>> = scaled.collect();
@@ -45,7 +46,6 @@ pub fn sensitivities(columns: &[Vec<f64>], numbers: &[f64]) -> (Vec<Sensitivity>
         let spread = number.as_ref().zip(units[place].as_ref()).map(|((_, y), (_, x))| y / x);
         found.push(Sensitivity {
             rank_correlation: rank_correlation(column, numbers),
-            is_logarithmic: is_logarithmic[place],
             coefficient: standardised.zip(spread).map(|(coefficient, spread)| coefficient * spread),
             standardised,
         });

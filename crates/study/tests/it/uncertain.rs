@@ -73,6 +73,25 @@ fn ranks_have_their_correlation() {
     }
 }
 
+/// The distribution decides, not the samples: one that reaches near 0 is taken itself.
+#[test]
+fn a_logarithm_is_taken_of_what_is_far_from_zero() {
+    for (distribution, is_logarithmic) in [
+        ("{ lognormal = [0.05, 1.0] }", true),
+        ("{ normal = [0.05, 0.01] }", true),
+        // a thousandth is below 0.05 − 3.09·0.018, cut off at 0
+        ("{ normal = [0.05, 0.018] }", false),
+        ("{ normal = [0.05, 0.05], within = [0.001, 0.2] }", false),
+        ("{ uniform = [0.02, 0.1] }", true),
+        ("{ uniform = [0.002, 0.1] }", false),
+        ("{ values = [0.02, 0.1] }", true),
+        ("{ values = [0.001, 0.1] }", false),
+    ] {
+        let uncertain = read(&format!("samples = 9\n[uncertain.parameters]\na1 = {distribution}\n"));
+        assert_eq!(uncertain.parameters[0].1.is_logarithmic(), is_logarithmic, "{distribution}");
+    }
+}
+
 /// The samples are those of every machine, to the last bit.
 #[test]
 fn samples_are_pinned() {
@@ -97,8 +116,7 @@ fn sensitivities_are_those_of_formulas() {
         [vec![1.0, 3.0, 2.0, 5.0, 4.0, 6.0], vec![2.0, -1.0, 4.0, 3.0, 6.0, 5.0], vec![7.0; 6]];
     let number = |k: usize| 1.5 + 2.0 * columns[0][k].ln() - 0.25 * columns[1][k];
     let numbers: Vec<f64> = (0..6).map(number).collect();
-    let (found, explained) = sensitivities(&columns, &numbers);
-    assert_eq!(found.iter().map(|one| one.is_logarithmic).collect::<Vec<_>>(), [true, false, true]);
+    let (found, explained) = sensitivities(&columns, &[true, false, true], &numbers);
     // normal equations of two columns whose correlation is below 0.9 keep all but 2 digits
     assert!((found[0].coefficient.unwrap() - 2.0).abs() < 1e-13, "{found:?}");
     assert!((found[1].coefficient.unwrap() + 0.25).abs() < 1e-13);
@@ -136,9 +154,12 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ("[uncertain.parameters]\nheight = { norml = [3, 1] }", "(did you mean \"normal\"?)"),
         (
             "[uncertain.parameters]\nhinge_ratio = { normal = [5, 1] }",
-            "of it is outside the limits 0.01 to 0.99",
+            "of it is outside its limits (0.01 to 0.99), and at most 50 %",
         ),
-        ("[uncertain.parameters]\na1 = { values = [0.1, 3] }", "its value 3 is outside the limits"),
+        (
+            "[uncertain.parameters]\na1 = { values = [0.1, 3] }",
+            "its value 3 is outside its limits (0.000000001 to 1)",
+        ),
         (
             "samples = 3\n[uncertain.parameters]\na1 = { uniform = [0.1, 0.3] }\n\
              d1 = { uniform = [0.1, 0.3] }",
@@ -160,7 +181,7 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
     let cut = "[uncertain.parameters]\nthickness = { normal = [0.3, 0.1], within = [0.2, 0.6] }";
     let (_, warnings) = StudyFile::parse("study.toml", &with(cut)).unwrap().uncertain.unwrap();
     // Φ(−1) + Φ(−3)
-    assert_eq!(warnings, ["[uncertain] thickness: the limits 0.2 to 0.6 cut off 16.00 % of it"]);
+    assert_eq!(warnings, ["[uncertain] thickness: its limits (0.2 to 0.6) cut off 16.00 % of it"]);
 }
 
 /// Samples are walls of the study and of its classes, and stay the same on another machine.

@@ -280,7 +280,7 @@ fn other_studies_and_bad_ones_are_refused() {
         fs::write(folder.join(name), STUDY.replace(from, to)).unwrap();
     };
     change("wall.toml", "height = 3,", "height = 3.1,");
-    let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder with -o"];
+    let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder"];
     refused(&folder, &["study", "ida", "wall.toml", "-o", "out"], &other);
     fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
     refused(&folder, &["study", "ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);

@@ -150,7 +150,7 @@ fn analyse(
 pub(crate) fn merge(console: &Console<'_>, arguments: &MergeArguments) -> Result<()> {
     let folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>, _>>()?;
     let into = arguments.output.as_ref().map(checked).transpose()?;
-    let target = study::folder::merge(folders, into.map(PathBuf::as_path), |damage| console.warn(damage))?;
+    let target = study::folder::merge(folders, into.map(PathBuf::as_path))?;
     finish(console, &target, parallel::threads(None).get())
 }
 
