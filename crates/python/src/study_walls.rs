@@ -11,6 +11,9 @@ use run::walls::wall_parameters;
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};
 
+/// Ratios of a wall object, which belong to the damping model of its own runs.
+const DAMPING: [&str; 2] = ["xi", "c_bar"];
+
 /// Makes the walls of a study, and warns of what the study does not use of them.
 pub(crate) fn named_walls(
     given: &[(String, Bound<'_, PyAny>)],
@@ -26,7 +29,7 @@ pub(crate) fn named_walls(
                 unused.push((name, names));
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
-            walls.push(NamedWall { floors, ..NamedWall::new(name.clone(), parameters) });
+            walls.push(NamedWall { floors, ..NamedWall::new(name.clone(), parameters) }.without_damping());
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }
@@ -50,7 +53,8 @@ fn unused_names(wall: &Wall) -> Vec<&'static str> {
         name => parameter_text(&wall.scene.parameters, name) != parameter_text(&default, name),
     };
     let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
-    let not_of_study = names.filter(|name| wall_parameters().all(|of_study| of_study != *name));
+    let not_of_study =
+        names.filter(|name| DAMPING.contains(name) || wall_parameters().all(|of_study| of_study != *name));
     let motion = wall.scene.excitation.is_some().then_some("the motion of its scene");
     not_of_study.filter(given).chain(motion).collect()
 }

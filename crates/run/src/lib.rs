@@ -42,4 +42,5 @@ pub mod rotations;
 pub mod sample;
 pub mod shaking;
 mod wall_table;
+pub mod wall_text;
 pub mod walls;

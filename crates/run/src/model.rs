@@ -195,16 +195,22 @@ impl Model {
         losses.map(Self::new).into()
     }
 
-    /// Returns the parameters of a wall with this model's damping and impact, upright and at rest.
+    /// Returns the parameters of a wall with this model's damping and impact, upright and at rest. A model
+    /// without a ratio of its own takes the ξ or c̄ that the wall states, and else the one that is computed.
     ///
     /// # Errors
     /// [`ParameterError`] if the ratio is that of Eq. (14) and the parameters make no wall, or one with e =
     /// 0.
     pub fn applied_to(&self, wall: &Parameters) -> Result<Parameters, ParameterError> {
-        let mut parameters =
-            Parameters { impact: Impact::None, u_start: 0.0, u_dot_start: 0.0, ..wall.clone() };
-        parameters.set_damping(Damping::NONE);
+        let mut parameters = Parameters {
+            damping_model: DampingModel::None,
+            impact: Impact::None,
+            u_start: 0.0,
+            u_dot_start: 0.0,
+            ..wall.clone()
+        };
         match self.loss {
+            EnergyLoss::Viscous(Damping { model, ratio: None }) => parameters.damping_model = model,
             EnergyLoss::Viscous(damping) => parameters.set_damping(damping),
             EnergyLoss::Equation14(model) => {
                 let e = Wall::new(&parameters)?.restitution();
@@ -243,6 +249,22 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_model_takes_the_ratio_of_the_wall_where_it_has_none() {
+        let wall = Parameters { xi: 0.03, c_bar: 0.2, ..Parameters::default() };
+        let ratio = |name: &str| {
+            let model = Model::new(EnergyLoss::named(name).unwrap());
+            Wall::new(&model.applied_to(&wall).unwrap()).unwrap().damping_ratio()
+        };
+        assert_eq!([ratio("CDC"), ratio("CDR"), ratio("SDR")], [0.03; 3]);
+        assert_eq!([ratio("CR"), ratio("none")], [0.0; 2]);
+        let own = Model::new(EnergyLoss::Viscous(Damping::given(DampingModel::ConstantRatio, 0.05)));
+        assert_eq!(own.applied_to(&wall).unwrap().xi, 0.05);
+        let block = Model::new(DampingModel::FreeStandingBlock).applied_to(&wall).unwrap();
+        assert_eq!((block.c_bar, block.damping()), (0.2, Damping::given(block.damping_model, 0.2)));
+        assert!(ratio("CDR Eq. 14") != 0.03);
+    }
 
     #[test]
     fn names_and_colours_are_told_apart() {

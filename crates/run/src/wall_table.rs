@@ -191,7 +191,8 @@ mod tests {
             ),
             ("name|height\na|3\n", "line 1: expected columns between commas, semicolons, tabs or blanks"),
             ("name,height\na,\u{2212}3\n", "write minus signs as `-`; this one is U+2212"),
-            ("name,xi\na,0.1", "line 1: \"xi\" is not a parameter"),
+            ("name,impact\na,none", "line 1: \"impact\" is not a parameter"),
+            ("name,xi\na,11", "line 2: xi"),
             ("name,height\na,3\nb,-3", "line 3: height"),
             ("name,height\na", "line 2: expected 2 values, one for each column, found 1"),
             (

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
     Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable, apply_group,
-    parameters, parse_toml, read_floors, to_toml,
+    parameters, parse_toml, read_floors,
 };
 use rocking_wall::tables;
 use rocking_wall::wall::{Bar, COMPUTED, Parameters};
@@ -15,13 +15,20 @@ use toml::Spanned;
 use crate::wall_table;
 
 /// Groups of parameters that a wall of a study may state.
-const WALL_GROUPS: [&str; 5] = ["geometry", "force_law", "impact", "tie", "solver"];
+pub(crate) const WALL_GROUPS: [&str; 6] = ["geometry", "force_law", "damping", "impact", "tie", "solver"];
+/// Parameters of these groups that the models of a study set.
+const OF_MODELS: [(&str, &str); 2] = [
+    ("damping_model", "damping_model is set by the study's models; state xi and c_bar only"),
+    ("impact", "impact is set by the study's models; state restitution_source and restitution only"),
+];
+
 /// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedWall {
     /// Name in tables and messages.
     pub name: String,
-    /// Parameters. The coefficient of restitution that they state or imply serves every model.
+    /// Parameters. The coefficient of restitution that they state or imply serves every model, ξ and c̄ each
+    /// model that takes it and has none of its own.
     pub parameters: Parameters,
     /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
     pub floors: Option<Floors>,
@@ -46,6 +53,13 @@ pub fn assumed(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
 }
 
 impl NamedWall {
+    /// Leaves out ξ and c̄ of a scene: they belong to the damping model of its own run.
+    #[must_use]
+    pub fn without_damping(mut self) -> Self {
+        (self.parameters.xi, self.parameters.c_bar) = (COMPUTED, COMPUTED);
+        self
+    }
+
     /// Makes a wall on the ground.
     pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
         Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), entry: 0 }
@@ -95,9 +109,13 @@ tables! {
         /// Restoring force.
         #[serde(default)]
         force_law: Group,
+        /// ξ and c̄ for models that state none; the models of a study set the damping.
+        #[serde(default)]
+        #[key(properties = without_model("damping"))]
+        damping: Group,
         /// Restitution; the models of a study set the impact.
         #[serde(default)]
-        #[key(properties = restitution())]
+        #[key(properties = without_model("impact"))]
         impact: Group,
         /// Tie of a parapet.
         #[serde(default)]
@@ -108,26 +126,15 @@ tables! {
     }
 }
 
-/// Describes what a wall of a study states of its impact.
-fn restitution() -> Schema {
-    let mut parameters = parameters("impact");
-    parameters.remove("impact");
+/// Describes the parameters of a group that the models of a study do not set.
+fn without_model(group: &str) -> Schema {
+    let mut parameters = parameters(group);
+    parameters.retain(|name, _| !is_of_models(name));
     parameters
 }
 
-/// A wall as [`wall_text`] writes it.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WallText {
-    geometry: Group,
-    force_law: Group,
-    impact: Group,
-    #[serde(default)]
-    tie: Group,
-    solver: Group,
-    #[serde(default)]
-    storeys: Vec<Spanned<StoreyTable>>,
-    supports: Option<Spanned<SupportsTable>>,
+pub(crate) fn is_of_models(name: &str) -> bool {
+    OF_MODELS.iter().any(|(of_models, _)| *of_models == name)
 }
 
 /// A file of walls for a check. It may be a study: its other keys are ignored.
@@ -195,10 +202,11 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
     let spec = table.get_ref();
     // crates/check reads it
     let _ = spec.check;
-    let [geometry, force_law, impact, tie, solver] = WALL_GROUPS;
+    let [geometry, force_law, damping, impact, tie, solver] = WALL_GROUPS;
     let groups = [
         (geometry, &spec.geometry),
         (force_law, &spec.force_law),
+        (damping, &spec.damping),
         (impact, &spec.impact),
         (tie, &spec.tie),
         (solver, &spec.solver),
@@ -216,9 +224,11 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
         let source = if kind == "scene" { WallSource::Scene } else { WallSource::Table };
         return Ok(WallEntry { name: spec.name.clone(), source: source(path.clone(), line), floors: None });
     }
-    if let Some(key) = spec.impact.keys().find(|key| key.get_ref() == "impact") {
-        let message = "impact is set by the study's models; state restitution_source and restitution only";
-        return Err(place.error(key.span(), message));
+    for (name, message) in OF_MODELS {
+        let keys = groups.iter().flat_map(|(_, group)| group.keys());
+        if let Some(key) = keys.into_iter().find(|key| key.get_ref() == name) {
+            return Err(place.error(key.span(), message));
+        }
     }
     if spec.name.is_none() {
         return Err(place.error(table.span(), "a wall needs a name, such as name = \"1\""));
@@ -238,45 +248,8 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
 /// Returns the names of the parameters that a wall of a study may state.
 pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
     let groups = GROUPS.iter().filter(|(group, _)| WALL_GROUPS.contains(group));
-    // the impact is that of the models
-    let names = groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| *name != "impact");
+    let names = groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| !is_of_models(name));
     names.chain(Bar::NUMBERS.map(|number| number.usual.name))
-}
-
-/// Writes the parameters and storeys of a wall as tables of a study file.
-pub fn wall_text(wall: &NamedWall) -> String {
-    let (parameters, floors) = (wall.parameters.clone(), wall.floors.clone());
-    let text = to_toml(&Scene { parameters, floors, ..Scene::default() }, "");
-    let mut is_wanted = false;
-    let mut kept = String::new();
-    for line in text.lines() {
-        if line.starts_with('[') {
-            let group = line.trim_matches(['[', ']']);
-            is_wanted = WALL_GROUPS.contains(&group) || ["supports", "storeys"].contains(&group);
-        }
-        if is_wanted && !line.is_empty() && !line.starts_with("impact =") {
-            kept.push_str(line);
-            kept.push('\n');
-        }
-    }
-    kept
-}
-
-/// Reads a wall from its tables.
-///
-/// # Errors
-/// [`SceneError`] with line and value.
-pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
-    let place = &Place::new(&name, text);
-    let wall: WallText = parse_toml(place)?;
-    let mut parameters = Parameters::default();
-    for (group, entries) in
-        WALL_GROUPS.iter().zip([wall.geometry, wall.force_law, wall.impact, wall.tie, wall.solver])
-    {
-        apply_group(&mut parameters, group, &entries, place)?;
-    }
-    let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
-    Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })
 }
 
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are

@@ -7,7 +7,8 @@ use rocking_wall::scene::{SceneError, read_text};
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
 use run::records::{NamedRecord, all_records, record_files};
-use run::walls::{Ignored, NamedWall, check_unique, wall_of_text, wall_text, walls};
+use run::wall_text::{wall_of_text, wall_text};
+use run::walls::{Ignored, NamedWall, WallSource, check_unique, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Study};
@@ -64,7 +65,9 @@ impl LoadedStudy {
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            all.extend(walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
+            let is_scene = matches!(entry.source, WallSource::Scene(..));
+            let found = walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?;
+            all.extend(found.into_iter().map(|wall| if is_scene { wall.without_damping() } else { wall }));
         }
         let walls = Walls::of(&name, &mut file, all, &mut warnings)?;
         warn(&walls.told(), &ignored, (&file.models, &file.measure), &mut warnings);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::document::ReportOptions;
 use crate::ida::{Case, IntensityMeasure, Study};
 use rocking_wall::scene::fingerprint;
-use run::walls::wall_text;
+use run::wall_text::wall_text;
 use serde::{Deserialize, Serialize};
 
 /// What the runs of a study depend on.

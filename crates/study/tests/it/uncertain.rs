@@ -1,5 +1,9 @@
 //! Samples of uncertain parameters: strata, correlations, messages, and what explains a number.
 
+use ground_motion::{Pulse, Shape};
+use rocking_wall::wall::Parameters;
+use run::records::NamedRecord;
+use run::walls::NamedWall;
 use study::document::StudyFile;
 use study::folder::Contents;
 use study::fragility::cumulative;
@@ -182,6 +186,31 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
     let (_, warnings) = StudyFile::parse("study.toml", &with(cut)).unwrap().uncertain.unwrap();
     // Φ(−1) + Φ(−3)
     assert_eq!(warnings, ["[uncertain] thickness: its limits (0.2 to 0.6) cut off 16.00 % of it"]);
+}
+
+/// A ratio that a wall states, here by samples, is that of the models that state none: each curve has the
+/// bits of a model with this ratio. Other models do not take it.
+#[test]
+fn walls_have_damping_ratios_of_their_own() {
+    let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, frequency: 1.0 }.motion(None).unwrap();
+    let of = |models: &str, rest: &str| {
+        let text =
+            format!("models = [{models}]\nlevels = {{ method = \"step\", step = 0.1, top = 1 }}\n{rest}");
+        let records = vec![NamedRecord { name: "pulse".to_owned(), motion: pulse.clone() }];
+        let wall = NamedWall::new("a", Parameters { height: 3.0, thickness: 0.3, ..Parameters::default() });
+        LoadedStudy::of_parts(text, vec![wall], records).unwrap()
+    };
+    let own = "{ model = \"CDR\", xi = 0.1 }";
+    let uncertain = "[uncertain]\nsamples = 3\n[uncertain.parameters]\nxi = { uniform = [0.01, 0.3] }\n";
+    let sampled = of(&format!("\"CDC\", \"CR\", {own}"), uncertain);
+    let found = sampled.study.run(1).unwrap();
+    assert!(found[0] != found[3], "the ratio counts");
+    for (row, curves) in sampled.report.samples.as_ref().unwrap().rows.iter().zip(found.chunks(3)) {
+        let stated = format!("{{ model = \"CDC\", xi = {:?} }}, \"CR\", {own}", row[0]);
+        assert_eq!(of(&stated, "").study.run(1).unwrap(), curves, "{row:?}");
+    }
+    let unused = of("\"CR\"", uncertain).warnings;
+    assert!(unused.iter().any(|told| told.contains("xi") && told.contains("no effect")), "{unused:?}");
 }
 
 /// Samples are walls of the study and of its classes, and stay the same on another machine.
