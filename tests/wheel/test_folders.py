@@ -109,6 +109,47 @@ def test_results_of_another_report_are_not_read(study, tmp_path):
         rw.read_results(tmp_path / "out")
 
 
+def test_a_study_of_parts_becomes_a_file(tmp_path):
+    """A study of objects, dictionaries and arrays gives the same tables from its file; ξ of a wall too."""
+    walls = {"low": rw.Wall(1.5, 0.25), "own": {"height": 3, "thickness": 0.25, "xi": 0.07}}
+    rng = np.random.default_rng(5)
+    records = [rw.synthetic_record(rng, duration=10) for _ in range(3)]
+    levels = {"method": "step", "step": 0.4, "top": 4}
+    report = {"resamples": 100, "seed": np.random.default_rng(7)}
+    study = rw.Study(walls=walls, records=records, models=["CR", "CDC"], levels=levels, report=report)
+    study.to_toml(tmp_path / "study.toml")
+    again = rw.Study(tmp_path / "study.toml")
+    for name, each in {"parts": study, "file": again}.items():
+        each.run(tmp_path / name, progress=False)
+    assert files(tmp_path / "parts") == files(tmp_path / "file")
+    with pytest.raises(FileExistsError):
+        study.to_toml(tmp_path / "study.toml")
+    with pytest.raises(ValueError, match="is a file already"):
+        again.to_toml(tmp_path / "other.toml")
+    mixed = [records[0], rw.synthetic_record(dt=0.01)]
+    with pytest.raises(ValueError, match="steps of 0.005 s and 0.01 s"):
+        rw.Study(walls=walls, records=mixed, models=["CDC"], levels=levels).to_toml(
+            tmp_path / "b.toml"
+        )
+    floor = rw.Storey(period=0.3)
+    wall = rw.Wall(2, 0.3).on_storeys([floor])
+    housed = rw.Study(walls=wall, records=records, models=["CR"], levels=levels)
+    with pytest.raises(ValueError, match="stands on storeys"):
+        housed.to_toml(tmp_path / "c.toml")
+    assert not list(tmp_path.glob("[bc]*.toml")) and not list(tmp_path.glob("[bc]_records"))
+
+
+def test_results_become_a_dataset(study):
+    found = rw.read_results(study[1])
+    data = found.to_xarray()
+    assert data["theta_g"].dims == ("wall", "model", "u_max_over_u_ins")
+    assert data["collapse_g"].dims == ("wall", "model", "record")
+    assert data["wall"].values.tolist() == ["1", "2"] and data["model"].values.tolist() == ["CR", "CDC"]
+    for row in found.collapses.rows():
+        place = {name: row[name] for name in ("wall", "model", "record")}
+        np.testing.assert_equal(data["collapse_g"].sel(place).item(), row["collapse_g"])
+
+
 def test_shards_are_merged(study, tmp_path):
     asked, given = study
     for number in (1, 2, 3):

@@ -3,7 +3,9 @@
 import doctest
 import importlib
 import importlib.metadata
+import json
 import os
+import pydoc
 import re
 import subprocess
 import sys
@@ -56,6 +58,15 @@ def test_examples_in_the_documentation(module):
     assert doctest.testmod(module, extraglobs=names).failed == 0
 
 
+def test_help_names_the_keys_of_a_study():
+    told = pydoc.render_doc(rw.options, renderer=pydoc.plaintext)
+    schema = json.loads(_native.study_schema())
+    for table in ("Intensity", "Levels", "Report", "Class", "Hazard", "Uncertain", "Reliability"):
+        for key in schema["$defs"][f"{table}Table"]["properties"]:
+            keys = told.partition(f"class {table}(")[2].partition("\n    class ")[0]
+            assert f"- {key}: " in keys, (table, key)
+
+
 def test_every_public_name_is_documented():
     for name in rw.__all__:
         assert getattr(rw, name).__doc__, name
@@ -66,7 +77,10 @@ def test_types(tmp_path):
         "import rocking_wall as rw\n"
         "u: float = rw.Wall(height=3, damping_model='none').simulate(rw.synthetic_record()).u_max\n"
         "rw.Wall(hight=3)  # type: ignore[call-arg]\n"
-        "rw.Wall(impact='hard')  # type: ignore[arg-type]\n",
+        "rw.Wall(impact='hard')  # type: ignore[arg-type]\n"
+        "levels: rw.options.Levels = {'method': 'grid', 'values': [1.0]}\n"
+        "rw.Study(walls=rw.Wall(), records=rw.synthetic_record(), models=['CR'], levels=levels)\n"
+        "levels = {'method': 'grid', 'valeus': [1.0]}  # type: ignore[typeddict-unknown-key]\n",
         encoding="utf-8",
     )
     mypy = [sys.executable, "-m", "mypy", "--config-file", CONFIG]

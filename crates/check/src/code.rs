@@ -23,7 +23,7 @@ use std::fmt::{self, Write};
 
 use report::number;
 use report::table::{Cell, Column, Digits, Table};
-use rocking_wall::scene::{Floors, Scene, Schema, suggestion, with};
+use rocking_wall::scene::{Floors, Scene, Schema, suggestion};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
@@ -246,10 +246,16 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits)
     Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
 }
 
-/// Describes the table `[check]`, that of any code, and adds the tables that it refers to.
-pub fn schema(tables: &mut Schema) -> Schema {
-    let codes = CODES.map(|code| (code.describe)("check", tables));
-    with(Schema::new(), "anyOf", codes.to_vec())
+/// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
+pub fn complete(schema: &mut Schema) {
+    let mut tables = Schema::new();
+    let codes = CODES.map(|code| (code.describe)("check", &mut tables)).to_vec();
+    if let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") {
+        check.insert("anyOf".to_owned(), codes.into());
+    }
+    if let Some(all) = schema["$defs"].as_table_mut() {
+        all.extend(tables);
+    }
 }
 
 /// Says how to write a table `[check]`.

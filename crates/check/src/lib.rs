@@ -11,7 +11,7 @@ mod rule;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read, schema};
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, complete, how_to_write, read};
 pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};

@@ -11,7 +11,7 @@
 //! | `tables` | tables for Python |
 //! | `watch` | the number of threads, and work on another one while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
-//! | `variables` | the parameters of the model description |
+//! | `variables` | the parameters of the model description, the schema of studies |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
 //! | `jobs` | checks by codes, rocking spectra, ties of any stiffness, damping that matches restitution |
@@ -54,7 +54,7 @@ mod _native {
         },
         responses::picture_of_response,
         studies::Study,
-        variables::{calculated, variables},
+        variables::{calculated, study_schema, variables},
         walls::Wall,
     };
     #[pymodule_export]

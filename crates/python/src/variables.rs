@@ -1,10 +1,13 @@
-//! The parameters of the model description.
+//! The parameters of the model description, and the schema of studies.
 
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::GROUPS;
 use rocking_wall::variables::{IntegerVariable, RealVariable};
+use study::document::StudyFile;
+
+use crate::errors::failed;
 
 /// Lists the parameters: name, group, unit, description, limits or choices, default.
 #[pyfunction]
@@ -19,6 +22,14 @@ pub(crate) fn calculated() -> Vec<(&'static str, &'static str, &'static str)> {
     let all = RealVariable::ALL.iter().map(|variable| variable.variable());
     let calculated = all.filter(|variable| variable.causality == Causality::CalculatedParameter);
     calculated.map(|variable| (variable.name, variable.description, unit(variable))).collect()
+}
+
+/// Returns the JSON schema of a study file.
+#[pyfunction]
+pub(crate) fn study_schema() -> PyResult<String> {
+    let mut schema = StudyFile::schema();
+    check::complete(&mut schema);
+    serde_json::to_string(&schema).map_err(failed)
 }
 
 /// Returns the unit of a variable; the description writes "1" for what has none.

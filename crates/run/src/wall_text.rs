@@ -4,7 +4,7 @@ use rocking_wall::scene::{
     Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml, read_floors,
     to_toml,
 };
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{COMPUTED, Parameters};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -29,7 +29,10 @@ struct WallText {
 
 /// Writes the parameters and storeys of a wall as tables of a study file.
 pub fn wall_text(wall: &NamedWall) -> String {
-    let (parameters, floors) = (wall.parameters.clone(), wall.floors.clone());
+    let Parameters { xi, c_bar, .. } = wall.parameters;
+    // with a ratio of its own a scene leaves out e, which other models need
+    let parameters = Parameters { xi: COMPUTED, c_bar: COMPUTED, ..wall.parameters.clone() };
+    let floors = wall.floors.clone();
     let text = to_toml(&Scene { parameters, floors, ..Scene::default() }, "");
     let mut is_wanted = false;
     let mut kept = String::new();
@@ -42,6 +45,12 @@ pub fn wall_text(wall: &NamedWall) -> String {
         if is_wanted && !line.is_empty() && !is_of_models(name) {
             kept.push_str(line);
             kept.push('\n');
+            if line == "[damping]" {
+                for (name, ratio) in [("xi", xi), ("c_bar", c_bar)] {
+                    let stated = (ratio != COMPUTED).then(|| format!("{name} = {ratio:?}\n"));
+                    kept.extend(stated);
+                }
+            }
         }
     }
     kept

@@ -11,7 +11,9 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 `ValueError`, a file that is missing `FileNotFoundError`, and an unknown parameter `TypeError`.
 """
 
-from . import dask
+from warnings import warn
+
+from . import dask, options
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
 from ._folders import ReliabilityResults, StudyResults, merge, read_results
 from ._native import VERSION as __version__
@@ -61,6 +63,7 @@ __all__ = [
     "half_sine",
     "harmonic",
     "merge",
+    "options",
     "package",
     "read_channels",
     "read_record",
@@ -70,3 +73,7 @@ __all__ = [
     "synthetic_record",
     "verify",
 ]
+
+if __version__.endswith(".dev"):
+    warn(f"rocking_wall {__version__} is slow, built without optimisation; use a release", stacklevel=2)
+del warn

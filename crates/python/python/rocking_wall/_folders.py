@@ -21,6 +21,7 @@ from . import _native
 from ._tables import Table, Tabular
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
 
@@ -75,6 +76,12 @@ class StudyResults(Tabular):
             raise ValueError("NRML knows PGA, Sa(T) and AvgSA; run the study with one of these measures")
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(self.nrml)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Returns the fragilities by wall, model and limit state and the collapses by wall, model and record
+        as a Dataset of xarray, which has to be installed with pandas."""
+        fragilities = self.fragilities.to_xarray("wall", "model", "u_max_over_u_ins")
+        return fragilities.merge(self.collapses.to_xarray("wall", "model", "record"))
 
     def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
         """Draws the curves of the highest limit state of some walls and classes, by default of all.

@@ -304,13 +304,15 @@ def read_record(
 
 
 def synthetic_record(
-    seed: int = 1, *, duration: float = 30.0, dt: float = 0.005, pga: float = 3.5
+    seed: int | np.random.Generator = 1, *, duration: float = 30.0, dt: float = 0.005, pga: float = 3.5
 ) -> Record:
     """Makes filtered noise with an envelope: another `seed` gives another record of the same kind.
 
     >>> synthetic_record(7, pga=2.0)
     Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s²)
     """
+    if isinstance(seed, np.random.Generator):
+        seed = int(seed.integers(2**32))
     return Record(*_native.synthetic(seed, duration, dt, pga), name=f"synthetic {seed}")
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
@@ -19,6 +20,8 @@ from ._walls import Wall
 
 if TYPE_CHECKING:
     import pandas
+
+    from . import options
 
     AWall: TypeAlias = Wall | Mapping[str, Any]
     Walls: TypeAlias = pandas.DataFrame | Table | Wall | Sequence[AWall] | Mapping[str, AWall]
@@ -55,20 +58,21 @@ class Study:
         *,
         walls: Walls | None = None,
         records: Records | None = None,
-        models: Sequence[str | Mapping[str, Any]] | None = None,
-        levels: Mapping[str, Any] | None = None,
+        models: Sequence[str | options.Model] | None = None,
+        levels: options.Levels | None = None,
         title: str | None = None,
-        intensity: Mapping[str, Any] | None = None,
+        intensity: options.Intensity | None = None,
         tail: float | None = None,
-        collapse_is: str | None = None,
-        report: Mapping[str, Any] | None = None,
-        classes: Sequence[Mapping[str, Any]] | None = None,
-        hazard: Mapping[str, Any] | None = None,
-        uncertain: Mapping[str, Any] | None = None,
-        check: Mapping[str, Any] | None = None,
-        reliability: Mapping[str, Any] | None = None,
+        collapse_is: Literal["exceeds", "falls"] | None = None,
+        report: options.Report | None = None,
+        classes: Sequence[options.Class] | None = None,
+        hazard: options.Hazard | None = None,
+        uncertain: options.Uncertain | None = None,
+        check: options.Check | options.Fractions | None = None,
+        reliability: options.Reliability | None = None,
     ) -> None:
-        """Reads a study file, or makes a study of its parts.
+        """Reads a study file, or makes a study of its parts. `help(rocking_wall.options)` lists the keys of
+        dictionaries. A NumPy generator in place of a seed draws one.
 
         :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
             their names in a column `name` or an index of that name; or walls, or dictionaries of parameters,
@@ -111,12 +115,14 @@ class Study:
             text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())
             self._native = _native.Study.of_parts(text, named_walls(walls), named_records(records))
             self._name = "study" if title is None else title
+            self._is_file = False
         else:
             given = {name: part for name, part in {**parts, **options}.items() if part is not None}
             if given:
                 raise TypeError(f"a study file has its own {', '.join(given)}; leave them out")
             self._native = _native.Study(fspath(path))
             self._name = Path(path).stem
+            self._is_file = True
         for warning in self._native.warnings:
             warn(warning, stacklevel=2)
 
@@ -126,11 +132,23 @@ class Study:
         return cls(path)
 
     def __getstate__(self) -> tuple[Any, ...]:
-        return (self._name, self._native.sent())
+        return (self._name, self._is_file, self._native.sent())
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
-        self._name, values = state
+        self._name, self._is_file, values = state
         self._native = _native.Study.received(values)
+
+    def to_toml(self, path: str | PathLike[str]) -> None:
+        """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
+        same results to the last bit. Its records are in the folder `PATH_records` beside it, as numbers in
+        text files of their names.
+
+        Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
+        walls on storeys, records with several steps, names that are not those of files.
+        """
+        if self._is_file:
+            raise ValueError(f"the study {self._name!r} is a file already; copy it and what it names")
+        write_study(Path(path), *self._native.sent())
 
     def __repr__(self) -> str:
         walls, records, models = len(self.walls), len(self.records), len(self.models)
@@ -291,3 +309,34 @@ def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
 def read(record: object) -> object:
     """Reads a record where it is a path."""
     return read_record(record) if isinstance(record, str | PathLike) else record
+
+
+def write_study(
+    path: Path,
+    text: str,
+    walls: Sequence[tuple[str, str]],
+    records: Sequence[tuple[str, float, NDArray[np.float64]]],
+) -> None:
+    """Writes a study file with its walls, and its records beside it."""
+    tables = []
+    for name, wall in walls:
+        if "[storeys" in wall or "[supports" in wall:
+            raise ValueError(f"wall {name!r} stands on storeys, which this file would need for all walls")
+        groups = wall.replace("\n[", "\n[walls.").replace("[", "[walls.", 1)
+        tables.append(f"\n[[walls]]\nname = {toml(name)}\n{groups}")
+    steps = {step for _, step, _ in records}
+    if len(steps) > 1:
+        shown = " and ".join(f"{step:g} s" for step in sorted(steps)[:2])
+        raise ValueError(f"the records have steps of {shown}, and those of a study file have one")
+    for name, *_ in records:
+        if name in ("", ".", "..") or not set(name).isdisjoint('/\\:*?"<>|'):
+            raise ValueError(f"the record {name!r} has no name of a file; give it another one")
+    folder = path.with_name(f"{path.stem}_records")
+    files = [f"{folder.name}/{name}" for name, *_ in records]
+    described = {"files": files, "format": "numbers", "step": steps.pop(), "unit": "m/s2"}
+    with open(path, "x", encoding="utf-8", newline="") as file:
+        folder.mkdir()
+        for (_, _, samples), name in zip(records, files):
+            numbers = "".join(f"{sample!r}\n" for sample in samples.tolist())
+            (path.parent / name).write_text(numbers, encoding="utf-8", newline="")
+        file.write(f"{text}records = {toml(described)}\n{''.join(tables)}")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 
 class Table(dict[str, NDArray[Any]]):
@@ -34,6 +35,12 @@ class Table(dict[str, NDArray[Any]]):
         import pandas
 
         return pandas.DataFrame(dict(self))
+
+    def to_xarray(self, *dims: str) -> xarray.Dataset:
+        """Returns the table as a Dataset of xarray, which has to be installed with pandas. The columns `dims`
+        are its dimensions, in the order of the table."""
+        dataset: xarray.Dataset = self.to_pandas().set_index(list(dims)).to_xarray()
+        return dataset.reindex({dim: list(dict.fromkeys(self[dim].tolist())) for dim in dims})
 
     def _repr_html_(self) -> str:
         def row(cells: Sequence[Any], tag: str) -> str:
@@ -68,6 +75,8 @@ def toml(value: object) -> str:
     if isinstance(value, Mapping):
         entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
         return "{ " + ", ".join(entries) + " }"
+    if isinstance(value, np.random.Generator):
+        return str(int(value.integers(2**32)))
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):

@@ -5,7 +5,6 @@ use building::Building;
 use clap::{Args, ValueEnum};
 use rocking_wall::scene::{Document, Schema, file_schema};
 use study::document::StudyFile;
-use toml::Value;
 
 use crate::output::Console;
 
@@ -36,15 +35,7 @@ fn schema(file: File) -> Schema {
         File::Study => StudyFile::schema(),
         File::Building => Building::schema(),
     };
-    // scenes and studies leave this table to whoever checks
-    let mut tables = Schema::new();
-    let check = check::schema(&mut tables);
-    if let Some(Value::Table(own)) = schema["properties"].get_mut("check") {
-        own.extend(check);
-        if let Some(all) = schema["$defs"].as_table_mut() {
-            all.extend(tables);
-        }
-    }
+    check::complete(&mut schema);
     if let File::Scene = file {
         schema["properties"]
             .as_table_mut()
@@ -56,6 +47,7 @@ fn schema(file: File) -> Schema {
 #[cfg(test)]
 mod tests {
     use serde_json::Value as Json;
+    use toml::Value;
 
     use super::*;
 

@@ -1,0 +1,407 @@
+"""The options of a study: dictionaries with the keys of the tables of a study file.
+
+Written by `cargo xtask generate python` from the schema of studies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, Required, TypedDict
+
+from numpy.random import Generator
+
+
+class Check(TypedDict, total=False):
+    """Check of the wall by a code, which wall check reads.
+
+    - SLC: Limit state of collapse.
+    - SLD: Limit state of damage.
+    - SLV: Limit state of life safety.
+    - before_activation: The wall before it rocks: held, elastic as its law, or a beam.
+    - behaviour_factor: q of the linear check (-), at least 1; default 2.
+    - building: The building; none on the ground.
+    - code: The code: Circolare 7/2019 to NTC 2018.
+    - compression_considered: Whether the hinges are set back for compression; default False.
+    - confidence_factor: FC (-); below 1.35 only with compression_considered, at least 1; default 1.35.
+    - height_demand: Whether accelerations at a height up to T₁ are at least a_g S; default
+      "not_below_ground".
+    - hinge: Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or
+      as given; by default at the least α0 where the scene has no hinge_ratio.
+    - hinge_range: Range of hinge_ratio in which the hinge is searched (-); default [0.1, 0.9].
+    - knowledge_level: Level of knowledge instead of FC.
+    - masonry_gamma: γ that divides it (-), at least 1; default 1.
+    - masonry_over_fc: Whether FC divides it, too; default True.
+    - masonry_strength: Mean compressive strength f_m of the masonry [Pa], for which hinges are set back, at
+      least 100000.
+    - method: What decides: displacement, q, or runs under records; default "nonlinear".
+    - overburden_mass: Share r of the overburden whose mass moves with a parapet (-), at least 0.
+    - polarities: Signs with which each record acts; default "both".
+    - record_range: Periods between which records are held against the spectrum [s].
+    - record_scale: What records become in the dynamic check: their peaks a_g S, as they are, or scaled to the
+      spectrum of the ground; default "ag".
+    - records: Records of the dynamic check, and of limit states without F0 and TC.
+    - rocking: Sides to which the wall rocks in the static checks, in place of rocking of [impact].
+    - site: The site on a grid of the hazard, for limit states without ag.
+    - soil: Soil of NTC 3.2.2.
+    - stress_block: κ of the rectangular stress block (-), above 0, at most 1; default 0.85.
+    - tie: The tie in the check.
+    - topography: Topography of NTC 3.2.2, or S_T (-); default "T1".
+    - use_class: Use class of NTC 2.4.2; in class IV SLD decides too.
+    - young_modulus: E of the masonry [Pa], for "beam", above 0.
+    """
+
+    SLC: LimitState
+    SLD: LimitState
+    SLV: LimitState
+    before_activation: Literal["rigid", "law", "beam"]
+    behaviour_factor: float
+    building: Building
+    code: Required[Literal["circolare-2019"]]
+    compression_considered: bool
+    confidence_factor: float
+    height_demand: Literal["not_below_ground", "printed"]
+    hinge: Literal["least_alpha0", "worst", "given"]
+    hinge_range: Sequence[float]
+    knowledge_level: Literal["LC1", "LC2", "LC3"]
+    masonry_gamma: float
+    masonry_over_fc: bool
+    masonry_strength: float
+    method: Literal["nonlinear", "linear", "dynamic"]
+    overburden_mass: float
+    polarities: Literal["both", "as_recorded"]
+    record_range: Sequence[float]
+    record_scale: Literal["ag", "none", "spectrum"]
+    records: Records
+    rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
+    site: Site
+    soil: Literal["A", "B", "C", "D", "E"]
+    stress_block: float
+    tie: Tie
+    topography: Literal["T1", "T2", "T3", "T4"] | float
+    use_class: Literal["I", "II", "III", "IV"]
+    young_modulus: float
+
+
+class LimitState(TypedDict, total=False):
+    """A limit state: its hazard, or the spectrum at the wall's place.
+
+    - F0: F0 (-), at least 2.2.
+    - TC: T_C* [s], above 0.
+    - ag: a_g on rigid ground [g]; that of site unless given, above 0, at most 1.
+    - building_damping: Damping ratio ξ_k of the building in this limit state (-); needed at height, above 0,
+      at most 0.5.
+    - building_period: First period of the building in this limit state [s], above 0.
+    - damping: Damping ratio of the mechanism (-): 0.05, 0.08, 0.10 unless given, above 0, at most 0.5.
+    - displacement: u of a local instability [m]; SLC only, above 0.
+    - spectrum: Spectrum at the wall's place: points [T, Sa] in s and g.
+    - spectrum_damping: Damping ratio of that spectrum (-), above 0.
+    """
+
+    F0: float
+    TC: float
+    ag: float
+    building_damping: float
+    building_period: float
+    damping: float
+    displacement: float
+    spectrum: Sequence[Sequence[float]]
+    spectrum_damping: float
+
+
+class Building(TypedDict, total=False):
+    """The building at the wall's height: storeys, period and height_ratio, or modes.
+
+    - height_ratio: z/H: height of the wall over that of the building (-), at least 0, at most 1.
+    - modes: Modes at the wall's place, the first first.
+    - period: First period T₁ [s], above 0.
+    - storeys: Number of storeys n, at least 1.
+    """
+
+    height_ratio: float
+    modes: Sequence[Mode]
+    period: float
+    storeys: int
+
+
+class Mode(TypedDict, total=False):
+    """A mode of the building at the place of a wall.
+
+    - participation: γ_k ψ_k(z): participation times shape there (-).
+    - period: T_k [s], above 0.
+    """
+
+    participation: Required[float]
+    period: Required[float]
+
+
+class Records(TypedDict, total=False):
+    """Records from files, and synthetic ones after them.
+
+    - channel: Channel of records with several, by its number.
+    - column: Column of tables (CSV or text).
+    - files: Files, folders and patterns with * and ?, relative to the study file.
+    - format: Format of the files, if their content does not tell.
+    - step: Time between samples [s], likewise.
+    - synthetic: Synthetic motions.
+    - unit: Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
+    """
+
+    channel: str
+    column: str
+    files: Sequence[str]
+    format: str
+    step: float
+    synthetic: SyntheticRecords
+    unit: str
+
+
+class SyntheticRecords(TypedDict, total=False):
+    """The project's synthetic motions, of consecutive seeds.
+
+    - count: Number of records, at least 1, at most 10000.
+    - duration: Length [s].
+    - seed: Seed of the first one, at least 0.
+    - step: Step [s].
+    """
+
+    count: Required[int]
+    duration: float
+    seed: int | Generator
+    step: float
+
+
+class Site(TypedDict, total=False):
+    """A site on a grid of the hazard that the user brings.
+
+    - ag_unit: Unit of its a_g; default "g".
+    - coordinates: Latitude and longitude [°].
+    - grid: File of the grid (CSV): lon, lat and, for return periods T in years, ag_T, F0_T, TC_T.
+    - nominal_life: Nominal life V_N [years], NTC 2.4.1, above 0.
+    - use_coefficient: Use coefficient C_U (-), NTC 2.4.3, above 0.
+    """
+
+    ag_unit: Literal["g", "g/10", "m/s2"]
+    coordinates: Required[Sequence[float]]
+    grid: Required[str]
+    nominal_life: Required[float]
+    use_coefficient: Required[float]
+
+
+class Tie(TypedDict, total=False):
+    """A tie in the check.
+
+    - at_activation: What the tie does at the activation: nothing, or it pulls with its strength; default
+      "none".
+    - bar: The bar, in place of tie_stiffness, tie_strength and tie_ultimate.
+    """
+
+    at_activation: Literal["none", "yield"]
+    bar: Bar
+
+
+class Bar(TypedDict, total=False):
+    """A steel bar with its anchor.
+
+    - anchor_capacity: What the anchor bears [N], above 0.
+    - diameter: Diameter φ [m], above 0.
+    - length: Length [m], above 0.
+    - spacing: Distance of the bars along the wall [m]; one bar for the width unless given, above 0.
+    - ultimate_strain: Strain at fracture (-); brittle unless given, above 0.
+    - yield_stress: Design value of the yield stress [Pa], above 0.
+    - young_modulus: E of the bar [Pa], above 0; default 210000000000.0.
+    """
+
+    anchor_capacity: float
+    diameter: Required[float]
+    length: Required[float]
+    spacing: float
+    ultimate_strain: float
+    yield_stress: Required[float]
+    young_modulus: float
+
+
+class Fractions(TypedDict, total=False):
+    """Check of the wall's capacity curve over a spectrum, which wall check reads.
+
+    - code: The code: capacity at fractions.
+    - column: Name of the column with Sa, for a file with several.
+    - damping: Damping ratio of the spectrum (-): that of the column's name, or 0.05 unless given, above 0.
+    - displacement_fraction: Displacement capacity over the displacement at which the force of the wall
+      vanishes (-), above 0, at most 1; default 0.4.
+    - records: The demand: the median spectrum of these records, felt on the floor of a wall on storeys.
+    - secant_fraction: Displacement of the secant period over the displacement capacity (-), above 0, at most
+      1; default 0.4.
+    - spectrum: The demand: a file with columns T and Sa, or points [T, Sa], T in s from 0 on.
+    - unit: Unit of Sa, where the file does not state its own.
+    """
+
+    code: Required[Literal["fractions"]]
+    column: str
+    damping: float
+    displacement_fraction: float
+    records: Records
+    secant_fraction: float
+    spectrum: str | Sequence[Sequence[float]]
+    unit: str
+
+
+class Class(TypedDict, total=False):
+    """A class of walls that risk engines see as one.
+
+    - name: Name, of no wall.
+    - walls: Names of its walls; by default all walls of the study.
+    - weights: Weight of each wall, of any sum; by default equal.
+    """
+
+    name: Required[str]
+    walls: Sequence[str]
+    weights: Sequence[float]
+
+
+class Hazard(TypedDict, total=False):
+    """Annual rates at which intensities of the study's measure are exceeded, and what is asked of them.
+
+    - file: A file instead of points: CSV with a measure and annual_rate, or hazard curves of OpenQuake.
+    - points: Points: intensity and annual rate of exceedance [1/year]; intensities rise, rates fall.
+    - site: Number of the site in a file of OpenQuake, from 1, at least 1.
+    - target: Annual rate that each limit state should not exceed [1/year], above 0.
+    - unit: Unit of the intensities of points and of a CSV: m/s2, cm/s2, mm/s2 or g; default "g".
+    - years: Years of the probabilities, above 0; default 50.0.
+    """
+
+    file: str
+    points: Sequence[Sequence[float]]
+    site: int
+    target: float
+    unit: str
+    years: float
+
+
+class Intensity(TypedDict, total=False):
+    """Intensity measure by which records are scaled; spectral ones at 5 % damping.
+
+    - measure: The measure; default "AvgSA".
+    - period: Period of Sa [s].
+    - periods: Periods of AvgSA and of code [s]; by default 0.2, 0.4 to 1.4 s, and 0.2, 0.3 to 2 s.
+    - select: With code: takes so many of the records, those whose spectra fit that of the site best, at least
+      1.
+    """
+
+    measure: Required[Literal["PGA", "Sa", "AvgSA", "code"]]
+    period: float
+    periods: Sequence[float]
+    select: int
+
+
+class Levels(TypedDict, total=False):
+    """Levels of intensity: hunt, step (to the first overturning) or grid.
+
+    - first: First level and first step of a hunt.
+    - gap: Largest gap between levels of a hunt, as a part of the collapse intensity; default 0.1.
+    - increase: Increase of each step of a hunt.
+    - method: How levels are chosen.
+    - resolution: Largest bracket of the collapse in a hunt, as a part of the collapse intensity; default
+      0.01.
+    - step: Distance between levels of step and grid.
+    - top: Highest level.
+    - unit: Unit of the levels: m/s2, cm/s2, mm/s2 or g; default "g".
+    - values: Levels of a grid.
+    """
+
+    first: float
+    gap: float
+    increase: float
+    method: Required[Literal["hunt", "step", "grid"]]
+    resolution: float
+    step: float
+    top: float
+    unit: str
+    values: Sequence[float]
+
+
+class Model(TypedDict, total=False):
+    """A model.
+
+    - c_bar: Damping constant of a free-standing block; -1: computed from restitution (Eq. 23); where
+      damping_model = free_standing_block [1], at least -1, at most 100; default -1.0.
+    - name: Name in tables; by default that of the model.
+    - xi: Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22); where
+      damping_model = constant_coefficient, constant_ratio or stiffness_proportional [1], at least -1, at most
+      10; default -1.0.
+    """
+
+    c_bar: float
+    model: Required[Literal["CDC", "block", "CDR", "SDR"]]
+    name: str
+    xi: float
+
+
+class Reliability(TypedDict, total=False):
+    """What a study of reliability asks.
+
+    - probability: Probability of a fall, of a wall that just passes, for which the numbers of the code are
+      sought, above 0, below 1; default 0.1.
+    """
+
+    probability: float
+
+
+class Report(TypedDict, total=False):
+    """What the results show.
+
+    - beta: Dispersions: one for each limit state (own), one for all (common), or one for each with which
+      curves do not cross (ordered); default "own".
+    - collapse: Which exceedance of a record counts where a wall stands again above it: the first, the last,
+      or at each level the fraction of the records; by default the fraction on a grid, else the first.
+    - fractions: Limit states as fractions of u_ins; default [0.1, 0.4, 0.6, 1.0].
+    - loss_ratios: Loss as a part of the value of a wall, for each of the fractions (-).
+    - modelling_uncertainty: Dispersion due to modelling, for the fragilities of risk engines [-], at least 0,
+      at most 2; default 0.
+    - reference: Model by whose medians the others are divided; by default the first.
+    - resamples: Number of resamples of the bootstrap, at least 100, at most 100000; default 1000.
+    - seed: Seed of the resamples, at least 0; default 1.
+    """
+
+    beta: Literal["own", "common", "ordered"]
+    collapse: Literal["first", "last", "fraction"]
+    fractions: Sequence[float]
+    loss_ratios: Sequence[float]
+    modelling_uncertainty: float
+    reference: str
+    resamples: int
+    seed: int | Generator
+
+
+class Uncertain(TypedDict, total=False):
+    """Parameters of the walls that are not known: each wall stands for samples of them.
+
+    - correlation: Two parameters and Spearman's correlation of their ranks, as lists.
+    - parameters: Distributions of parameters by their names.
+    - samples: Number of samples of each wall, at least 2, at most 100000; default 100.
+    - seed: Seed of the samples, at least 0; default 1.
+    """
+
+    correlation: Sequence[Sequence[object]]
+    parameters: Required[Mapping[str, Distribution]]
+    samples: int
+    seed: int | Generator
+
+
+class Distribution(TypedDict, total=False):
+    """A distribution.
+
+    - lognormal: [median, standard deviation of the logarithm].
+    - normal: [mean, standard deviation].
+    - triangular: [lower end, mode, upper end].
+    - uniform: [lower end, upper end].
+    - values: [value, …], with weights = [weight, …] where they are not equal.
+    - within: Limits, lower and upper.
+    """
+
+    lognormal: Sequence[float]
+    normal: Sequence[float]
+    triangular: Sequence[float]
+    uniform: Sequence[float]
+    values: Sequence[float]
+    weights: Sequence[float]
+    within: Sequence[float]
