@@ -1,5 +1,7 @@
 """Studies in folders from Python: the bytes of the program, resumed, in shards, and read again."""
 
+import csv
+import json
 import math
 import shutil
 
@@ -137,6 +139,26 @@ def test_a_study_of_parts_becomes_a_file(tmp_path):
     with pytest.raises(ValueError, match="stands on storeys"):
         housed.to_toml(tmp_path / "c.toml")
     assert not list(tmp_path.glob("[bc]*.toml")) and not list(tmp_path.glob("[bc]_records"))
+
+
+def test_curves_are_components_of_pelicun(study):
+    """Columns and keys are those of pelicun's damage and loss library, numbers those of the curves."""
+    curves = rw.read_results(study[1]).curves.rows()
+    described = json.loads((study[1] / "pelicun.json").read_text(encoding="utf-8"))
+    with open(study[1] / "pelicun.csv", encoding="utf-8", newline="") as file:
+        rows = {row["ID"]: row for row in csv.DictReader(file)}
+    assert list(rows) == list(described)[1:] and "both.CR" in rows
+    for name, row in rows.items():
+        wall, model = name.split(".")
+        of = [curve for curve in curves if (curve["wall"], curve["model"]) == (wall, model)]
+        assert len(of) == 2 == len(described[name]["LimitStates"])
+        assert (row["Demand-Type"], row["Demand-Unit"]) == ("Peak Ground Acceleration", "g")
+        assert (row["Demand-Offset"], row["Demand-Directional"], row["Incomplete"]) == ("0", "1", "0")
+        for k, curve in enumerate(of, 1):
+            assert row[f"LS{k}-Family"] == "lognormal" and row[f"LS{k}-DamageStateWeights"] == ""
+            assert float(row[f"LS{k}-Theta_0"]) == curve["theta"]
+            assert float(row[f"LS{k}-Theta_1"]) == curve["beta"]
+            assert list(described[name]["LimitStates"][f"LS{k}"]) == [f"DS{k}"]
 
 
 def test_results_become_a_dataset(study):

@@ -40,6 +40,7 @@ mod merge;
 mod nrml;
 mod page;
 mod part;
+mod pelicun;
 mod plots;
 mod population;
 mod rates;

@@ -18,6 +18,7 @@ use super::contents::Manifest;
 use super::error::FolderError;
 use super::losses::Losses;
 use super::nrml;
+use super::pelicun::Pelicun;
 use super::rates::{Fitted, Rates};
 use report::counted;
 use report::table::{Cell, Table};
@@ -35,6 +36,7 @@ pub(crate) struct Risk<'a> {
     /// Whether the table has its line of names.
     is_begun: bool,
     xml: Option<(Draft, nrml::Writer)>,
+    pelicun: Option<Pelicun<'a>>,
     /// Numbers of the walls of each class.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
     /// The classes of each wall, with its share of them.
@@ -91,6 +93,7 @@ impl<'a> Risk<'a> {
             geometry,
             is_begun: false,
             xml,
+            pelicun: Pelicun::new(folder, manifest)?,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
             shares,
@@ -167,6 +170,9 @@ impl<'a> Risk<'a> {
         }
         let paths = drafts.into_iter().map(|draft| draft.commit(true));
         let mut paths: Vec<_> = paths.collect::<Result<_, _>>()?;
+        if let Some(pelicun) = self.pelicun {
+            paths.extend(pelicun.finish()?);
+        }
         let mut section = classes.section();
         let rates = self.rates.map(Rates::finish).transpose()?;
         let losses = self.losses.map(Losses::finish).transpose()?;
@@ -247,6 +253,9 @@ impl<'a> Risk<'a> {
         self.is_begun = true;
         self.table.write(|file| file.write_all(text.as_bytes()))?;
         self.left_out[0] += usize::from(function.is_none());
+        if let Some((pelicun, function)) = self.pelicun.as_mut().zip(function) {
+            pelicun.add([name, model], function)?;
+        }
         let Some((draft, writer)) = &mut self.xml else { return Ok(()) };
         let Some(function) = function else {
             let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };

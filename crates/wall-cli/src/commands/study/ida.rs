@@ -67,13 +67,15 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 16] = [
+const FILES: [&str; 18] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
     "fragilities.csv",
     "fragility_curves.csv",
     "fragilities.xml",
+    "pelicun.csv",
+    "pelicun.json",
     "fragilities.svg",
     "ties.csv",
     "rates.csv",

@@ -1,0 +1,118 @@
+//! Fragilities as components of pelicun (NHERI SimCenter), in the form of its damage and loss library: a row
+//! for each wall or class with a model, and JSON that says what its limit states are.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::fragility::FragilityFunction;
+use crate::tables::in_g;
+use report::table::Table;
+use run::file::{self, Draft};
+use serde_json::{Map, json};
+
+use super::contents::Manifest;
+use super::error::FolderError;
+use super::nrml::limit_states;
+
+/// Names of the files.
+const FILES: [&str; 2] = ["pelicun.csv", "pelicun.json"];
+
+/// Returns the demand of pelicun that an intensity measure is; `None` for those it does not know.
+fn demand(measure: &str) -> Option<String> {
+    let period = measure.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
+    let of_period = period.map(|period| format!("Spectral Acceleration|{period}"));
+    of_period.or_else(|| (measure == "PGA").then(|| "Peak Ground Acceleration".to_owned()))
+}
+
+/// The files under construction.
+pub(crate) struct Pelicun<'a> {
+    manifest: &'a Manifest,
+    demand: String,
+    rows: Draft,
+    described: Draft,
+    ids: BTreeSet<String>,
+}
+
+impl<'a> Pelicun<'a> {
+    /// Begins the files in a folder; `None` for a study whose measure pelicun does not know.
+    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
+        let paths = FILES.map(|name| folder.join(name));
+        let Some(demand) = demand(&manifest.contents.measure) else {
+            // those that an earlier study has left
+            paths.iter().try_for_each(|path| file::remove(path))?;
+            return Ok(None);
+        };
+        let about = json!({
+            "ShortName": manifest.title,
+            "Description": "Out-of-plane rocking of masonry walls; a limit state is a fraction of the static \
+                            instability displacement",
+            "Version": "1.0",
+        });
+        let [rows, described] = paths;
+        let rows = Draft::new(&rows, b"")?;
+        let described = Draft::new(&described, format!("{{\n\"_GeneralInformation\": {about}").as_bytes())?;
+        Ok(Some(Self { manifest, demand, rows, described, ids: BTreeSet::new() }))
+    }
+
+    /// Adds a wall or a class with a model.
+    pub(crate) fn add(
+        &mut self,
+        [name, model]: [&str; 2],
+        function: &FragilityFunction,
+    ) -> Result<(), FolderError> {
+        let is_begun = !self.ids.is_empty();
+        let id = self.id(name, model);
+        let mut table = Table::over([()])
+            .text("ID", "", |()| id.clone())
+            .value("Incomplete", |()| 0)
+            .text("Demand-Type", "", |()| self.demand.clone())
+            .text("Demand-Unit", "", |()| "g")
+            .value("Demand-Offset", |()| 0)
+            // a wall rocks in one direction
+            .value("Demand-Directional", |()| 1);
+        let mut states = Map::new();
+        let all = limit_states(&self.manifest.report);
+        for (k, (curve, (place, _))) in function.states.iter().zip(all).enumerate() {
+            let key = format!("LS{}", k + 1);
+            let fraction = self.manifest.report.fractions[place];
+            let about =
+                format!("The displacement exceeds {fraction} of the static instability displacement.");
+            states.insert(key.clone(), json!({ format!("DS{}", k + 1): { "Description": about } }));
+            let (theta, beta) = (in_g(curve.median), function.dispersion(k));
+            table = table
+                .text(format!("{key}-Family"), "", |()| "lognormal")
+                .value(format!("{key}-Theta_0"), move |()| theta)
+                .value(format!("{key}-Theta_1"), move |()| beta)
+                .text(format!("{key}-DamageStateWeights"), "", |()| "");
+        }
+        let table = table.done();
+        let text = if is_begun { table.csv_rows() } else { table.csv() };
+        self.rows.write(|file| file.write_all(text.as_bytes()))?;
+        let about = json!({
+            "Description": format!("{name}, {model}"),
+            "SuggestedComponentBlockSize": "1 EA",
+            "RoundUpToIntegerQuantity": "True",
+            "LimitStates": states,
+        });
+        Ok(self.described.write(|file| write!(file, ",\n{}: {about}", json!(id)))?)
+    }
+
+    /// Completes the files, and returns their paths.
+    pub(crate) fn finish(mut self) -> Result<[PathBuf; 2], FolderError> {
+        self.described.write(|file| file.write_all(b"\n}\n"))?;
+        Ok([self.rows.commit(true)?, self.described.commit(true)?])
+    }
+
+    /// Makes the name of a component, which no other has. A dash would part it from its place.
+    fn id(&mut self, name: &str, model: &str) -> String {
+        let has_models = self.manifest.contents.models.len() > 1;
+        let text = if has_models { format!("{name}.{model}") } else { name.to_owned() };
+        let kept = |c: char| if c.is_alphanumeric() || c == '.' { c } else { '_' };
+        let mut id: String = text.chars().map(kept).collect();
+        while !self.ids.insert(id.clone()) {
+            id.push('_');
+        }
+        id
+    }
+}
