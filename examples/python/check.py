@@ -5,7 +5,7 @@
 
 import rocking_wall as rw
 
-wall = rw.Wall(height=1.5, thickness=0.3)
+wall = rw.Wall(height=1.5, thickness=0.3, density=1800, a1=0.03)
 records = [rw.synthetic_record(seed, pga=1.5) for seed in (1, 2, 3)]
 
 # %% The demand is the median spectrum of the records. In a notebook the check draws itself.

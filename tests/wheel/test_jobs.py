@@ -4,6 +4,7 @@ import csv
 import dataclasses
 import json
 import pickle
+import re
 from html import escape
 from pathlib import Path
 import warnings
@@ -176,6 +177,46 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
     own = rw.Wall(**PARAPET).check(motions, **of_spectrum)
     demands = [each.numbers["sides"]["positive"]["SLV"]["demand"] for each in (own, verdict)]
     assert demands[0] != demands[1]
+
+
+def test_the_report_is_that_of_the_program(program, tmp_path):
+    """All but the fingerprints of the inputs: the program's are those of a file that states less."""
+    checked = {**SLV, "before_activation": "law"}
+    project = {"language": "it", "project": "Casa", "designer": "ing. Rossi", "date": "1 marzo 2026"}
+    scene = written(tmp_path, PARAPET, {"code": "circolare-2019", **checked})
+    report = "".join(f"{name} = {literal(value)}\n" for name, value in project.items())
+    scene.write_text(f'title = "Parapetto"\n{scene.read_text()}\n[report]\n{report}', encoding="utf-8")
+    program("check", scene, "--report", tmp_path / "program.html")
+    verdict = pickle.loads(pickle.dumps(rw.Wall(**PARAPET))).check(**checked)
+    verdict.write_report(tmp_path / "python.html", title="Parapetto", **project)
+    pages = [(tmp_path / f"{name}.html").read_text(encoding="utf-8") for name in ("program", "python")]
+    assert "NON SUPERATA" in pages[0].upper() or "NON VERIFICAT" in pages[0].upper()
+    sections = [re.split("(?=<h2)", page) for page in pages]
+    heads = [[re.sub("<[^>]*>", "", part.splitlines()[0]) for part in each] for each in sections]
+    assert heads[0] == heads[1]
+    differ = [head for head, *pair in zip(heads[0], *sections) if pair[0] != pair[1]]
+    assert len(differ) <= 2, differ
+    with pytest.raises(FileExistsError):
+        verdict.write_report(tmp_path / "python.html")
+    with pytest.raises(ValueError, match="desinger"):
+        verdict.write_report(tmp_path / "other.html", desinger="x")
+    assert not (tmp_path / "other.html").exists()
+
+
+def test_what_decides_is_stated(program, tmp_path):
+    """What nobody stated is refused as by the program; the hinge of a strip is sought."""
+    rigid = {**SLV, "before_activation": "rigid"}
+    plain = rw.Wall(4, 0.4)
+    for wall in (plain, plain.replace(a1=0.03), pickle.loads(pickle.dumps(plain))):
+        with pytest.raises(ValueError, match="density not stated"):
+            wall.check(**rigid)
+    strip = {"mechanism": "vertical_spanning", "height": 4, "thickness": 0.3, "density": 1800}
+    scene = written(tmp_path, strip, {"code": "circolare-2019", **rigid})
+    told = program("check", scene, "--json")
+    assert rw.Wall(**strip).check(**rigid).numbers == told
+    assert rw.Wall(**strip, hinge_ratio=0.5).check(**rigid).numbers != told
+    read = rw.Wall.from_toml(scene)
+    assert read.check(**rigid).numbers == told and read == rw.Wall(**strip)
 
 
 @pytest.mark.parametrize(
@@ -503,7 +544,7 @@ PLAIN = {"damping_model": "constant_ratio", "impact": "none", "u_start": 0.0}
         ({"walls": None}, TypeError, "needs a path, or its parts: walls missing"),
         ({"walls": []}, ValueError, "at least one wall"),
         ({"walls": ["low"]}, TypeError, "a Wall or a dictionary of parameters, found .* str"),
-        ({"walls": [{"xi": 0.1}]}, TypeError, 'wall "1": "xi" is not a parameter of a wall of a study'),
+        ({"walls": [{"impact": "none"}]}, TypeError, 'wall "1": "impact" is not a parameter of a wall'),
         ({"walls": [{"height": -1}]}, ValueError, '^wall "1": height = -1 m is below'),
         ({"walls": [{"name": "a"}, {"name": "a"}]}, ValueError, 'the name "a" occurs twice'),
         ({"records": [[0.0, 1.0]]}, TypeError, "record must be a Record, found a value of the type list"),
@@ -538,7 +579,7 @@ def test_reliability_is_that_of_the_program(program, tmp_path):
     site = {"ag": 0.15, "F0": 2.45, "TC": 0.32}
     check = {"code": "circolare-2019", "before_activation": "law", "soil": "B", "SLV": site}
     levels = {"method": "step", "step": 0.05, "top": 2}
-    parts = {"walls": [rw.Wall(height=1.5, thickness=0.3, a1=0.05)], "models": ["CR"], "levels": levels}
+    parts = {"walls": [rw.Wall(1.5, 0.3, density=1800, a1=0.05)], "models": ["CR"], "levels": levels}
     motions = [rw.synthetic_record(seed) for seed in range(1, 9)]
     study = rw.Study(records=motions, intensity={"measure": "code"}, check=check, **parts)
     assert study.measure == "a_g" and len(study.reliability(progress=False).walls["wall"]) == 4

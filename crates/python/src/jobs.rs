@@ -1,14 +1,14 @@
 //! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
 //! damping that matches restitution; and of formulas beside references.
 
-use check::{CheckError, CheckFile, Subject, read};
-use evidence::verification::{page, verify};
+use check::{CheckError, CheckFile, Origin, Subject, page, read};
+use evidence::verification::{self, verify};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use report::table::Column;
 use rocking_wall::response::Fate;
-use rocking_wall::scene::DEFAULT_TAIL;
+use rocking_wall::scene::{DEFAULT_TAIL, to_toml};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
 use run::polarity::Polarities;
@@ -39,27 +39,56 @@ pub(crate) fn check_wall<'py>(
     text: String,
     records: Vec<(String, Motion)>,
 ) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
-    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
-    let records = records.into_iter().map(record).collect();
-    let subject = Subject::from(&wall.scene);
+    let (records, subject) = (named(records), Subject::from(wall));
     let checked = py.detach(|| {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
         let picture = verdict.details.figure()?.plot.picture().svg();
         Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
     });
-    let (summary, numbers, rows, picture) = checked.map_err(|error: CheckError| match error {
+    let (summary, numbers, rows, picture) = checked.map_err(of_check)?;
+    Ok((summary, numbers, table(py, rows)?, picture))
+}
+
+/// Makes the report of a check, by the tables `[check]` and `[report]` in a text, as a page.
+#[pyfunction]
+pub(crate) fn check_report(
+    py: Python<'_>,
+    wall: &Wall,
+    text: String,
+    records: Vec<(String, Motion)>,
+    title: Option<String>,
+) -> PyResult<String> {
+    let records = named(records);
+    let text = to_toml(&wall.scene, "") + "\n" + &text;
+    let made = py.detach(|| {
+        let file = CheckFile::parse("wall.toml", &text)?.with_records(records);
+        let (code, report) = (read(&file)?, file.report()?);
+        let verdict = code.check(Subject::from(wall))?;
+        let title = title.as_deref().unwrap_or(&wall.scene.title);
+        let (records, report) = (code.records(), &report);
+        page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records, report })
+    });
+    made.map_err(of_check)
+}
+
+fn named(records: Vec<(String, Motion)>) -> Vec<NamedRecord> {
+    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+    records.into_iter().map(record).collect()
+}
+
+fn of_check(error: CheckError) -> PyErr {
+    match error {
         CheckError::Scene(error) => of_scene(error),
         other => refused(other),
-    })?;
-    Ok((summary, numbers, table(py, rows)?, picture))
+    }
 }
 
 /// Checks every formula; returns the table of the numbers.
 #[pyfunction]
 pub(crate) fn verify_formulas(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let formulas = py.detach(verify).map_err(failed)?;
-    let mut rows = page::all(&formulas);
+    let mut rows = verification::page::all(&formulas);
     rows.columns.insert(0, Column::text("formula", ""));
     rows.columns.push(Column::count("passes", ""));
     let own = formulas.iter().flat_map(|one| one.comparisons.iter().map(|row| (&one.title, row.passes())));

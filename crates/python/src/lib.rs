@@ -45,7 +45,7 @@ mod _native {
         buildings::Building,
         folders::Folder,
         jobs::{
-            calibrate_wall, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
+            calibrate_wall, check_report, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
             verify_formulas,
         },
         motions::{

@@ -5,8 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 use rocking_wall::wall::Parameters;
-use run::walls::NamedWall;
-use run::walls::wall_parameters;
+use run::walls::{NamedWall, assumed, wall_parameters};
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};
@@ -29,7 +28,8 @@ pub(crate) fn named_walls(
                 unused.push((name, names));
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
-            walls.push(NamedWall { floors, ..NamedWall::new(name.clone(), parameters) }.without_damping());
+            let named = NamedWall::new(name.clone(), parameters).without_damping();
+            walls.push(NamedWall { floors, assumed: wall.assumed.clone(), ..named });
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }
@@ -74,5 +74,6 @@ fn of_parameters(name: &str, parameters: &Bound<'_, PyDict>) -> PyResult<NamedWa
     let mut scene = Scene::default();
     let refuse = |error: PyErr| refused(format!("wall {name:?}: {}", error.value(parameters.py())));
     set_all(&mut scene, parameters).map_err(refuse)?;
-    Ok(NamedWall::new(name, scene.parameters))
+    let assumed = assumed(|_, name| parameters.contains(name).is_ok_and(|is_stated| is_stated));
+    Ok(NamedWall { assumed, ..NamedWall::new(name, scene.parameters) })
 }

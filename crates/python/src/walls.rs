@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use check::{CheckFile, Subject};
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
@@ -18,6 +19,7 @@ use rocking_wall::solver::{Method, Motion as Solved};
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::{Curve, plot};
 use run::shaking::Shaking;
+use run::walls::assumed;
 use scene_fmu::General;
 
 use crate::arrays::{Motion, Numbers, samples};
@@ -34,12 +36,15 @@ pub(crate) struct Wall {
     pub(crate) equation: Equation,
     /// The start where it was given by name; else a record finds the wall upright.
     pub(crate) start: Option<f64>,
+    /// Parameters without which a code does not check a wall, and that nobody stated.
+    pub(crate) assumed: Vec<&'static str>,
 }
 
 /// A wall as values that pickle can send: its scene file without the motion, all of its parameters as texts,
 /// its start where it was given, the motions of the bottom support and, where it has its own, of the top one,
-/// with what is known of them.
-type Values = (String, Vec<(String, String)>, Option<f64>, Option<(Motion, Option<Motion>)>, Vec<String>);
+/// with what is known of them, and the parameters that nobody stated.
+type Values =
+    (String, Vec<(String, String)>, Option<f64>, Option<(Motion, Option<Motion>)>, Vec<String>, Vec<String>);
 
 /// The solver in words, u and F at the corners of the restoring force, warnings, and the capacity curve.
 type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
@@ -48,19 +53,22 @@ type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
 impl Wall {
     #[new]
     fn new(parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
-        Self::of(Scene { title: "rocking wall".into(), ..Scene::default() }, None, parameters)
+        let scene = Scene { title: "rocking wall".into(), ..Scene::default() };
+        Self::of(scene, None, assumed(|_, _| false), parameters)
     }
 
     /// Reads a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let scene = Scene::read(&path).map_err(of_scene)?;
-        Self::of(scene, None, &PyDict::new(py))
+        let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path)?);
+        let assumed = CheckFile::parse(&name, &text).map_err(of_scene)?.assumed(&[]);
+        Self::of(scene, None, assumed, &PyDict::new(py))
     }
 
     /// Returns the same wall with other values of some parameters.
     fn replaced(&self, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
-        Self::of(self.scene.clone(), self.start, parameters)
+        Self::of(self.scene.clone(), self.start, self.assumed.clone(), parameters)
     }
 
     /// Returns the same wall on floors of storeys, given as mass, stiffness, period and damping ratio.
@@ -85,7 +93,7 @@ impl Wall {
         })?;
         floors.supports(self.scene.parameters.mechanism).map_err(of_scene)?;
         let scene = Scene { floors: Some(floors), ..self.scene.clone() };
-        Ok(Self { scene, equation: self.equation.clone(), start: self.start })
+        Ok(Self { scene, equation: self.equation.clone(), start: self.start, assumed: self.assumed.clone() })
     }
 
     /// Returns the values of the wall, to send them.
@@ -94,13 +102,14 @@ impl Wall {
         let motion =
             motion.map(|motion| (Motion(motion.bottom().clone()), motion.top().cloned().map(Motion)));
         let parameters = self.parameters().into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
-        (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone())
+        let assumed = self.assumed.iter().map(|name| (*name).to_owned()).collect();
+        (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone(), assumed)
     }
 
     /// Makes a wall from its values.
     #[staticmethod]
     fn received(values: Values) -> PyResult<Self> {
-        let (text, parameters, start, motion, motion_notes) = values;
+        let (text, parameters, start, motion, motion_notes, assumed) = values;
         let mut scene = Scene::parse("a wall that was sent", &text, Path::new(".")).map_err(of_scene)?;
         let bar = scene.parameters.bar;
         for (name, text) in &parameters {
@@ -116,7 +125,8 @@ impl Wall {
         }
         scene.motion_notes = motion_notes;
         let equation = Equation::new(&scene.parameters).map_err(refused)?;
-        Ok(Self { scene, equation, start })
+        let assumed = self::assumed(|_, name| assumed.iter().all(|own| own != name));
+        Ok(Self { scene, equation, start, assumed })
     }
 
     /// Returns whether another wall has the same parameters, start, storeys, motion, inputs and times.
@@ -280,12 +290,24 @@ impl Wall {
 }
 
 impl Wall {
-    fn of(mut scene: Scene, start: Option<f64>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn of(
+        mut scene: Scene,
+        start: Option<f64>,
+        mut assumed: Vec<&'static str>,
+        parameters: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
         set_all(&mut scene, parameters)?;
+        assumed.retain(|name| parameters.contains(name).is_ok_and(|is_stated| !is_stated));
         let start = if parameters.contains("u_start")? { Some(scene.parameters.u_start) } else { start };
         let equation = Equation::new(&scene.parameters).map_err(refused)?;
         Method::new(&scene.parameters, &equation, scene.parameters.tolerance).map_err(refused)?;
-        Ok(Self { scene, equation, start })
+        Ok(Self { scene, equation, start, assumed })
+    }
+}
+
+impl<'a> From<&'a Wall> for Subject<'a> {
+    fn from(wall: &'a Wall) -> Self {
+        Self { assumed: &wall.assumed, ..Self::from(&wall.scene) }
     }
 }
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from html import escape
+from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _native
 from ._native import verify_formulas
-from ._tables import Table, Tabular
+from ._tables import Table, Tabular, toml
 
 
 @dataclass(frozen=True, repr=False)
@@ -38,9 +40,26 @@ class Verdict:
     numbers: dict[str, Any]
     """All numbers by the names of `wall check --json`, in SI units."""
     _picture: str = field(compare=False)
+    _given: tuple[Any, ...] = field(compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"Verdict({self.headline})"
+
+    def write_report(
+        self, path: str | PathLike[str], *, title: str | None = None, **project: Any
+    ) -> None:
+        """Writes the report for a calculation file as a page, as `wall check --report` does.
+
+        :param title: Title; by default that of the wall.
+        :param project: Keys of the table `[report]`, such as `language="it"`, `project`, `designer`, `date`.
+
+        Raises `FileExistsError` for a file that exists, `ValueError` for a key that is not known.
+        """
+        wall, text, records = self._given
+        text += "[report]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in project.items())
+        page = _native.check_report(wall, text, records, title)
+        with open(path, "x", encoding="utf-8", newline="") as file:
+            file.write(page)
 
     def _repr_html_(self) -> str:
         lines = [*self.notes, *(f"warning: {warning}" for warning in self.warnings)]

@@ -242,9 +242,10 @@ class Wall(Given):
             `secant_fraction`.
 
         Raises `ValueError` for what cannot be checked: a statement that is missing, unknown or outside its
-        limits, a demand without the secant period.
+        limits, a demand without the secant period, a parameter of the wall that decides and that nobody
+        stated.
 
-        >>> wall = Wall(height=4, thickness=0.4)
+        >>> wall = Wall(height=4, thickness=0.4, density=1800)
         >>> hazard = {"ag": 0.15, "F0": 2.45, "TC": 0.32}
         >>> wall.check(SLV=hazard, soil="B", before_activation="rigid")
         Verdict(NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike))
@@ -253,16 +254,17 @@ class Wall(Given):
         >>> round(verdict.numbers["governs"]["onset"]["ratio"], 9)
         0.95157
         """
-        given = [records] if isinstance(records, Record) else records
+        records = [records] if isinstance(records, Record) else records
         table = {"code": code, **statements}
-        if len(given) > 0:
+        if len(records) > 0:
             # their motions are handed over beside the text
             table["records"] = {}
         text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
-        named = [(getattr(record, "name", ""), motion_of(record)) for record in given]
-        summary, numbers, rows, picture = _native.check_wall(self._native, text, named)
+        named = [(getattr(record, "name", ""), motion_of(record)) for record in records]
+        given = (self._native, text, named)
+        summary, numbers, rows, picture = _native.check_wall(*given)
         said, values = json.loads(summary), json.loads(numbers)
-        return Verdict(**said, table=Table(rows), numbers=values, _picture=picture)
+        return Verdict(**said, table=Table(rows), numbers=values, _picture=picture, _given=given)
 
     def rocking_spectrum(
         self,

@@ -1,5 +1,5 @@
-//! Fragilities as components of pelicun (NHERI SimCenter), in the form of its damage and loss library: a row
-//! for each wall or class with a model, and JSON that says what its limit states are.
+//! Fragilities as components of pelicun (NHERI `SimCenter`), in the form of its damage and loss library: a
+//! row for each wall or class with a model, and JSON that says what its limit states are.
 
 use std::collections::BTreeSet;
 use std::io::Write;

@@ -193,11 +193,13 @@ impl Folder {
         let names: Vec<_> = cases.take(NAMED).map(name).collect();
         let more = if count > NAMED { " …" } else { "" };
         let damage = others.iter().chain([self]).filter_map(|folder| folder.damage(missing));
+        // each after what is missing
+        let damage = std::iter::once(String::new()).chain(damage).collect::<Vec<_>>();
         FolderError::Missing {
             missing: count,
             all: contents.count(),
             names: names.join(", ") + more,
-            damage: damage.map(|told| format!("; {told}")).collect(),
+            damage: damage.join("; "),
         }
     }
 
