@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use check::{CheckError, CheckFile, Subject, read};
+use check::{CheckError, CheckFile, Language, Origin, ReportTable, Subject, page, read};
 use report::plot::Plot;
 use rocking_wall::wall::Parameters;
 use serde_json::{Value, json};
 
-use crate::request::{Fields, fault_of};
+use crate::request::{Faults, Fields, fault_of};
+use crate::scene::Prepared;
 
 /// Where a message goes that is about no field.
 const NO_FIELD: &str = "check";
@@ -54,6 +55,18 @@ pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> V
         let field = fields.keys().find(|field| Some(key(field)) == path.as_deref());
         json!({ "faults": fault_of(field.map_or(NO_FIELD, String::as_str), error.to_string()) })
     })
+}
+
+/// Makes the report of the check of a scene, as a page.
+pub(crate) fn report(prepared: &Prepared, language: Language) -> Result<Value, Faults> {
+    let page = || {
+        let file = CheckFile::parse("scene.toml", &prepared.toml)?;
+        let code = read(&file)?;
+        let verdict = code.check(Subject::new(&prepared.scene.parameters))?;
+        let (title, report) = (&prepared.scene.title, &ReportTable { language, ..ReportTable::default() });
+        page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records: code.records(), report })
+    };
+    page().map(Value::from).map_err(|error: CheckError| fault_of(NO_FIELD, error.to_string()))
 }
 
 fn outcome(text: &str, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {

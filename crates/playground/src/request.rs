@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use check::Language;
 use serde::Deserialize;
 
 /// Fields of the page and their texts.
@@ -29,6 +30,8 @@ pub(crate) enum Request {
     Csv,
     /// Return the charts of the last run as one SVG file.
     Svg,
+    /// Return the report of the check of the last run, in a language, as a page.
+    Report(Language),
 }
 
 /// What the user has chosen.

@@ -40,6 +40,9 @@ impl Session {
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
                 file(charts(&prepared.wall, response, run::figure::WIDTH)).into()
             }),
+            Ok(Request::Report(language)) => {
+                self.last().and_then(|(prepared, _)| check::report(prepared, language))
+            }
             // the page writes its requests itself
             Err(_) => Err(fault_of("request", "the page asks for what it cannot compute; load it again")),
         };

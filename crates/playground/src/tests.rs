@@ -253,6 +253,10 @@ fn a_fragility_comes_from_twenty_motions() {
 
 /// A run with the check of a site; `more` adds to its fields, or takes them away.
 fn checked(parameters: &Value, more: &Value) -> Value {
+    ask(&mut Session::default(), &run_and_check(parameters, more))["answer"].clone()
+}
+
+fn run_and_check(parameters: &Value, more: &Value) -> Value {
     let mut check = json!({
         "code": "circolare-2019", "before_activation": "law", "soil": "B", "confidence_factor": "1.35",
         "SLV.ag": "0.15", "SLV.F0": "2.45", "SLV.TC": "0.32",
@@ -261,8 +265,7 @@ fn checked(parameters: &Value, more: &Value) -> Value {
     fields.extend(more.as_object().unwrap().clone());
     fields.retain(|_, text| !text.is_null());
     let motion = json!({ "kind": "none" });
-    let inputs = json!({ "parameters": parameters, "motion": motion, "check": check, "width": 600 });
-    ask(&mut Session::default(), &json!({ "run": inputs }))["answer"].clone()
+    json!({ "run": { "parameters": parameters, "motion": motion, "check": check, "width": 600 } })
 }
 
 fn tied_on_the_roof() -> (Value, Value) {
@@ -295,6 +298,28 @@ fn the_check_has_the_numbers_of_the_code() {
         let code = check::read(&check::CheckFile::parse("scene.toml", toml).unwrap()).unwrap();
         let again = code.check((&scene).into()).unwrap().zeta;
         assert_eq!(check["zeta"], again);
+    }
+}
+
+/// The report of the last run's check is that of its scene file, but for the fingerprint of the language.
+#[test]
+fn the_report_of_a_check_opens() {
+    let mut session = Session::default();
+    assert_eq!(ask(&mut session, &json!({ "report": "en" }))["faults"]["wall"], "nothing has run yet");
+    let run = ask(&mut session, &run_and_check(&json!({}), &json!({})));
+    let toml = run["answer"]["toml"].as_str().unwrap();
+    for language in ["en", "it"] {
+        let answer = ask(&mut session, &json!({ "report": language }));
+        let text = format!("{toml}\n[report]\nlanguage = \"{language}\"\n");
+        let file = check::CheckFile::parse("scene.toml", &text).unwrap();
+        let (code, report) = (check::read(&file).unwrap(), &file.report().unwrap());
+        let scene = Scene::parse("scene", &text, "".as_ref()).unwrap();
+        let (title, records) = (&*scene.title, code.records());
+        let origin = check::Origin { title, wall: None, file: &file, set: &[], records, report };
+        let page = check::page(&code.check((&scene).into()).unwrap(), &origin).unwrap();
+        let without = |page: &str| page.split(">Document").next().unwrap().to_owned();
+        assert_eq!(without(answer["answer"].as_str().unwrap()), without(&page));
+        assert!(page.contains(&format!("lang=\"{language}\"")));
     }
 }
 

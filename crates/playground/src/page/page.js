@@ -320,6 +320,13 @@ async function copy(text, what) {
     at("done").textContent = "The browser does not allow copying; select the text instead.";
   }
 }
+// Opens the report of the check in a tab of its own; a blocked one is saved instead.
+function report(language) {
+  const { answer, faults } = ask({ report: language });
+  if (faults) { at("done").textContent = Object.values(faults).join(" "); return; }
+  const href = URL.createObjectURL(new Blob([answer], { type: "text/html" }));
+  if (window.open(href) === null) { make("a", { href, download: "report.html" }).click(); }
+}
 function save(kind, name, type) {
   const { answer, faults } = ask(kind);
   if (faults) { at("done").textContent = Object.values(faults).join(" "); return; }
@@ -337,6 +344,9 @@ function listen() {
   }
   at("fragility").addEventListener("click", fragility);
   at("copy_scene").addEventListener("click", () => copy(shown?.toml ?? "", "Scene file"));
+  for (const language of ["en", "it"]) {
+    at(`report_${language}`).addEventListener("click", () => report(language));
+  }
   at("copy_link").addEventListener("click", () =>
     copy(`${location.href.split("#")[0]}#${hash()}`, "Link"));
   at("save_csv").addEventListener("click", () => save("csv", "history.csv", "text/csv"));
