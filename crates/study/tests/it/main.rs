@@ -11,6 +11,7 @@ mod configuration;
 mod estimators;
 mod fragility;
 mod ida;
+mod margins;
 mod messages;
 mod record_files;
 mod reliability;

@@ -5,23 +5,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use check::{CheckFile, Rule, Subject, read};
-use ground_motion::{GroundMotion, STANDARD_GRAVITY};
-use rocking_wall::variables::ForceLaw;
-use rocking_wall::wall::Parameters;
+use ground_motion::STANDARD_GRAVITY;
 use run::records::NamedRecord;
-use run::walls::NamedWall;
 use study::folder::{Folder, compute};
 use study::fragility::{Lognormal, cumulative};
 use study::loaded::LoadedStudy;
 use study::reliability::{FILES, Reliability, finish};
 
-/// Height and thickness of the wall under pulses [m]; g [m/s²].
 const CONTINUE: std::ops::ControlFlow<()> = std::ops::ControlFlow::Continue(());
-const HEIGHT: f64 = 2.0;
-const THICKNESS: f64 = 0.2;
+/// g of codes [m/s²].
 const G: f64 = 9.81;
-const CHECK: &str = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"A\"\n\
-                     SLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\n";
+pub(crate) const CHECK: &str = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
+                                soil = \"A\"\nSLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\n";
 
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -30,7 +25,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 /// Runs a study of reliability, and returns its folder.
-fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
+pub(crate) fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
@@ -41,70 +36,15 @@ fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
 }
 
 /// The rows of a table by the names of its columns.
-fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+pub(crate) fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     let text = fs::read_to_string(path).unwrap();
     let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
     let names = lines.next().unwrap();
     lines.map(|cells| names.iter().cloned().zip(cells).collect()).collect()
 }
 
-fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+pub(crate) fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
     row[name].parse().unwrap_or_else(|_| panic!("{name} = {:?}", row[name]))
-}
-
-/// Margins of a rigid wall under rectangles are those of the closed form: the wall falls from
-/// a₀/(1 − e^−d) on, d = p T, and during a rectangle that is longer than half a
-/// period an oscillator reaches 1 + exp(−ξπ/√(1 − ξ²)) times its acceleration. The bracket of a fall is 1e-12
-/// of it, and spectra are found to 1e-12.
-#[test]
-fn margins_under_pulses_are_those_of_closed_forms() {
-    const PERIODS: [f64; 2] = [0.2, 0.3];
-    let rate = (1.5 * G / HEIGHT).sqrt();
-    let wall = Parameters {
-        height: HEIGHT,
-        thickness: THICKNESS,
-        force_law: ForceLaw::RigidLinear,
-        gravity: G,
-        ..Parameters::default()
-    };
-    let lengths = [0.8, 1.3, 2.0, 3.0];
-    let record = |length: &f64| {
-        let motion = GroundMotion::new(length / rate / 100.0, vec![-1.0; 101]).unwrap();
-        NamedRecord { name: format!("rectangle {length}"), motion }
-    };
-    let text = format!(
-        "models = [\"CR\"]\nlevels = {{ method = \"hunt\", first = 0.05, increase = 0.02, top = 3, \
-         resolution = 1e-12, gap = 0.5 }}\nintensity = {{ measure = \"code\", periods = [0.2, 0.3] \
-         }}\n{CHECK}"
-    );
-    let walls = vec![NamedWall::new("a", wall)];
-    let loaded = LoadedStudy::of_parts(text, walls, lengths.iter().map(record).collect()).unwrap();
-    let path = run("pulses", &loaded);
-    let row =
-        rows(&path.join(FILES[0])).into_iter().find(|row| row["check"] == "SLV" && row["event"] == "fall");
-    let found = number(&row.unwrap(), "margin");
-
-    // S_e/a_g at 5 % on soil A is the plateau, F0, up to T_C = 0.3 s
-    let amplified = 1.0 + (-0.05 * std::f64::consts::PI / (1.0_f64 - 0.0025).sqrt()).exp();
-    let worth = amplified / 2.4;
-    assert!(PERIODS.iter().all(|period| *period < 2.0 * lengths[0] / rate));
-    let falls = lengths.iter().map(|d| (worth * 0.981 / (1.0 - (-d).exp())).ln()).sum::<f64>() / 4.0;
-    // d_SLV = 0.4 b/2 at mid-height, a = 0.6 a₀/FC; S_De between T_C and T_D at 8 % damping
-    let (d, a) = (0.2 * THICKNESS, 0.6 * 0.981 / loaded_factor(&loaded));
-    let period = 1.68 * std::f64::consts::PI * (d / a).sqrt();
-    assert!(period > 0.3 && period < 4.0 * 0.2 + 1.6, "{period}");
-    let eta = (10.0_f64 / 13.0).sqrt();
-    let demand = |ag: f64| ag * G * eta * 2.4 * 0.3 * period / (2.0 * std::f64::consts::PI).powi(2);
-    let code = 0.2 * G * d / demand(0.2);
-    let expected = falls.exp() / code;
-    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
-}
-
-/// FC of the study's check.
-fn loaded_factor(loaded: &LoadedStudy) -> f64 {
-    let statement =
-        check::circolare::Statement::read(&CheckFile::parse("a", loaded.text()).unwrap()).unwrap();
-    statement.confidence_factor
 }
 
 const WALLS: &str = "[[walls]]\nname = \"low\"\ngeometry = { height = 1, thickness = 0.2, density = 1800 }\n\
@@ -280,6 +220,11 @@ fn what_cannot_be_answered_is_refused() {
             &["wall \"low\"", "[[storeys]]"],
         ),
         (
+            "dynamic",
+            own(["SLV = {", "method = \"dynamic\"\nSLV = {"]),
+            &["takes runs", "leave out method = \"dynamic\""],
+        ),
+        (
             "target",
             text(&format!("reliability = {{ probability = 1.0 }}\n{MEASURE}")),
             &["line ", "probability = 1", "below 1"],
@@ -292,6 +237,17 @@ fn what_cannot_be_answered_is_refused() {
                      synthetic = { count = 2 } }\nintensity = { measure = \"code\" }\n";
     let message = refusal("refused_unchecked", format!("{unchecked}{WALLS}"));
     assert!(message.contains("the table [check] is missing"), "{message}");
+}
+
+/// Records of the check have no part, and are not read.
+#[test]
+fn records_of_the_check_are_not_read() {
+    let with = text(MEASURE).replace("SLC = {", "records = { files = [\"none.AT2\"] }\nSLC = {");
+    let loaded = load("unread", &with).unwrap();
+    Reliability::of(&loaded).unwrap();
+    assert_eq!(loaded.study.measure(), load("measured", &text(MEASURE)).unwrap().study.measure());
+    let message = read(&CheckFile::parse("a", &with).unwrap()).unwrap_err().to_string();
+    assert!(message.contains("none.AT2"), "{message}");
 }
 
 /// Over a hazard that is one power law, k₀ x^−k, the rate of a wall that just passes at the site is
