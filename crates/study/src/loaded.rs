@@ -63,8 +63,9 @@ impl LoadedStudy {
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
-        for entry in std::mem::take(&mut file.walls) {
-            all.extend(walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
+        for (place, entry) in std::mem::take(&mut file.walls).into_iter().enumerate() {
+            let found = walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?;
+            all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
         let walls = Walls::of(&name, &mut file, all, &mut warnings)?;
         warn(&walls.told(), &ignored, (&file.models, &file.measure), &mut warnings);

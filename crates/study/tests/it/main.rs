@@ -15,6 +15,7 @@ mod margins;
 mod messages;
 mod record_files;
 mod reliability;
+mod reliability_tables;
 mod rocking_spectrum;
 mod storeys;
 mod ties;

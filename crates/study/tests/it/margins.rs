@@ -106,7 +106,8 @@ impl Oscillator {
     }
 }
 
-/// The highest value of a function from 0 to `end`: on a grid, and by golden section around its highest point.
+/// The highest value of a function from 0 to `end`: on a grid, and by golden section around its highest
+/// point.
 fn highest(function: impl Fn(f64) -> f64, end: f64) -> f64 {
     let at = |index: u32| end * f64::from(index) / 2000.0;
     let best = (0..=2000).max_by(|a, b| function(at(*a)).total_cmp(&function(at(*b)))).unwrap();
@@ -118,8 +119,8 @@ fn highest(function: impl Fn(f64) -> f64, end: f64) -> f64 {
     function(low)
 }
 
-/// How far a wall is from falling after its first impact under a sine cycle, positive where it falls: e |y′| −
-/// 1 − ∫ e^−s f(τ_i + s) ds at the impact τ_i, up to the end of the cycle.
+/// How far a wall is from falling after its first impact under a sine cycle, positive where it falls:
+/// e |y′| − 1 − ∫ e^−s f(τ_i + s) ds at the impact τ_i, up to the end of the cycle.
 fn beyond_an_impact(eta: f64, beta: f64) -> f64 {
     let uplift = Uplift::new(eta, beta);
     let end = TAU / beta;
@@ -138,8 +139,8 @@ fn beyond_an_impact(eta: f64, beta: f64) -> f64 {
 }
 
 /// The margin of the fall is the geometric mean of the a_g at which the pulses overturn the wall, over a_g of
-/// the check. The bracket of a fall is 1e-12 of it and spectra are found to 1e-12; samples of sines are off by
-/// (ωΔt)³/80 = 4e-10 of a_p in the step of the uplift or of the impact.
+/// the check. The bracket of a fall is 1e-12 of it and spectra are found to 1e-12; samples of sines are off
+/// by (ωΔt)³/80 = 4e-10 of a_p in the step of the uplift or of the impact.
 #[test]
 fn margins_under_pulses_are_those_of_closed_forms() {
     let rate = (1.5 * G / HEIGHT).sqrt();
