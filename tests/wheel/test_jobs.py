@@ -255,13 +255,12 @@ def test_a_spectrum_over_walls(program, tmp_path, axes):
     assert "<svg" in found._repr_svg_() and "slenderness" in found._repr_svg_()
 
 
-def test_a_spectrum_over_pulses(program, tmp_path):
+@pytest.mark.parametrize("form", ["sine_cycle", "rectangle", "triangle", "falling_triangle"])
+def test_a_spectrum_over_pulses(program, tmp_path, form):
     out = tmp_path / "spectrum.csv"
     options = ["--frequency-ratios", "1:9:9", "--amplitude-ratios", "1:6:6"]
-    program("study", "spectrum", *ARGUMENTS, "--pulse", "sine_cycle", "--csv", out, *options)
-    found = rw.Wall(**SET).pulse_spectrum(
-        "sine_cycle", frequency_ratios=range(1, 10), amplitude_ratios=range(1, 7)
-    )
+    program("study", "spectrum", *ARGUMENTS, "--pulse", form, "--csv", out, *options)
+    found = rw.Wall(**SET).pulse_spectrum(form, frequency_ratios=range(1, 10), amplitude_ratios=range(1, 7))
     assert_table(found.table, out)
 
 

@@ -85,6 +85,8 @@ pub struct CheckFile<'a> {
     document: DeTable<'a>,
     folder: PathBuf,
     records: Vec<NamedRecord>,
+    /// Whether the records that the table names are read.
+    reads_records: bool,
 }
 
 impl<'a> CheckFile<'a> {
@@ -113,7 +115,7 @@ impl<'a> CheckFile<'a> {
             }
             from += line.len();
         }
-        Ok(Self { place, own, document, folder, records: Vec::new() })
+        Ok(Self { place, own, document, folder, records: Vec::new(), reads_records: true })
     }
 
     /// Returns the file with what one of its walls states of the check laid over the file's own statements;
@@ -151,15 +153,21 @@ impl<'a> CheckFile<'a> {
             }
         }
         overlay(check, own);
-        let Self { own, folder, records, .. } = self;
         let place = Place::new(self.place.name(), self.place.text());
-        Ok(Some(Self { place, own: *own, document, folder: folder.clone(), records: records.clone() }))
+        let (folder, records) = (self.folder.clone(), self.records.clone());
+        Ok(Some(Self { place, document, folder, records, ..*self }))
     }
 
     /// Takes these records in place of those that the table names.
     #[must_use]
     pub fn with_records(self, records: Vec<NamedRecord>) -> Self {
         Self { records, ..self }
+    }
+
+    /// Leaves the records that the table names unread, where only its other statements count.
+    #[must_use]
+    pub fn without_records(self) -> Self {
+        Self { reads_records: false, ..self }
     }
 
     /// The name of the file.
@@ -255,7 +263,7 @@ impl<'a> CheckFile<'a> {
     /// [`CheckError::Scene`] of a file that cannot be read.
     pub(crate) fn records(&self, table: Option<&Spanned<RecordsTable>>) -> Result<Records, CheckError> {
         let (mut files, mut warnings, mut named) = (Vec::new(), Vec::new(), self.records.clone());
-        if let (Some(table), true) = (table, named.is_empty()) {
+        if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
             let entry = records(table, &self.place)?;
             let found = record_files(&entry, &self.folder, self.name())?;
             named = all_records(&entry, &found, self.name(), &mut warnings)?;

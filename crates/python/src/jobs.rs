@@ -147,8 +147,7 @@ pub(crate) fn spectrum_over_pulses<'py>(
     rows: &Bound<'py, PyAny>,
     threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values<'py>> {
-    let form = PulseForm::from_name(form)
-        .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
+    let form = PulseForm::from_name(form).map_err(|message| refused(format!("form = {message}")))?;
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
     let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());

@@ -64,10 +64,11 @@ impl LoadedStudy {
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
-        for entry in std::mem::take(&mut file.walls) {
+        for (place, entry) in std::mem::take(&mut file.walls).into_iter().enumerate() {
             let is_scene = matches!(entry.source, WallSource::Scene(..));
             let found = walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?;
-            all.extend(found.into_iter().map(|wall| if is_scene { wall.without_damping() } else { wall }));
+            let found = found.into_iter().map(|wall| NamedWall { entry: place, ..wall });
+            all.extend(found.map(|wall| if is_scene { wall.without_damping() } else { wall }));
         }
         let walls = Walls::of(&name, &mut file, all, &mut warnings)?;
         warn(&walls.told(), &ignored, (&file.models, &file.measure), &mut warnings);

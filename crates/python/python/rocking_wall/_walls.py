@@ -307,13 +307,18 @@ class Wall(Given):
 
     def pulse_spectrum(
         self,
-        form: Literal["ricker", "sine_cycle", "half_sine"],
+        form: Literal[
+            "ricker", "sine_cycle", "half_sine", "rectangle", "triangle", "falling_triangle"
+        ],
         *,
         frequency_ratios: ArrayLike | None = None,
         amplitude_ratios: ArrayLike | None = None,
         threads: int | None = None,
     ) -> RockingSpectrum:
         """Computes u_max/u_ins of this wall under pulses of one form. Ctrl-C stops the work.
+
+        Half sine, rectangle and triangles last half a period, π/ω_p. A falling triangle has its peak at the
+        start, a triangle in the middle.
 
         :param frequency_ratios: ω_p/p along the columns; by default 39 from 0.5 to 10.
         :param amplitude_ratios: a_p/a₀ along the rows, with the acceleration a₀ at which the rigid wall

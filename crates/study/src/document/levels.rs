@@ -98,7 +98,7 @@ fn of_code(
     table: &Spanned<IntensityTable>,
     place: &Place<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
-    let file = CheckFile::parse(place.name(), place.text())?;
+    let file = CheckFile::parse(place.name(), place.text())?.without_records();
     let code = read(&file).map_err(|error| file.located(error))?;
     if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
         return Err(place.error(table.span(), format!("periods: {period} s must be above 0")));

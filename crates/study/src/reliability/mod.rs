@@ -26,7 +26,7 @@ mod rules;
 mod table;
 mod wall;
 
-use check::{CheckFile, Code, WallCodes};
+use check::{CheckFile, WallCodes};
 use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
 
@@ -62,7 +62,8 @@ impl Reliability {
             loaded.inputs.first().map_or_else(|| "the study".into(), |path| path.display().to_string());
         let refused = |reason: String| Err(SceneError::Value { message: format!("{name}: {reason}") });
         let walls = loaded.study.walls().to_vec();
-        let codes = WallCodes::read(&CheckFile::parse(&name, loaded.text())?, &walls)?;
+        // records have no part: those of a check that they decide are refused below
+        let codes = WallCodes::read(&CheckFile::parse(&name, loaded.text())?.without_records(), &walls)?;
         if !matches!(loaded.study.measure(), IntensityMeasure::Code { .. }) {
             return refused(
                 "a study of reliability needs a_g of the site as intensity; set intensity = { measure = \
@@ -94,7 +95,7 @@ impl Reliability {
                 ));
             }
         }
-        let reason = |wall| deciding(codes.of(wall), |code| code.check(wall::subject(wall)).err());
+        let reason = |wall| codes.of(wall).check(wall::subject(wall)).err();
         let reasons = walls.iter().map_while(reason).map(|error| error.to_string());
         let reasons: Vec<_> = reasons.collect();
         if reasons.len() == walls.len() {
@@ -110,12 +111,6 @@ impl Reliability {
     /// The reason why there is no check.
     fn of_wall(&self, place: usize, curves: &[Curve], fitting: &Fitting) -> Result<WallReliability, String> {
         let wall = &self.walls[place];
-        deciding(self.codes.of(wall), |code| WallReliability::of((wall, code), curves, fitting, self.target))
+        WallReliability::of((wall, self.codes.of(wall)), curves, fitting, self.target)
     }
-}
-
-/// Hands on the statements of a code without records that only inform: they have no part here.
-fn deciding<T>(code: &dyn Code, take: impl FnOnce(&dyn Code) -> T) -> T {
-    let own = code.deciding();
-    take(own.as_deref().unwrap_or(code))
 }

@@ -8,8 +8,8 @@ use rocking_wall::wall::{ParameterError, Parameters};
 
 /// Most points of a spectrum.
 pub const MOST_POINTS: usize = 250_000;
-/// Steps of a pulse in one period.
-const STEPS_PER_PERIOD: f64 = 2000.0;
+/// Steps of a pulse in half a period; even, so that the middle is a sample.
+const HALF_PERIOD: u32 = 1000;
 
 /// What an axis counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,8 @@ pub enum Slenderness {
     Angle,
 }
 
-/// Form of a pulse of unit amplitude; `ω_p` = 2π f.
+/// Form of a pulse of unit amplitude; `ω_p` = 2π f. Half sine, rectangle and triangles last half a period,
+/// 1/(2f).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PulseForm {
     /// Symmetric Ricker pulse (1 − 2z²) exp(−z²), z = π f (t − t₀).
@@ -57,6 +58,12 @@ pub enum PulseForm {
     SineCycle,
     /// Half a cycle of a sine.
     HalfSine,
+    /// A constant acceleration.
+    Rectangle,
+    /// A triangle that rises to its peak in the middle.
+    Triangle,
+    /// A triangle that falls from its peak at the start.
+    FallingTriangle,
 }
 
 /// Why a spectrum could not be made.
@@ -116,32 +123,51 @@ impl Slenderness {
 }
 
 impl PulseForm {
-    /// Returns the form of a name: `ricker`, `sine_cycle`, `half_sine`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "ricker" => Some(Self::Ricker),
-            "sine_cycle" => Some(Self::SineCycle),
-            "half_sine" => Some(Self::HalfSine),
-            _ => None,
-        }
+    /// All forms with their names.
+    const NAMED: [(&'static str, Self); 6] = [
+        ("ricker", Self::Ricker),
+        ("sine_cycle", Self::SineCycle),
+        ("half_sine", Self::HalfSine),
+        ("rectangle", Self::Rectangle),
+        ("triangle", Self::Triangle),
+        ("falling_triangle", Self::FallingTriangle),
+    ];
+
+    /// Returns the form of a name.
+    ///
+    /// # Errors
+    /// The names that there are.
+    pub fn from_name(name: &str) -> Result<Self, String> {
+        let found = Self::NAMED.into_iter().find(|(own, _)| *own == name);
+        found
+            .map(|(_, form)| form)
+            .ok_or_else(|| format!("{name:?} is not one of {}", Self::NAMED.map(|(own, _)| own).join(", ")))
     }
 
-    /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is
-    /// −4e-17.
-    pub fn pulse(self, frequency: f64) -> Pulse {
-        let shape = match self {
-            Self::Ricker => Shape::Ricker { centre: 6.5 / (0.5 * TAU * frequency) },
-            Self::SineCycle => Shape::SineCycle,
-            Self::HalfSine => Shape::HalfSine,
-        };
-        Pulse { shape, amplitude: 1.0, frequency }
-    }
-
-    /// Samples the pulse of a frequency \[Hz\] and the amplitude 1 m/s² in 2000 steps a period.
+    /// Samples the pulse of a frequency \[Hz\] and the amplitude 1 m/s² in 2000 steps a period. A Ricker
+    /// pulse starts where it is −4e-17.
     ///
     /// # Errors
     /// [`GroundMotionError`] if the frequency is not positive and finite.
     pub fn motion(self, frequency: f64) -> Result<GroundMotion, GroundMotionError> {
-        self.pulse(frequency).sampled(None, 1.0 / (STEPS_PER_PERIOD * frequency))
+        if !(frequency > 0.0 && frequency.is_finite()) {
+            let (name, limit) = ("frequency [Hz]", "positive and finite");
+            return Err(GroundMotionError::Parameter { name, value: frequency, limit });
+        }
+        let step = 1.0 / (2.0 * f64::from(HALF_PERIOD) * frequency);
+        let curved = |shape| Pulse { shape, amplitude: 1.0, frequency }.sampled(None, step);
+        // lines between samples are the pulse itself; a corner lies on a sample
+        let straight = |height: fn(f64) -> f64| {
+            let half = (0..=HALF_PERIOD).map(|index| height(f64::from(index) / f64::from(HALF_PERIOD)));
+            GroundMotion::new(step, half.collect())
+        };
+        match self {
+            Self::Ricker => curved(Shape::Ricker { centre: 6.5 / (0.5 * TAU * frequency) }),
+            Self::SineCycle => curved(Shape::SineCycle),
+            Self::HalfSine => curved(Shape::HalfSine),
+            Self::Rectangle => straight(|_| 1.0),
+            Self::Triangle => straight(|part| 1.0 - (2.0 * part - 1.0).abs()),
+            Self::FallingTriangle => straight(|part| 1.0 - part),
+        }
     }
 }

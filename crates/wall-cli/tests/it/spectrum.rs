@@ -60,6 +60,10 @@ fn the_program_writes_a_table_and_a_page() {
     let pulse =
         args("study spectrum --pulse ricker --frequency 1 --amplitude 3 --radii 1:2:2 --angles 0.1:0.2:2");
     assert_has(&printed(&folder, &pulse), &["semi-diagonal R (m)"]);
+    let pulse = args(
+        "study spectrum --pulse falling_triangle --frequency 1 --amplitude 3 --heights 1:2:2 --ratios 5:9:2",
+    );
+    assert_has(&printed(&folder, &pulse), &["falling triangle of 3 m/s² at 1 Hz"]);
 }
 
 #[test]
@@ -67,12 +71,19 @@ fn bad_requests_are_refused() {
     let folder = folder("spectrum_refused");
     let strip =
         ["study", "spectrum", "--synthetic", "--set", "mechanism=vertical_spanning", "--radii", "1:2:2"];
-    let cases: [(&[&str], &[&str]); 11] = [
+    let cases: [(&[&str], &[&str]); 12] = [
         (&["study", "spectrum"], &["--record", "--pulse", "scene"]),
-        (&["study", "spectrum", "--pulse", "cosine"], &["cosine", "ricker, sine_cycle or half_sine"]),
+        (
+            &["study", "spectrum", "--pulse", "cosine"],
+            &["--pulse: \"cosine\"", "ricker, ", "falling_triangle"],
+        ),
         (
             &["study", "spectrum", "--pulse", "ricker", "--heights", "1:2:2"],
             &["--heights", "--frequency", "--amplitude"],
+        ),
+        (
+            &["study", "spectrum", "--pulse", "triangle", "--frequency", "0", "--amplitude", "1"],
+            &["frequency", "0", "positive"],
         ),
         (&["study", "spectrum", "--pulse", "ricker", "--scale", "2"], &["--scale", "--record"]),
         (&["study", "spectrum", "--synthetic", "--heights", "1:2"], &["--heights 1:2", "FROM:TO:COUNT"]),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
-use ground_motion::{GroundMotion, Pulse};
+use ground_motion::GroundMotion;
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
@@ -25,8 +25,9 @@ pub(crate) struct Arguments {
     scene: SceneArguments,
     #[command(flatten)]
     record: RecordArguments,
-    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless
-    /// spectrum over `omega_p/p` and `a_p/a_0`
+    /// Pulse instead of a record: ricker, `sine_cycle`, `half_sine`, rectangle, triangle or
+    /// `falling_triangle`; by itself it gives the dimensionless spectrum over `omega_p/p` and `a_p/a_0`. All
+    /// from `half_sine` on last half a period, 1/(2 f)
     #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
     pulse: Option<String>,
     /// Frequency of the pulse in Hz, for a spectrum over walls
@@ -83,7 +84,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
         (Some(form), None, None) => pulses(console, arguments, &scene.parameters, form, threads)?,
         (Some(form), Some(frequency), Some(amplitude)) => {
-            let motion = Pulse { amplitude, ..form.pulse(frequency) }.motion(None)?;
+            let motion = form.motion(frequency)?.checked_scaled(amplitude)?;
             let note = format!("{} of {amplitude} m/s² at {frequency} Hz", words(form));
             walls(arguments, &scene.parameters, &motion, vec![note], threads)?
         }
@@ -184,8 +185,7 @@ fn motion(
 }
 
 fn form(name: &str) -> Result<PulseForm> {
-    PulseForm::from_name(name)
-        .ok_or_else(|| anyhow!("--pulse {name}: expected ricker, sine_cycle or half_sine"))
+    PulseForm::from_name(name).map_err(|message| anyhow!("--pulse: {message}"))
 }
 
 fn words(form: PulseForm) -> &'static str {
@@ -193,6 +193,9 @@ fn words(form: PulseForm) -> &'static str {
         PulseForm::Ricker => "Ricker pulse",
         PulseForm::SineCycle => "sine cycle",
         PulseForm::HalfSine => "half sine",
+        PulseForm::Rectangle => "rectangle",
+        PulseForm::Triangle => "triangle",
+        PulseForm::FallingTriangle => "falling triangle",
     }
 }
 
