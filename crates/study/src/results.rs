@@ -2,7 +2,7 @@
 
 use crate::document::ReportOptions;
 use crate::fragility::{Bootstrap, Estimator, FitError, Lognormal, Sample, Summary, compare, fit};
-use crate::ida::{Crossing, Curve, Exceedance};
+use crate::ida::{Crossing, Curve, Exceedance, Polarity};
 
 /// Makes the results of each wall of a study.
 #[derive(Clone, Debug)]
@@ -55,6 +55,12 @@ impl Fitting {
             keeps_resamples: !report.classes.is_empty() || report.hazard.is_some(),
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
         }
+    }
+
+    /// Takes records of both signs as pairs, which the bootstrap draws together.
+    #[must_use]
+    pub fn with_polarity(self, polarity: Polarity) -> Self {
+        Self { bootstrap: self.bootstrap.in_groups(polarity.signs()), ..self }
     }
 
     /// Fits the fragilities of a wall. `curves` has models outermost, records innermost.

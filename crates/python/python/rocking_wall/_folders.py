@@ -72,7 +72,8 @@ class StudyResults(Tabular):
         that exists.
         """
         if self.nrml is None:
-            raise ValueError("NRML knows PGA, Sa(T) and AvgSA; run the study with one of these measures")
+            known = "PGA, PGV, PGD, Sa(T), AvgSA, IA and CAV"
+            raise ValueError(f"OpenQuake knows {known}; run the study with one of these measures")
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(self.nrml)
 
@@ -96,7 +97,8 @@ class StudyResults(Tabular):
                 x = theta * np.exp(np.linspace(-3, 3, 121) * beta)
                 y = [0.5 * math.erfc(-z / math.sqrt(2)) for z in np.log(x / theta) / beta]
                 ax.plot(x, y, label=f"{row['wall']}, {row['model']}")
-        ax.set(xlabel=f"{curves['measure'][0]} (g)", ylabel="probability of exceedance", ylim=(0, 1))
+        measure = f"{curves['measure'][0]} ({curves['unit'][0]})"
+        ax.set(xlabel=measure, ylabel="probability of exceedance", ylim=(0, 1))
         ax.legend()
         return ax
 

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use crate::fragility::{Dispersion, Interval};
 use crate::ida::{Collapse, Crossing, Exceedance};
 use crate::results::{StateResults, WallResults};
-use crate::tables::in_g;
 use report::counted;
 use report::escaped;
 use report::many_lines::STYLE;
@@ -193,7 +192,7 @@ fn shape(parameters: &str) -> String {
 
 /// Lists the collapse of each record with each model, unless there are too many records for a page.
 fn collapses(shown: Shown<'_>) -> String {
-    let Contents { records, models, .. } = &shown.manifest.contents;
+    let Contents { records, models, unit, .. } = &shown.manifest.contents;
     if records.len() > MOST_LISTED {
         return String::new();
     }
@@ -201,14 +200,14 @@ fn collapses(shown: Shown<'_>) -> String {
     let mut table = Table::new([Column::text("", "record")].into_iter().chain(columns));
     for (index, record) in records.iter().enumerate() {
         let collapse = |model| match shown.results.curves(model)[index].collapse() {
-            Exceedance::Above(top) => Cell::Between([in_g(top), f64::INFINITY]),
-            exceedance => Cell::Number(in_g(exceedance.bounds()[1])),
+            Exceedance::Above(top) => Cell::Between([unit.of(top), f64::INFINITY]),
+            exceedance => Cell::Number(unit.of(exceedance.bounds()[1])),
         };
         table.row([record.name.clone().into()].into_iter().chain((0..models.len()).map(collapse)));
     }
     format!(
-        "<details><summary>Collapse of each record, {} (g)</summary>{}</details>",
-        escaped(&shown.manifest.contents.measure),
+        "<details><summary>Collapse of each record, {}</summary>{}</details>",
+        escaped(&shown.manifest.contents.axis()),
         table.html()
     )
 }
@@ -217,11 +216,13 @@ fn collapses(shown: Shown<'_>) -> String {
 fn table(shown: Shown<'_>, collapse: usize) -> String {
     let Shown { manifest, wall, results } = shown;
     let (contents, report) = (&manifest.contents, &manifest.report);
+    let unit = contents.unit;
     let mut html = format!(
-        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
+        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median ({1})</th><th>θ ({1})</th><th>β</th>\
          <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th><th>misfit</th>\
-         <th>θ (g) of the first, last, fraction</th></tr></thead><tbody>",
-        escaped(&report.reference)
+         <th>θ ({1}) of the first, last, fraction</th></tr></thead><tbody>",
+        escaped(&report.reference),
+        unit.name()
     );
     for (model, (state, (color, mark))) in results.states(collapse).iter().zip(looks(manifest)).enumerate() {
         let StateResults { summary, by_crossing, .. } = state;
@@ -229,7 +230,6 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
         let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
-        let gravity = ground_motion::STANDARD_GRAVITY;
         let crosses =
             (0..report.fractions.len()).any(|state| results.summary(state, model).crossing.is_some());
         let sign_of_doubt = match report.beta {
@@ -238,7 +238,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             _ => "",
         };
         let thetas = by_crossing.iter().map(|curve| {
-            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", in_g(curve.median)))
+            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", unit.of(curve.median)))
         });
         let _ = write!(
             html,
@@ -247,8 +247,8 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             escaped(&contents.models[model].name),
             sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
-            words(&summary.median, gravity),
-            words(&summary.theta, gravity),
+            words(&summary.median, unit.size()),
+            words(&summary.theta, unit.size()),
             match summary.fitted {
                 Ok(_) => {
                     let [estimate, low, high] = summary.beta.texts(1.0, 2);
@@ -268,7 +268,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
 }
 
 /// An estimate over its interval.
-fn words(interval: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = interval.texts(unit, 3).map(|text| escaped(&text));
+fn words(interval: &Interval, size: f64) -> String {
+    let [estimate, low, high] = interval.texts(size, 3).map(|text| escaped(&text));
     format!("{estimate}<br><small>{low} … {high}</small>")
 }

@@ -8,8 +8,7 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES, in_g};
-use ground_motion::STANDARD_GRAVITY;
+use crate::tables::{KINDS, Kind, Names, TIES};
 use report::counted;
 use report::table::{Cell, Digits, Table};
 use run::file::{self, Draft};
@@ -59,7 +58,8 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     folder.sweep();
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let grid = contents.grid.clone();
-    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report);
+    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report)
+        .with_polarity(contents.polarity);
     let mut output = Output::new(folder, runs)?;
     let mut curves = Curves::of(folder);
     let of_wall = models.len() * contents.records.len();
@@ -235,9 +235,10 @@ impl<'a> Output<'a> {
         let (contents, report) = (&manifest.contents, &manifest.report);
         let Some(collapse) = collapse(manifest) else { return String::new() };
         let mut text = format!(
-            "{}; collapse {} in g, 95 % intervals of {} resamples of {}\n",
+            "{}; collapse {} in {}, 95 % intervals of {} resamples of {}\n",
             counted(self.runs, "run"),
             contents.measure,
+            contents.unit.name(),
             report.resamples,
             counted(contents.records.len(), "record")
         );
@@ -287,10 +288,10 @@ impl<'a> Output<'a> {
     /// Adds the collapse of a wall to the summary.
     fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
         let Some(collapse) = collapse(manifest) else { return };
-        let three = Digits::Decimals(3);
-        let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
-        let ends = |of: &Interval, unit| {
-            let [_, low, high] = of.texts(unit, 3);
+        let (three, unit) = (Digits::Decimals(3), manifest.contents.unit);
+        let estimate = |of: &Interval| Cell::Between(of.bounds(unit.size())[0]);
+        let ends = |of: &Interval, size| {
+            let [_, low, high] = of.texts(size, 3);
             format!("{low} … {high}")
         };
         let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, 3)[0], ends(of, 1.0));
@@ -298,7 +299,7 @@ impl<'a> Output<'a> {
             .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
             .text("", "model", |(model, _)| model.name.clone())
             .number("", "median", three, |(_, one)| estimate(&one.median))
-            .number("", "interval", three, |(_, one)| ends(&one.median, STANDARD_GRAVITY))
+            .number("", "interval", three, |(_, one)| ends(&one.median, unit.size()))
             .number("", "theta", three, |(_, one)| estimate(&one.theta))
             .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
             .number("", "censored", three, |(_, one)| one.censored)
@@ -339,13 +340,14 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
 /// cross, with the limit states and intensities at which they do.
 fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
     let Manifest { report, contents, .. } = manifest;
+    let unit = contents.unit;
     let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
     let words: Vec<_> = if report.beta == Dispersion::Common {
         let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
         alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()
     } else {
         let crossing = |(summary, fraction): (&Summary, &f64)| {
-            summary.crossing.map(|at| format!("{fraction} at {:.3} g", in_g(at)))
+            summary.crossing.map(|at| format!("{fraction} at {:.3} {}", unit.of(at), unit.name()))
         };
         summaries.zip(&report.fractions).filter_map(crossing).collect()
     };

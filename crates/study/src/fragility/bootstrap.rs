@@ -17,6 +17,8 @@ pub struct Bootstrap {
     records: usize,
     samples: usize,
     seed: u64,
+    /// Records that are drawn together.
+    group: usize,
 }
 
 /// An estimate and its bootstrap interval.
@@ -48,7 +50,17 @@ pub struct Resampled {
 impl Bootstrap {
     /// Prepares `samples` resamples of `records` records. The same seed gives the same draws.
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
-        Self { records, samples, seed }
+        Self { records, samples, seed, group: 1 }
+    }
+
+    /// Draws groups of so many records that follow each other, such as a record and its reverse.
+    ///
+    /// # Panics
+    /// If the records are no whole number of groups.
+    #[must_use]
+    pub fn in_groups(self, group: usize) -> Self {
+        assert!(self.records.is_multiple_of(group), "whole groups of records");
+        Self { group, ..self }
     }
 
     /// Computes something of each resample, from the indices of the records drawn.
@@ -56,7 +68,10 @@ impl Bootstrap {
         let mut random = Pcg::new(self.seed);
         let mut drawn = vec![0; self.records];
         let resample = |_| {
-            drawn.fill_with(|| random.below(self.records));
+            for group in drawn.chunks_mut(self.group) {
+                let first = random.below(self.records / self.group) * self.group;
+                group.iter_mut().zip(first..).for_each(|(place, record)| *place = record);
+            }
             result(&drawn)
         };
         (0..self.samples).map(resample).collect()

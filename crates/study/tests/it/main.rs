@@ -12,6 +12,7 @@ mod estimators;
 mod fragility;
 mod ida;
 mod messages;
+mod polarity;
 mod record_files;
 mod reliability;
 mod rocking_spectrum;
