@@ -39,6 +39,28 @@ pub const KINDS: [Kind; 3] = [
 /// The table of the ties that may yield.
 pub const TIES: Kind = ("ties", ties);
 
+/// The table of a cloud.
+pub const CLOUD: Kind = ("cloud", cloud);
+
+/// The regression of every model: ln(`u_max`/`u_ins`) = a + b ln IM, with IM in the unit of results.
+fn cloud(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let three = Digits::Significant(4);
+    let unit = names.unit.size();
+    let rows = results.clouds().iter().map(|cloud| (cloud, cloud.fit().ok()));
+    Table::over(rows.enumerate())
+        .text("wall", "", |_| names.walls[wall].to_owned())
+        .text("model", "model", |(model, _)| names.models[*model].to_owned())
+        .number("records", "records", three, |(_, (cloud, _))| cloud.records())
+        .number("collapsed", "collapsed", three, |(_, (cloud, _))| cloud.collapsed())
+        .number("still", "without motion", three, |(_, (cloud, _))| cloud.still())
+        .number("a", "a", three, move |(_, (_, fit))| {
+            fit.map(|fit| fit.intercept + fit.slope * libm::log(unit))
+        })
+        .number("b", "b", three, |(_, (_, fit))| fit.map(|fit| fit.slope))
+        .number("sigma", "σ", three, |(_, (_, fit))| fit.map(|fit| fit.deviation))
+        .done()
+}
+
 /// Every run of a wall, from all its curves.
 pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
     let runs =

@@ -33,7 +33,8 @@ class StudyResults(Tabular):
     levels: Table
     """Every run; `overturn_time_s` is NaN for a wall that stood."""
     collapses: Table
-    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none."""
+    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none. Columns
+    of intensities end with the unit of the measure."""
     fragilities: Table
     """The fragility of every wall, damping model and limit state: medians, θ and β of lognormal curves, with
     95 % intervals. A number above the levels is infinite; one of which only bounds are known is NaN."""
@@ -53,6 +54,9 @@ class StudyResults(Tabular):
     """The values of the samples of each wall; None without `uncertain`."""
     sensitivity: Table | None
     """How far each parameter explains θ over the samples; None without `uncertain`."""
+    cloud: Table | None
+    """The regression of every wall and damping model, ln(u_max/u_ins) = a + b ln IM with the standard
+    deviation sigma; None for levels of another method than "cloud"."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -153,6 +157,7 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
         losses=table("losses"),
         samples=table("samples"),
         sensitivity=table("sensitivity"),
+        cloud=table("cloud"),
         ties=table("ties"),
         nrml=xml.read_text(encoding="utf-8") if xml.exists() else None,
     )

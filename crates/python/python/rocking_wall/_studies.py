@@ -78,7 +78,8 @@ class Study:
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in the
-            unit of results: g, cm/s of PGV, cm of PGD and Housner, m/s of Arias, g s of CAV.
+            unit of results: g, cm/s of PGV, cm of PGD and Housner, m/s of Arias, g s of CAV. `{"method":
+            "cloud"}` runs each record once, and takes a regression.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
             Others are PGA, PGV, PGD, Arias, CAV and Housner; `{"measure": "code"}` is a_g of the site that
             `check` states.

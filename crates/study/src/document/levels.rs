@@ -10,7 +10,7 @@ use rocking_wall::tables;
 /// Names of the intensity measures.
 const MEASURES: [&str; 9] = ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
 /// Names of the ways to choose levels.
-const METHODS: [&str; 3] = ["hunt", "step", "grid"];
+const METHODS: [&str; 4] = ["hunt", "step", "grid", "cloud"];
 /// Resolution and gap of a hunt that states none.
 const RESOLUTION: f64 = 0.01;
 const GAP: f64 = 0.1;
@@ -31,7 +31,7 @@ tables! {
         pub(super) select: Option<Spanned<usize>>,
     }
 
-    /// Levels of intensity: hunt, step (to the first overturning) or grid.
+    /// Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
     #[derive(Debug)]
     pub(super) struct LevelsTable {
         /// How levels are chosen.
@@ -56,6 +56,9 @@ tables! {
         gap: Option<f64>,
         /// Levels of a grid.
         values: Option<Vec<f64>>,
+        /// Factor on the records of a cloud.
+        #[key(exclusiveMinimum = 0, default = 1)]
+        scale: Option<f64>,
     }
 }
 
@@ -132,6 +135,7 @@ pub(super) fn levels(
         "hunt" => &["first", "increase", "top", "resolution", "gap"],
         "step" => &["step", "top"],
         "grid" => &["values", "step", "top"],
+        "cloud" => &["scale"],
         other => {
             let message = format!("method = {other:?} is not one of {}", METHODS.join(", "));
             return Err(place.error(spec.method.span(), message));
@@ -145,8 +149,11 @@ pub(super) fn levels(
         ("resolution", spec.resolution),
         ("gap", spec.gap),
         ("values", spec.values.as_ref().map(|_| 0.0)),
+        ("scale", spec.scale),
+        ("unit", spec.unit.as_ref().filter(|_| method == "cloud").map(|_| 0.0)),
     ];
-    if let Some((name, _)) = given.iter().find(|(name, value)| value.is_some() && !keys.contains(name)) {
+    let is_taken = |name: &str| keys.contains(&name);
+    if let Some((name, _)) = given.iter().find(|(name, value)| value.is_some() && !is_taken(name)) {
         let message = format!("{name} has no part in method = {method:?}, which takes {}", keys.join(", "));
         return Err(place.error(table.span(), message));
     }
@@ -163,6 +170,7 @@ pub(super) fn levels(
             resolution: spec.resolution.unwrap_or(RESOLUTION),
             gap: spec.gap.unwrap_or(GAP),
         }),
+        "cloud" => Ok(Levels::Cloud { scale: spec.scale.unwrap_or(1.0) }),
         "step" => Ok(Levels::ToOverturning { step: needed("step")?, top: needed("top")? }),
         _ => match (&spec.values, spec.step, spec.top) {
             (Some(values), None, None) => Ok(Levels::Grid(values.iter().map(|&x| to_si(x)).collect())),

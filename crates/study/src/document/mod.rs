@@ -160,6 +160,13 @@ impl StudyFile {
         }
         let measure = measure(document.intensity.as_ref(), place)?;
         let levels = levels(&document.levels, &measure, place)?;
+        if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
+            && word.get_ref() == Collapse::Falls.name()
+        {
+            let message = "collapse_is = \"falls\" has no part in a cloud: its regression takes a demand of \
+                           u_ins and more as a collapse";
+            return Err(place.error(word.span(), message));
+        }
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, IntensityMeasure, IntensityUnit, Polarity, Study};
+use crate::ida::{Case, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
 use rocking_wall::scene::fingerprint;
 use run::walls::wall_text;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,9 @@ pub struct Contents {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) spectrum: Option<[Vec<f64>; 2]>,
     pub(crate) levels: String,
+    /// Whether each record is run once, at its own level.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_cloud: bool,
     /// Levels where all records share them, in SI units.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
@@ -149,6 +152,7 @@ impl Contents {
                 _ => None,
             },
             levels: study.levels().description(study.measure().unit().si()),
+            is_cloud: matches!(study.levels(), Levels::Cloud { .. }),
             grid: study.levels().shared(),
             tail_s: study.tail(),
             collapse_is: study.collapse().name().to_owned(),

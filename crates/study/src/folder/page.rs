@@ -25,8 +25,7 @@ const MOST_LISTED: usize = 200;
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{}, {}, {}: {}. Intensity: {}. {}; the lowest level at which it does is \
-         the collapse.",
+        "{}, {}, {}: {}. Intensity: {}. {}{}.",
         counted(contents.walls.len(), "wall"),
         counted(contents.records.len(), "record"),
         counted(contents.models.len(), "damping model"),
@@ -37,6 +36,7 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
         },
+        if contents.is_cloud { "" } else { "; the lowest level at which it does is the collapse" },
     );
     template::page(
         include_str!("page.html"),
@@ -76,6 +76,18 @@ fn measure_words(manifest: &Manifest) -> String {
 /// Explains medians, fits and intervals.
 fn reading(manifest: &Manifest) -> String {
     let report = &manifest.report;
+    if manifest.contents.is_cloud {
+        return format!(
+            "Each record is run once, at its own level; points at the right edge are walls that overturned. \
+             The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
+             likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
+             them: θ = exp((ln d − a)/b), β = σ/b. Intervals contain 95&nbsp;% of {} resamples of the \
+             records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
+             counts the walls that overturned.",
+            report.resamples,
+            escaped(&report.reference)
+        );
+    }
     let (drawn, observed) = match report.collapse {
         Crossing::Fraction => (
             "marks are the fractions of the records that exceed the limit state at each level",
@@ -144,8 +156,12 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
             collapses(shown)
         );
     }
-    let drawn = if contents.grid.is_some() { "Stripes" } else { "IDA curves" };
-    let _ = write!(html, "</div><h3>{drawn}, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
+    let drawn = match (contents.is_cloud, contents.grid.is_some()) {
+        (true, _) => "Clouds, with their regressions",
+        (false, true) => "Stripes, with their 16, 50 and 84 % fractiles",
+        (false, false) => "IDA curves, with their 16, 50 and 84 % fractiles",
+    };
+    let _ = write!(html, "</div><h3>{drawn}</h3><div class=\"row\">");
     for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
         let _ = write!(
             html,
@@ -193,7 +209,7 @@ fn shape(parameters: &str) -> String {
 /// Lists the collapse of each record with each model, unless there are too many records for a page.
 fn collapses(shown: Shown<'_>) -> String {
     let Contents { records, models, unit, .. } = &shown.manifest.contents;
-    if records.len() > MOST_LISTED {
+    if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud {
         return String::new();
     }
     let columns = models.iter().map(|model| Column::number("", model.name.clone(), Digits::Decimals(3)));

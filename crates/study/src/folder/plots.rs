@@ -1,6 +1,6 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
-use crate::fragility::steps;
+use crate::fragility::{Regression, steps};
 use crate::ida::{Crossing, Curve, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
 use report::many_lines::ManyLines;
@@ -58,7 +58,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
         results.states(place).iter().zip(looks(manifest))
     {
         let counts = sample.counts();
-        if counts.is_empty() {
+        if counts.is_empty() && !manifest.contents.is_cloud {
             let mut points = vec![[0.0, 0.0]];
             let mut before = 0.0;
             for (intensity, part) in steps(sample.exceedances()) {
@@ -67,7 +67,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
             }
             points.push([2.0 * top, before]);
             plot.line(&points, "steps", color);
-        } else {
+        } else if !counts.is_empty() {
             let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
                 [unit.of(level), f64::from(exceeded) / f64::from(runs.max(1))]
             };
@@ -102,7 +102,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
     let (color, _) = looks(manifest)[model];
     let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
     for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
-        if manifest.contents.grid.is_some() {
+        if manifest.contents.grid.is_some() || manifest.contents.is_cloud {
             let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
             let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), unit.of(run.intensity)]).collect();
             plot.points(&runs, "runs", color);
@@ -110,10 +110,16 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
             plot.named_line(&path(curve, unit), "record", color, &record.name);
         }
     }
-    for (points, class) in
-        fractile_paths(all, unit).iter().zip(["fractile outer", "fractile outer", "fractile"])
-    {
-        plot.line(points, class, color);
+    if let Some(cloud) = results.clouds().get(model) {
+        let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
+        let line = |fit: Regression| (1..=POINTS).map(|k| [fit.demand(at(k) * unit.size()), at(k)]).collect();
+        let line: Vec<_> = cloud.fit().map(line).unwrap_or_default();
+        plot.line(&line, "fractile", color);
+    } else {
+        let classes = ["fractile outer", "fractile outer", "fractile"];
+        for (points, class) in fractile_paths(all, unit).iter().zip(classes) {
+            plot.line(points, class, color);
+        }
     }
     plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &manifest.contents.axis()])
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES};
+use crate::tables::{CLOUD, KINDS, Kind, Names, TIES};
 use report::counted;
 use report::table::{Cell, Digits, Table};
 use run::file::{self, Draft};
@@ -59,7 +59,8 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let grid = contents.grid.clone();
     let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report)
-        .with_polarity(contents.polarity);
+        .with_polarity(contents.polarity)
+        .with_cloud(contents.is_cloud);
     let mut output = Output::new(folder, runs)?;
     let mut curves = Curves::of(folder);
     let of_wall = models.len() * contents.records.len();
@@ -123,11 +124,12 @@ impl<'a> Output<'a> {
             Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
+        let cloud = folder.contents().is_cloud.then_some(&CLOUD);
         let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().chain(ties).copied().map(draft).collect::<Result<_, _>>()?,
+            tables: kinds.iter().chain(ties).chain(cloud).copied().map(draft).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.path(), folder.manifest())?,
@@ -162,6 +164,14 @@ impl<'a> Output<'a> {
         }
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
+            if manifest.contents.is_cloud {
+                let table = (CLOUD.1)(&self.names, wall, results).html();
+                let _ = writeln!(
+                    self.sections,
+                    "<section><h3>Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM</h3>\
+                     <div class=\"scroll\">{table}</div></section>"
+                );
+            }
             if manifest.contents.walls[wall].has_yielding_tie {
                 let table = (TIES.1)(&self.names, wall, results).html();
                 let _ = writeln!(
@@ -318,6 +328,11 @@ impl<'a> Output<'a> {
         let more = if self.doubted > NAMED { " …" } else { "" };
         let fits = manifest.contents.walls.len() * manifest.contents.models.len();
         let named = format!("{} of {fits} fits: {}{more}", self.doubted, self.doubts.join(", "));
+        if self.doubted > 0 && manifest.contents.is_cloud {
+            return Some(format!(
+                "theta of the collapse lies outside the runs in {named}; scale the records, or add others"
+            ));
+        }
         (self.doubted > 0).then(|| match manifest.report.beta {
             Dispersion::Common => format!(
                 "limit states contradict a common beta in {named}; their fitted curves are rough, see the \
@@ -337,17 +352,26 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
 }
 
 /// Names a wall and model whose limit states contradict a common β, with the β of each, or whose curves
-/// cross, with the limit states and intensities at which they do.
+/// cross, with the limit states and intensities at which they do; of a cloud, whose θ of the collapse lies
+/// outside the runs.
 fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
     let Manifest { report, contents, .. } = manifest;
     let unit = contents.unit;
+    let in_unit = |intensity: f64| format!("{:.3} {}", unit.of(intensity), unit.name());
     let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
-    let words: Vec<_> = if report.beta == Dispersion::Common {
+    let words: Vec<_> = if contents.is_cloud {
+        let runs = results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
+        let [least, most] = [f64::min, f64::max].map(|end| runs.clone().reduce(end).unwrap_or(f64::NAN));
+        let theta = collapse(manifest).and_then(|state| results.summary(state, model).fitted.ok());
+        let theta = theta.map(|curve| curve.median).filter(|theta| !(least..=most).contains(theta));
+        let told = |theta| format!("{}, runs {} to {}", in_unit(theta), in_unit(least), in_unit(most));
+        theta.map(told).into_iter().collect()
+    } else if report.beta == Dispersion::Common {
         let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
         alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()
     } else {
         let crossing = |(summary, fraction): (&Summary, &f64)| {
-            summary.crossing.map(|at| format!("{fraction} at {:.3} {}", unit.of(at), unit.name()))
+            summary.crossing.map(|at| format!("{fraction} at {}", in_unit(at)))
         };
         summaries.zip(&report.fractions).filter_map(crossing).collect()
     };

@@ -91,6 +91,18 @@ impl Bootstrap {
         })
     }
 
+    /// Computes something of each resample, from how often each record was drawn.
+    pub(super) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
+        let mut counts = vec![0; self.records];
+        self.each(|drawn| {
+            counts.fill(0);
+            for &record in drawn {
+                counts[record] += 1;
+            }
+            result(&counts)
+        })
+    }
+
     /// Fits the curves of each resample: of each limit state θ with the bounds of those that have no fit, and
     /// β, which is not a number then.
     ///
@@ -114,14 +126,7 @@ impl Bootstrap {
         };
         let ones = vec![1; self.records];
         let near = fit(&ones, &[]);
-        let mut counts = vec![0; self.records];
-        let samples = self.each(|drawn| {
-            counts.fill(0);
-            for &record in drawn {
-                counts[record] += 1;
-            }
-            ends(&counts, fit(&counts, &near))
-        });
+        let samples = self.counted(|counts| ends(counts, fit(counts, &near)));
         let resampled = |(state, [least, most, beta]): (usize, [f64; 3])| {
             let side =
                 |side: usize| -> Vec<f64> { samples.iter().map(|sample| sample[state][side]).collect() };

@@ -15,6 +15,11 @@ const HIGHEST: f64 = 1e4;
 /// Levels of intensity at which a curve is run, in the SI unit of the measure: m/s² of an acceleration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
+    /// Each record once, at its own intensity times a scale: a cloud.
+    Cloud {
+        /// Factor on every record \[-\].
+        scale: f64,
+    },
     /// Each of these, in rising order, also beyond overturning.
     Grid(Vec<f64>),
     /// `step`, 2 `step` … up to the first level at which the wall overturns, at most up to `top`.
@@ -73,7 +78,7 @@ impl Levels {
         match self {
             Self::Grid(levels) => Some(levels.clone()),
             Self::ToOverturning { step, top } => Some(multiples(*step, *top).collect()),
-            Self::HuntAndFill { .. } => None,
+            Self::HuntAndFill { .. } | Self::Cloud { .. } => None,
         }
     }
 
@@ -84,6 +89,7 @@ impl Levels {
                 let levels: Vec<_> = levels.iter().map(f64::to_string).collect();
                 format!("grid of {} {unit}", levels.join(", "))
             }
+            Self::Cloud { scale } => format!("cloud of the records times {scale}"),
             Self::ToOverturning { step, top } => format!("steps of {step} up to {top} {unit}"),
             Self::HuntAndFill { first, increase, top, resolution, gap } => format!(
                 "hunt from {first} with {increase} more at each step up to {top} {unit}, resolution \
@@ -92,18 +98,21 @@ impl Levels {
         }
     }
 
-    /// Returns the highest level at which every record is run, even if the wall overturns below it.
-    pub(super) fn certain(&self) -> f64 {
+    /// Returns the highest level at which a record is run, even if the wall overturns below it. `own` is its
+    /// level in a cloud.
+    pub(super) fn certain(&self, own: f64) -> f64 {
         match *self {
             Self::Grid(ref levels) => levels.iter().copied().fold(0.0, f64::max),
             Self::ToOverturning { step, .. } => step,
             Self::HuntAndFill { first, .. } => first,
+            Self::Cloud { .. } => own,
         }
     }
 
     /// Estimates the number of runs of one curve. It is a guess where that depends on the collapse.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {
+            Self::Cloud { .. } => 1.0,
             Self::Grid(ref levels) => levels.len() as f64,
             Self::ToOverturning { step, top } => (0.5 * top / step).max(1.0),
             // the hunt and the bracket take about twenty
@@ -120,6 +129,7 @@ impl Levels {
         let count = |count: f64| check_range("number", count, number, [1.0, MOST_LEVELS as f64]);
         let top = |top| check_range("top", top, intensity, [1e-6, HIGHEST]);
         match *self {
+            Self::Cloud { scale } => check_range("scale", scale, number, [f64::MIN_POSITIVE, HIGHEST]),
             Self::Grid(ref levels) => {
                 count(levels.len() as f64)?;
                 top(levels.iter().copied().fold(0.0, f64::max))?;
@@ -151,9 +161,15 @@ impl Levels {
         }
     }
 
-    /// Runs the levels of one curve. `run` takes some levels and returns a run for each.
-    pub(super) fn trace<E>(&self, mut run: impl FnMut(&[f64]) -> Result<Vec<Run>, E>) -> Result<Vec<Run>, E> {
+    /// Runs the levels of one curve. `own` is the level of the record in a cloud; `run` takes some levels and
+    /// returns a run for each.
+    pub(super) fn trace<E>(
+        &self,
+        own: f64,
+        mut run: impl FnMut(&[f64]) -> Result<Vec<Run>, E>,
+    ) -> Result<Vec<Run>, E> {
         match *self {
+            Self::Cloud { .. } => run(&[own]),
             Self::Grid(ref levels) => run(levels),
             Self::ToOverturning { step, top } => {
                 let mut runs = ascend(multiples(step, top), &mut run)?;

@@ -100,6 +100,12 @@ impl IntensityMeasure {
         if *self == Self::Arias { ratio.sqrt() } else { ratio }
     }
 
+    /// Returns by what a factor on a motion multiplies its intensity, the inverse of
+    /// [`factor`](Self::factor).
+    pub fn ratio(&self, factor: f64) -> f64 {
+        if *self == Self::Arias { factor * factor } else { factor }
+    }
+
     /// Returns the unit in which results state it.
     pub fn unit(&self) -> IntensityUnit {
         match self {

@@ -202,10 +202,10 @@ impl Study {
     /// Warns about accelerations that no record has. They are those of the strongest record at the highest
     /// level, or at the lowest one where levels go on to overturning.
     pub fn warning(&self) -> Option<Warning> {
-        let level = self.levels.certain();
-        let peaks = self.records.iter().zip(&self.intensities);
-        let peak = |(record, intensity): (&NamedRecord, &f64)| {
-            record.motion.peak() * self.measure.factor(level / intensity)
+        let peaks = self.records.iter().enumerate();
+        let peak = |(index, record): (usize, &NamedRecord)| {
+            let level = self.levels.certain(self.own_level(index));
+            record.motion.peak() * self.measure.factor(level / self.intensities[index])
         };
         let peaks = peaks.map(peak);
         peaks.max_by(f64::total_cmp).and_then(Warning::of_peak)
@@ -253,7 +253,7 @@ impl Study {
         let support = self.support_motion(case)?;
         let solver = RecordSolver::new(&motion, support.step());
         let shaking = Shaking::new(&motion, &solver, &support, self.tail);
-        let runs = self.levels.trace(|levels| {
+        let runs = self.levels.trace(self.own_level(case.record), |levels| {
             self.runs(case, &motion, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
                 record: record.name.clone(),
@@ -263,6 +263,12 @@ impl Study {
             })
         })?;
         Ok(Curve::new(runs))
+    }
+
+    /// Returns the level of a record in a cloud: its intensity times the scale.
+    fn own_level(&self, record: usize) -> f64 {
+        let scale = if let Levels::Cloud { scale } = self.levels { scale } else { 1.0 };
+        self.intensities[record] * self.measure.ratio(scale)
     }
 
     /// Returns the motion of the supports of a wall under a record: that of the ground, or that of its floors

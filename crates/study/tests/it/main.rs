@@ -6,6 +6,7 @@
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;
 mod calibration;
+mod cloud;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod estimators;

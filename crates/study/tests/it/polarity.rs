@@ -80,7 +80,8 @@ fn the_worst_sign_collapses_first() {
 fn a_study_that_is_sent_keeps_its_signs() {
     for (word, polarity) in Polarity::ALL {
         let text = format!(
-            "models = [\"CR\"]\npolarity = \"{word}\"\nlevels = {{ method = \"step\", step = 0.4, top = 2 }}\n"
+            "models = [\"CR\"]\npolarity = \"{word}\"\n\
+             levels = {{ method = \"step\", step = 0.4, top = 2 }}\n"
         );
         let loaded = LoadedStudy::of_parts(text, walls(), records(3)).unwrap();
         assert_eq!((loaded.study.polarity(), polarity.name()), (polarity, word));

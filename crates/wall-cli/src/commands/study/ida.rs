@@ -67,7 +67,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 16] = [
+const FILES: [&str; 17] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -76,6 +76,7 @@ const FILES: [&str; 16] = [
     "fragilities.xml",
     "fragilities.svg",
     "ties.csv",
+    "cloud.csv",
     "rates.csv",
     "rate_shares.csv",
     "vulnerability.csv",
