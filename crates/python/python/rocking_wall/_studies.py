@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
 
 import numpy as np
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     Walls: TypeAlias = pandas.DataFrame | Table | Wall | Sequence[AWall] | Mapping[str, AWall]
     ARecord: TypeAlias = Record | str | PathLike[str]
     Records: TypeAlias = ARecord | Sequence[ARecord] | Mapping[str, ARecord]
+
+
+Polarity = Literal["as_recorded", "reversed", "both", "worst"]
 
 
 class Study:
@@ -61,7 +64,7 @@ class Study:
         intensity: Mapping[str, Any] | None = None,
         tail: float | None = None,
         collapse_is: str | None = None,
-        polarity: str | None = None,
+        polarity: Polarity | None = None,
         report: Mapping[str, Any] | None = None,
         classes: Sequence[Mapping[str, Any]] | None = None,
         hazard: Mapping[str, Any] | None = None,

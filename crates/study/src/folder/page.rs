@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Collapse, Crossing, Exceedance};
+use crate::ida::{Collapse, Crossing, Exceedance, Polarity};
 use crate::results::{StateResults, WallResults};
 use report::counted;
 use report::escaped;
@@ -25,12 +25,18 @@ const MOST_LISTED: usize = 200;
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{}, {}, {}: {}. Intensity: {}. {}{}.",
+        "{}, {}, {}: {}. Intensity: {}. {}{}{}.",
         counted(contents.walls.len(), "wall"),
         counted(contents.records.len(), "record"),
         counted(contents.models.len(), "damping model"),
         counted(runs, "run"),
         measure_words(manifest),
+        match contents.polarity {
+            Polarity::AsRecorded => "",
+            Polarity::Reversed => "Records are reversed. ",
+            Polarity::Both => "Each record is run as it is and reversed, as two records. ",
+            Polarity::Worst => "At each level the sign of a record counts that demands more. ",
+        },
         if contents.collapse_is == Collapse::Falls.name() {
             "A wall has overturned if it ends beyond u<sub>ins</sub>; one that comes back has not"
         } else {

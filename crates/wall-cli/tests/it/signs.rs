@@ -58,6 +58,8 @@ fn signs_and_clouds_have_the_same_bytes_by_any_way() {
         fs::remove_file(folder.join("merged/runs/0000/0000001.parquet")).unwrap();
         succeed(&folder, &["study", "ida", "study.toml", "-o", "merged", "--threads", "2"]);
         assert!(bytes(&folder.join("merged")) == whole, "{name}: resumed");
+        let said = if polarity == "worst" { "demands more" } else { "reversed" };
+        assert!(content(&folder, "one/study.html").contains(said), "{name}");
         // another sign is another study
         let other = content(&folder, "study.toml").replace(polarity, "as_recorded");
         fs::write(folder.join("study.toml"), other).unwrap();
