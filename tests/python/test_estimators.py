@@ -106,6 +106,51 @@ def of_stripes(levels, fraction):
     return likeliest(log_likelihood)
 
 
+def of_cloud(levels):
+    """a, b and σ of ln D = a + b ln IM + σ ε; of a wall that overturned only D ≥ 1 is known."""
+    x, y = (np.log([float(row[name]) for row in levels]) for name in ("intensity_g", "u_max_over_u_ins"))
+    fell = np.array([row["overturned"] == "true" for row in levels])
+    assert 3 <= fell.sum() <= len(fell) - 3
+
+    def opposite(at):
+        a, b, log_sigma = at
+        z = (np.where(fell, 0, y) - a - b * x) / np.exp(log_sigma)
+        return -(norm.logpdf(z[~fell]) - log_sigma).sum() - norm.logsf(z[fell]).sum()
+
+    start = minimize(opposite, [-1, 1, 0], method="Nelder-Mead", options={"maxiter": 4000}).x
+    options = {"xatol": 1e-10, "fatol": 1e-13, "maxiter": 4000}
+    best = minimize(opposite, start, method="Nelder-Mead", options=options)
+    assert best.success
+    return best.x[0], best.x[1], np.exp(best.x[2])
+
+
+def test_a_cloud_is_the_regression_of_scipy(wall, tmp_path):
+    cloud = STUDY.replace("LEVELS", '{ method = "cloud", scale = 0.7 }').replace("count = 12", "count = 30")
+    (tmp_path / "study.toml").write_text(cloud.replace('"PGA"', '"AvgSA"'), encoding="utf-8")
+    subprocess.run(
+        [wall, "study", "ida", "study.toml", "-o", "out"], check=True, capture_output=True, cwd=tmp_path
+    )
+    out = tmp_path / "out"
+    runs, fitted = rows(out / "levels.csv"), rows(out / "fragilities.csv")
+    lines = rows(out / "cloud.csv")
+    assert len(runs) == 2 * 2 * 30 and len(lines) == 2 * 2 and len(fitted) == 2 * 2 * 2
+    for line in lines:
+        key = line["wall"], line["model"]
+        own = [run for run in runs if (run["wall"], run["model"]) == key]
+        a, b, sigma = of_cloud(own)
+        for name, expected in (("a", a), ("b", b), ("sigma", sigma)):
+            assert abs(float(line[name]) - expected) < 1e-6, (key, name, line, expected)
+        for row in fitted:
+            if (row["wall"], row["model"]) != key:
+                continue
+            theta = np.exp((np.log(float(row["u_max_over_u_ins"])) - a) / b)
+            assert abs(float(row["theta_g"]) / theta - 1) < 1e-6 and row["median_g"] == row["theta_g"]
+            assert abs(float(row["beta"]) / (sigma / b) - 1) < 1e-6
+            assert row["censored"] == line["collapsed"] and row["misfit"] == ""
+            assert float(row["theta_low_g"]) < theta < float(row["theta_high_g"])
+    assert len(rows(out / "rates.csv")) == 3 * 2 * 2
+
+
 @pytest.mark.parametrize(("levels", "estimate"), [(HUNT, of_records), (GRID, of_stripes)])
 def test_curves_and_rates_are_those_of_scipy(wall, tmp_path, levels, estimate):
     (tmp_path / "study.toml").write_text(STUDY.replace("LEVELS", levels), encoding="utf-8")

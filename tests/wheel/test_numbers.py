@@ -103,6 +103,16 @@ def test_a_record(program, tmp_path, record):
     assert (read.dt, read.pga / g) == (told["step_s"], told["pga_g"])
     np.testing.assert_array_equal(read.spectrum([0.2, 1.0]) / g, told["sa_g"])
     assert read.average_sa() / g == told["average_sa_g"]
+    names = ("peak_velocity_m_s", "peak_displacement_m", "arias_m_s", "cav_m_s")
+    assert [read.pgv, read.pgd, read.arias, read.cav] == [told[name] for name in names]
+    # sums of 6,000 terms in the same order
+    trapezoids = np.cumsum(read.dt * (read.a[1:] + read.a[:-1]) / 2)
+    np.testing.assert_allclose(read.velocity[1:], trapezoids, atol=1e-13)
+    assert read.velocity[0] == read.displacement[0] == 0
+    assert 0 <= read.pgd - abs(read.displacement).max() < read.pgv * read.dt
+    periods = np.arange(10, 251) / 100
+    housner = np.trapezoid(read.spectrum(periods) * periods / (2 * np.pi), periods)
+    assert abs(read.housner() / housner - 1) < 1e-13
     [told] = program("record", path, "--json", "--at-samples", "--damping", "0.02")["records"]
     assert read.average_sa(damping=0.02, maxima="at_samples") / g == told["average_sa_g"]
 

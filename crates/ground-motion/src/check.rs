@@ -203,7 +203,8 @@ impl Record {
     /// shaking is missing.
     pub fn check(&self) -> Check {
         let motion = &self.motion;
-        let [peak_velocity, final_velocity] = velocities(motion);
+        let final_velocity = motion.velocities().last().copied().unwrap_or(0.0);
+        let peak_velocity = motion.peak_velocity();
         let samples = motion.samples();
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         let step = motion.step();
@@ -241,16 +242,6 @@ impl Record {
 
 fn is_credible(peak: f64, [low, high]: [f64; 2]) -> bool {
     (low..=high).contains(&(peak / STANDARD_GRAVITY))
-}
-
-/// Computes the largest and the last velocity (m/s) of ground at rest at time zero; exact at the samples.
-fn velocities(motion: &GroundMotion) -> [f64; 2] {
-    let (mut velocity, mut largest): (f64, f64) = (0.0, 0.0);
-    for pair in motion.samples().windows(2) {
-        velocity += motion.step() * (pair[0] + pair[1]) / 2.0;
-        largest = largest.max(velocity.abs());
-    }
-    [largest, velocity]
 }
 
 /// Finds the largest acceleration of the last second, or of the last twentieth of a record below 20 s.

@@ -14,7 +14,8 @@
 //! | [`is_vertical_channel`] | whether a channel such as `HNZ` is vertical |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
-//! | [`Spectrum`] | Sa at any period and damping, AvgSA |
+//! | [`GroundMotion::peak_velocity`] … | PGV, PGD, Arias intensity, CAV; velocity and displacement |
+//! | [`Spectrum`] | Sa at any period and damping, AvgSA, Housner's intensity |
 //! | [`Storeys`] | the motion of floors above the ground, in closed form per mode |
 //! | [`Pulse`], [`SyntheticMotion`] | Ricker pulses, sines; filtered noise from a seed |
 //!
@@ -30,6 +31,7 @@ mod error;
 mod fields;
 mod file;
 mod format;
+mod intensity;
 mod motion;
 mod options;
 mod parsed;

@@ -81,7 +81,7 @@ impl Folder {
         let threads = threads_of(threads)?.get();
         let done = AtomicUsize::new(0);
         let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            compute(&study.loaded.study, &self.folder, &parts, threads, |_, _, _| {
+            compute(&study.loaded.study, &self.folder, &parts, threads, |_, _| {
                 done.fetch_add(1, Ordering::Relaxed);
                 if is_wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             })

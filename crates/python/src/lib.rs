@@ -49,8 +49,8 @@ mod _native {
             verify_formulas,
         },
         motions::{
-            average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic,
-            trimmed, warnings_of_channel,
+            average_sa, displacement, housner, in_si, intensities, picture, pulse, read_channels, scaled,
+            scaled_to, spectrum, synthetic, trimmed, velocity, warnings_of_channel,
         },
         responses::picture_of_response,
         studies::Study,

@@ -137,6 +137,33 @@ pub(crate) fn average_sa(
     py.detach(|| of.average(&given.0, &periods)).map_err(of_motion)
 }
 
+/// Computes Housner's spectrum intensity.
+#[pyfunction]
+pub(crate) fn housner(py: Python<'_>, given: Motion, damping: f64, at_samples: bool) -> PyResult<f64> {
+    let of = of_damping(damping, at_samples)?;
+    py.detach(|| of.housner_intensity(&given.0)).map_err(of_motion)
+}
+
+/// Computes PGV, PGD, Arias intensity and CAV.
+#[pyfunction]
+pub(crate) fn intensities(given: Motion) -> [f64; 4] {
+    let motion = given.0;
+    let (arias, cav) = (motion.arias_intensity(), motion.cumulative_absolute_velocity());
+    [motion.peak_velocity(), motion.peak_displacement(), arias, cav]
+}
+
+/// Computes the velocity of the ground at the samples.
+#[pyfunction]
+pub(crate) fn velocity(py: Python<'_>, given: Motion) -> Numbers<'_> {
+    PyArray1::from_vec(py, given.0.velocities())
+}
+
+/// Computes the displacement of the ground at the samples.
+#[pyfunction]
+pub(crate) fn displacement(py: Python<'_>, given: Motion) -> Numbers<'_> {
+    PyArray1::from_vec(py, given.0.displacements())
+}
+
 fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
     let maxima = if at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     Spectrum::new(damping, maxima).map_err(of_motion)

@@ -155,6 +155,8 @@ struct WallsDocument {
     _levels: Option<IgnoredAny>,
     #[serde(rename = "records")]
     _records: Option<IgnoredAny>,
+    #[serde(rename = "polarity")]
+    _polarity: Option<IgnoredAny>,
     #[serde(rename = "report")]
     _report: Option<IgnoredAny>,
     #[serde(rename = "hazard")]

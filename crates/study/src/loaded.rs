@@ -11,7 +11,7 @@ use run::wall_text::{wall_of_text, wall_text};
 use run::walls::{Ignored, NamedWall, WallSource, check_unique, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
-use crate::ida::{IntensityMeasure, Misfit, Study};
+use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use report::counted;
 
 /// Largest study file that is read.
@@ -78,6 +78,7 @@ impl LoadedStudy {
         open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
         let study = Self::assemble(&name, text, file, walls, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
+        warnings.extend(alike(&study.study));
         Ok(Self { inputs, warnings, ..study })
     }
 
@@ -96,7 +97,9 @@ impl LoadedStudy {
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
         let walls = Walls::of(name, &mut file, walls, &mut warnings)?;
         warn(&walls.told(), &[], (&file.models, &file.measure), &mut warnings);
-        Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
+        let study = Self::assemble(name, text, file, walls, records)?;
+        warnings.extend(alike(&study.study));
+        Ok(Self { warnings, ..study })
     }
 
     /// Returns the text of the study file.
@@ -120,7 +123,7 @@ impl LoadedStudy {
         Sent {
             text: self.text.clone(),
             walls: walls.iter().map(wall).collect(),
-            records: self.study.records().iter().map(record).collect(),
+            records: self.study.given_records().iter().map(record).collect(),
         }
     }
 
@@ -151,9 +154,9 @@ impl LoadedStudy {
         records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
         let StudyFile { title, models, measure, select, levels, tail, collapse, report, target, .. } = file;
+        let polarity = file.polarity;
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
-        check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
             None => records,
@@ -161,7 +164,9 @@ impl LoadedStudy {
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(tail))
             .map_err(|error| in_file(error.to_string()))?
-            .with_collapse(collapse);
+            .with_collapse(collapse)
+            .with_polarity(polarity);
+        check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text, target, sampled })
     }
 }
@@ -243,6 +248,16 @@ fn best(
     order.truncate(count);
     let chosen = records.into_iter().enumerate().filter(|(index, _)| order.contains(index));
     Ok(chosen.map(|(_, record)| record).collect())
+}
+
+/// Warns of signs that have no effect.
+fn alike(study: &Study) -> Option<String> {
+    let polarity = study.polarity();
+    let is_alike = |wall: usize| study.wall(wall, 0).has_equal_sides();
+    (polarity != Polarity::AsRecorded && (0..study.walls().len()).all(is_alike)).then(|| {
+        let word = polarity.name();
+        format!("polarity = {word:?}: both sides of every wall are alike, so that both signs give the same")
+    })
 }
 
 /// Opens the hazard of a study for its report.

@@ -1,8 +1,10 @@
 //! The results of a study, wall by wall: its curves, and the fragilities that follow from them.
 
 use crate::document::ReportOptions;
-use crate::fragility::{Bootstrap, Estimator, FitError, Lognormal, Sample, Summary, compare, fit};
-use crate::ida::{Crossing, Curve, Exceedance};
+use crate::fragility::{
+    Bootstrap, Cloud, Estimator, FitError, Lognormal, Sample, Summary, compare, compare_clouds, fit,
+};
+use crate::ida::{Crossing, Curve, Exceedance, Polarity};
 
 /// Makes the results of each wall of a study.
 #[derive(Clone, Debug)]
@@ -15,6 +17,7 @@ pub struct Fitting {
     grid: Option<Vec<f64>>,
     crossing: Crossing,
     estimator: Estimator,
+    is_cloud: bool,
     keeps_resamples: bool,
     bootstrap: Bootstrap,
 }
@@ -27,6 +30,7 @@ pub struct WallResults {
     curves: Vec<Curve>,
     /// Limit state by limit state, model by model.
     states: Vec<Vec<StateResults>>,
+    clouds: Vec<Cloud>,
 }
 
 /// Results of one model at one limit state.
@@ -51,10 +55,23 @@ impl Fitting {
             fractions: report.fractions.clone(),
             grid,
             crossing: report.collapse,
+            is_cloud: false,
             estimator: Estimator::new(report.beta, &report.fractions),
             keeps_resamples: !report.classes.is_empty() || report.hazard.is_some(),
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
         }
+    }
+
+    /// Takes the curves as a cloud, of one run each.
+    #[must_use]
+    pub fn with_cloud(self, is_cloud: bool) -> Self {
+        Self { is_cloud, ..self }
+    }
+
+    /// Takes records of both signs as pairs, which the bootstrap draws together.
+    #[must_use]
+    pub fn with_polarity(self, polarity: Polarity) -> Self {
+        Self { bootstrap: self.bootstrap.in_groups(polarity.signs()), ..self }
     }
 
     /// Fits the fragilities of a wall. `curves` has models outermost, records innermost.
@@ -65,7 +82,12 @@ impl Fitting {
         let all = Crossing::ALL.map(|(_, crossing)| self.samples(&curves, &self.fractions, crossing));
         let chosen =
             &all[Crossing::ALL.iter().position(|(_, crossing)| *crossing == self.crossing).unwrap_or(0)];
-        let summaries = compare(chosen, self.reference, &self.estimator, &self.bootstrap);
+        let clouds = self.clouds(&curves);
+        let summaries = if self.is_cloud {
+            compare_clouds(&clouds, &self.fractions, self.reference, &self.bootstrap)
+        } else {
+            compare(chosen, self.reference, &self.estimator, &self.bootstrap)
+        };
         let state = |(state, summaries): (usize, Vec<Summary>)| {
             let of_model = |(model, mut summary): (usize, Summary)| {
                 if !self.keeps_resamples {
@@ -73,13 +95,15 @@ impl Fitting {
                 }
                 let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state].observations());
                 let [a, b, c] = &all;
-                let by_crossing = [fit(a), fit(b), fit(c)];
+                // the single run of a record in a cloud tells no crossing
+                let none = [Err(FitError::Cloud); 3];
+                let by_crossing = if self.is_cloud { none } else { [fit(a), fit(b), fit(c)] };
                 StateResults { summary, sample: chosen[model][state].clone(), by_crossing }
             };
             summaries.into_iter().enumerate().map(of_model).collect()
         };
         let states = summaries.into_iter().enumerate().map(state).collect();
-        WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states }
+        WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states, clouds }
     }
 
     /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model,
@@ -88,9 +112,18 @@ impl Fitting {
     /// # Panics
     /// As [`results`](Self::results).
     pub fn summaries(&self, curves: &[Curve], fractions: &[f64]) -> Vec<Vec<Summary>> {
+        if self.is_cloud {
+            return compare_clouds(&self.clouds(curves), fractions, self.reference, &self.bootstrap);
+        }
         let samples = self.samples(curves, fractions, self.crossing);
         let estimator = Estimator::new(self.estimator.dispersion, fractions);
         compare(&samples, self.reference, &estimator, &self.bootstrap)
+    }
+
+    /// Takes the clouds of the models; none of other studies.
+    fn clouds(&self, curves: &[Curve]) -> Vec<Cloud> {
+        let curves = if self.is_cloud { curves } else { &[] };
+        curves.chunks(self.records).map(Cloud::of_curves).collect()
     }
 
     /// Counts the records.
@@ -102,7 +135,9 @@ impl Fitting {
     fn samples(&self, curves: &[Curve], fractions: &[f64], crossing: Crossing) -> Vec<Vec<Sample>> {
         assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
         let of_model = |curves: &[Curve]| {
-            let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, self.grid.as_deref());
+            // a cloud has no demands between the origin and its runs
+            let levels = if self.is_cloud { Some(&[][..]) } else { self.grid.as_deref() };
+            let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, levels);
             fractions.iter().copied().map(of_state).collect()
         };
         curves.chunks(self.records).map(of_model).collect()
@@ -118,6 +153,11 @@ impl WallResults {
     /// Returns the curves of a model, record by record.
     pub fn curves(&self, model: usize) -> &[Curve] {
         &self.curves[model * self.records..(model + 1) * self.records]
+    }
+
+    /// Returns the cloud of each model; empty for other studies.
+    pub fn clouds(&self) -> &[Cloud] {
+        &self.clouds
     }
 
     /// Returns whether all records have the same levels.

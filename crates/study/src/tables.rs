@@ -5,7 +5,7 @@ use report::table::{Cell, Column, Digits, Growing, Table};
 use run::sample::fractile;
 
 use crate::fragility::{FitError, Interval, Lognormal, Summary};
-use crate::ida::{Crossing, Curve, Exceedance, TieDemand};
+use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, TieDemand};
 use crate::results::{StateResults, WallResults};
 
 /// Names of the parts of a study, and its limit states.
@@ -19,6 +19,8 @@ pub struct Names<'a> {
     pub records: Vec<&'a str>,
     /// Limit states as fractions of `u_ins`.
     pub fractions: &'a [f64],
+    /// Unit of intensities.
+    pub unit: IntensityUnit,
     /// Whether a wall of the study has ties that may yield.
     pub has_yielding_ties: bool,
 }
@@ -37,13 +39,35 @@ pub const KINDS: [Kind; 3] = [
 /// The table of the ties that may yield.
 pub const TIES: Kind = ("ties", ties);
 
+/// The table of a cloud.
+pub const CLOUD: Kind = ("cloud", cloud);
+
+/// The regression of every model: ln(`u_max`/`u_ins`) = a + b ln IM, with IM in the unit of results.
+fn cloud(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+    let three = Digits::Significant(4);
+    let unit = names.unit.size();
+    let rows = results.clouds().iter().map(|cloud| (cloud, cloud.fit().ok()));
+    Table::over(rows.enumerate())
+        .text("wall", "", |_| names.walls[wall].to_owned())
+        .text("model", "model", |(model, _)| names.models[*model].to_owned())
+        .number("records", "records", three, |(_, (cloud, _))| cloud.records())
+        .number("collapsed", "collapsed", three, |(_, (cloud, _))| cloud.collapsed())
+        .number("still", "without motion", three, |(_, (cloud, _))| cloud.still())
+        .number("a", "a", three, move |(_, (_, fit))| {
+            fit.map(|fit| fit.intercept + fit.slope * libm::log(unit))
+        })
+        .number("b", "b", three, |(_, (_, fit))| fit.map(|fit| fit.slope))
+        .number("sigma", "σ", three, |(_, (_, fit))| fit.map(|fit| fit.deviation))
+        .done()
+}
+
 /// Every run of a wall, from all its curves.
 pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
     let runs =
         curves.iter().enumerate().flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
     let mut table = names
         .with_curves(wall, runs, |(index, _)| *index)
-        .value("intensity_g", |(_, run)| in_g(run.intensity))
+        .value(names.in_unit("intensity"), |(_, run)| names.unit.of(run.intensity))
         .value("u_max_over_u_ins", |(_, run)| run.demand)
         .value("overturned", |(_, run)| run.overturning.is_some())
         .value("overturn_time_s", |(_, run)| run.overturning);
@@ -67,7 +91,9 @@ fn ties(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     let mut table = Table::over(tie_rows(names.models.len(), results))
         .text("wall", "", |_| names.walls[wall].to_owned())
         .text("model", "model", |row| names.models[row.model].to_owned())
-        .number("intensity_g", "level\n[g]", three, |row| row.level.map(in_g))
+        .number(names.in_unit("intensity"), format!("level\n[{}]", names.unit.name()), three, |row| {
+            row.level.map(|level| names.unit.of(level))
+        })
         .number("runs", "runs", three, |row| row.demands.len())
         .number("yielded", "yielded", three, |row| row.count(|tie| tie.elongation > 0.0))
         .number("broken", "broken", three, |row| row.count(|tie| tie.broken));
@@ -122,20 +148,20 @@ fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
 pub(crate) fn collapses(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
     let collapse = |curve: &Curve| match curve.collapse() {
         Exceedance::Above(_) => None,
-        exceedance => Some(in_g(exceedance.bounds()[1])),
+        exceedance => Some(names.unit.of(exceedance.bounds()[1])),
     };
     let last = |curve: &Curve| match curve.exceedance(1.0, Crossing::Last, true).bounds() {
         [_, f64::INFINITY] => None,
-        [_, level] => Some(in_g(level)),
+        [_, level] => Some(names.unit.of(level)),
     };
     names
         .with_curves(wall, curves.iter().enumerate(), |(index, _)| *index)
-        .value("collapse_g", |(_, curve)| collapse(curve))
-        .value("standing_below_g", |(_, curve)| in_g(curve.level_below_collapse()))
-        .value("highest_level_g", |(_, curve)| in_g(curve.top()))
+        .value(names.in_unit("collapse"), |(_, curve)| collapse(curve))
+        .value(names.in_unit("standing_below"), |(_, curve)| names.unit.of(curve.level_below_collapse()))
+        .value(names.in_unit("highest_level"), |(_, curve)| names.unit.of(curve.top()))
         .value("runs", |(_, curve)| curve.runs().len())
         .value("resurrections", |(_, curve)| curve.resurrections())
-        .value("last_collapse_g", |(_, curve)| last(curve))
+        .value(names.in_unit("last_collapse"), |(_, curve)| last(curve))
         .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
         .done()
 }
@@ -153,12 +179,14 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         .value("u_max_over_u_ins", |(_, fraction, _)| *fraction)
         .value("records", |(.., one)| one.summary.records)
         .value("censored", |(.., one)| one.summary.censored);
-    let accelerations: [Estimate; 2] =
-        [("median", "_g", |one| &one.median), ("theta", "_g", |one| &one.theta)];
+    let intensities: [Estimate; 2] = [
+        ("median", names.unit.ending(), |one| &one.median),
+        ("theta", names.unit.ending(), |one| &one.theta),
+    ];
     let ratios: [Estimate; 2] =
         [("median_ratio", "", |one| &one.median_ratio), ("theta_ratio", "", |one| &one.theta_ratio)];
-    for estimate in accelerations {
-        table = with_interval(table, estimate, STANDARD_GRAVITY);
+    for estimate in intensities {
+        table = with_interval(table, estimate, names.unit.size());
     }
     table = table
         .value("beta", |(.., one)| beta(&one.summary.fitted))
@@ -175,11 +203,13 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     }
     table = table
         .value("misfit", |(.., one)| one.summary.misfit)
-        .value("crossing_g", |(.., one)| one.summary.crossing.map(in_g));
+        .value(names.in_unit("crossing"), |(.., one)| one.summary.crossing.map(|at| names.unit.of(at)));
     for (place, (name, _)) in Crossing::ALL.into_iter().enumerate() {
-        let theta = |curve: &Lognormal| in_g(curve.median);
+        let theta = |curve: &Lognormal| names.unit.of(curve.median);
         table = table
-            .value(format!("theta_{name}_g"), |(.., one)| one.by_crossing[place].as_ref().ok().map(theta))
+            .value(names.in_unit(&format!("theta_{name}")), |(.., one)| {
+                one.by_crossing[place].as_ref().ok().map(theta)
+            })
             .value(format!("beta_{name}"), |(.., one)| beta(&one.by_crossing[place]));
     }
     table.done()
@@ -201,6 +231,11 @@ fn with_interval(
 }
 
 impl Names<'_> {
+    /// Returns the name of a column of intensities, which ends with their unit.
+    fn in_unit(&self, name: &str) -> String {
+        format!("{name}{}", self.unit.ending())
+    }
+
     /// Begins a table whose items belong to curves of a wall, with the names of wall, model and record.
     fn with_curves<R>(
         &self,

@@ -10,6 +10,7 @@ mod chain;
 mod configuration;
 mod damaged_records;
 mod inputs;
+mod intensity;
 mod motion;
 mod pulse;
 mod record_agencies;

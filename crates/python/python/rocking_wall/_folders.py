@@ -34,7 +34,8 @@ class StudyResults(Tabular):
     levels: Table
     """Every run; `overturn_time_s` is NaN for a wall that stood."""
     collapses: Table
-    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none."""
+    """The collapse of every wall, damping model and record; `collapse_g` is NaN where there is none. Columns
+    of intensities end with the unit of the measure."""
     fragilities: Table
     """The fragility of every wall, damping model and limit state: medians, θ and β of lognormal curves, with
     95 % intervals. A number above the levels is infinite; one of which only bounds are known is NaN."""
@@ -54,6 +55,9 @@ class StudyResults(Tabular):
     """The values of the samples of each wall; None without `uncertain`."""
     sensitivity: Table | None
     """How far each parameter explains θ over the samples; None without `uncertain`."""
+    cloud: Table | None
+    """The regression of every wall and damping model, ln(u_max/u_ins) = a + b ln IM with the standard
+    deviation sigma; None for levels of another method than "cloud"."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -73,7 +77,8 @@ class StudyResults(Tabular):
         that exists.
         """
         if self.nrml is None:
-            raise ValueError("NRML knows PGA, Sa(T) and AvgSA; run the study with one of these measures")
+            known = "PGA, PGV, PGD, Sa(T), AvgSA, IA and CAV"
+            raise ValueError(f"OpenQuake knows {known}; run the study with one of these measures")
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(self.nrml)
 
@@ -104,7 +109,8 @@ class StudyResults(Tabular):
                 x = theta * np.exp(np.linspace(-3, 3, 121) * beta)
                 y = [0.5 * math.erfc(-z / math.sqrt(2)) for z in np.log(x / theta) / beta]
                 ax.plot(x, y, label=f"{row['wall']}, {row['model']}")
-        ax.set(xlabel=f"{curves['measure'][0]} (g)", ylabel="probability of exceedance", ylim=(0, 1))
+        measure = f"{curves['measure'][0]} ({curves['unit'][0]})"
+        ax.set(xlabel=measure, ylabel="probability of exceedance", ylim=(0, 1))
         ax.legend()
         return ax
 
@@ -159,6 +165,7 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
         losses=table("losses"),
         samples=table("samples"),
         sensitivity=table("sensitivity"),
+        cloud=table("cloud"),
         ties=table("ties"),
         nrml=xml.read_text(encoding="utf-8") if xml.exists() else None,
     )

@@ -184,6 +184,48 @@ class Record:
         """Peak ground acceleration [m/s²]."""
         return float(np.abs(self.a).max())
 
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity of the ground at the samples [m/s], from rest.
+
+        It is the exact integral of the acceleration, which is linear between samples. The baseline is not
+        corrected.
+
+        >>> Record(2.0, [1.0, -1.0]).velocity, Record(2.0, [1.0, -1.0]).pgv
+        (array([0., 0.]), 0.5)
+        """
+        velocity: NDArray[np.float64] = _native.velocity(self._motion)
+        return velocity
+
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacement of the ground at the samples [m], from rest; as `velocity`."""
+        displacement: NDArray[np.float64] = _native.displacement(self._motion)
+        return displacement
+
+    @property
+    def pgv(self) -> float:
+        """Peak ground velocity [m/s], also between samples."""
+        return float(_native.intensities(self._motion)[0])
+
+    @property
+    def pgd(self) -> float:
+        """Peak ground displacement [m], also between samples.
+
+        It means little for a record whose velocity does not end near zero.
+        """
+        return float(_native.intensities(self._motion)[1])
+
+    @property
+    def arias(self) -> float:
+        """Arias intensity [m/s], π/(2 g) ∫ a² dt. It grows with the square of a scale factor."""
+        return float(_native.intensities(self._motion)[2])
+
+    @property
+    def cav(self) -> float:
+        """Cumulative absolute velocity [m/s], ∫ |a| dt."""
+        return float(_native.intensities(self._motion)[3])
+
     def scaled(self, factor: float) -> Record:
         """Returns the record with every sample multiplied by `factor`."""
         return self._with(scaled(self._motion, factor, "factor"))
@@ -215,6 +257,13 @@ class Record:
     ) -> float:
         """Computes AvgSA [m/s²], the geometric mean of Sa over periods [s]."""
         return _native.average_sa(self._motion, periods, damping, at_samples(maxima))
+
+    def housner(self, *, damping: float = 0.05, maxima: Maxima = "everywhere") -> float:
+        """Computes Housner's intensity [m], the integral of Sa T/(2π) over the periods T from 0.1 to 2.5 s.
+
+        The trapezoidal rule takes the periods 0.10, 0.11 … 2.50 s.
+        """
+        return float(_native.housner(self._motion, damping, at_samples(maxima)))
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws the record with matplotlib, which has to be installed."""

@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     Records: TypeAlias = ARecord | Sequence[ARecord] | Mapping[str, ARecord]
 
 
+Polarity = Literal["as_recorded", "reversed", "both", "worst"]
+
+
 class Study:
     """An incremental dynamic analysis: walls, records, damping models, intensity measure and levels.
 
@@ -64,6 +67,7 @@ class Study:
         intensity: options.Intensity | None = None,
         tail: float | None = None,
         collapse_is: Literal["exceeds", "falls"] | None = None,
+        polarity: Polarity | None = None,
         report: options.Report | None = None,
         classes: Sequence[options.Class] | None = None,
         hazard: options.Hazard | None = None,
@@ -80,12 +84,17 @@ class Study:
             models.
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
-        :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
+        :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in the
+            unit of results: g, cm/s of PGV, cm of PGD and Housner, m/s of Arias, g s of CAV. `{"method":
+            "cloud"}` runs each record once, and takes a regression.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
-            `{"measure": "code"}` is a_g of the site that `check` states.
+            Others are PGA, PGV, PGD, Arias, CAV and Housner; `{"measure": "code"}` is a_g of the site that
+            `check` states.
         :param tail: Free vibration after each record [s]; by default 10.
         :param collapse_is: Which runs have collapsed: those that exceed u_ins ("exceeds", the default), or
             those that do not come back ("falls").
+        :param polarity: The signs with which records are run: "as_recorded" (the default), "reversed", "both"
+            as two records, or "worst", at each level the one that demands more of the wall.
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
         :param hazard: The hazard of the site, such as `{"points": [[0.1, 0.01], [0.4, 4e-4]]}` (intensities
@@ -102,7 +111,7 @@ class Study:
         options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
         options["classes"], options["collapse_is"] = classes, collapse_is
         options["hazard"], options["check"], options["reliability"] = hazard, check, reliability
-        options["uncertain"] = uncertain
+        options["uncertain"], options["polarity"] = uncertain, polarity
         if path is None:
             missing = [name for name, part in parts.items() if part is None]
             if missing:

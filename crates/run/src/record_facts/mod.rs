@@ -103,6 +103,9 @@ impl Facts {
             "mean_m_s2": self.check.mean,
             "peak_velocity_m_s": self.check.peak_velocity,
             "final_velocity_m_s": self.check.final_velocity,
+            "peak_displacement_m": motion.peak_displacement(),
+            "arias_m_s": motion.arias_intensity(),
+            "cav_m_s": motion.cumulative_absolute_velocity(),
             "findings": self.findings(),
             "notes": self.record.header,
         })
@@ -137,6 +140,11 @@ pub fn table(channels: &[Facts], periods: &[f64]) -> Table {
         let (name, heading) = (format!("sa_{period}s_g"), format!("Sa({period} s)"));
         table = table.number(name, heading, five, |facts| facts.accelerations[k]);
     }
+    table = table
+        .value("peak_velocity_m_s", |facts| facts.check.peak_velocity)
+        .value("peak_displacement_m", |facts| facts.record.motion.peak_displacement())
+        .value("arias_m_s", |facts| facts.record.motion.arias_intensity())
+        .value("cav_m_s", |facts| facts.record.motion.cumulative_absolute_velocity());
     table.text("findings", "", |facts| facts.findings().join(" | ")).done()
 }
 

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use crate::hazard::{Hazard, HazardCurve, YEARS, read};
-use crate::ida::IntensityMeasure;
-use ground_motion::Unit;
+use crate::ida::{IntensityMeasure, ToSi};
 use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
+
+use super::levels::to_si;
 
 /// Largest file of a hazard curve that is read.
 const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -25,8 +26,7 @@ tables! {
         /// Number of the site in a file of `OpenQuake`, from 1.
         #[key(minimum = 1)]
         site: Option<Spanned<u32>>,
-        /// Unit of the intensities of points and of a CSV: m/s2, cm/s2, mm/s2 or g.
-        #[key(default = "g")]
+        /// Unit of the intensities of points and of a CSV, as that of levels; by default that of the results.
         unit: Option<Spanned<String>>,
         /// Years of the probabilities.
         #[key(exclusiveMinimum = 0, default = YEARS)]
@@ -48,7 +48,7 @@ pub struct HazardEntry {
 #[derive(Clone, Debug)]
 enum Source {
     Points(HazardCurve),
-    File { file: String, unit: Unit, site: Option<u32> },
+    File { file: String, to_si: ToSi, site: Option<u32> },
 }
 
 impl HazardEntry {
@@ -66,11 +66,11 @@ impl HazardEntry {
         let Self { curve, years, target } = self;
         let (curve, warnings) = match curve {
             Source::Points(curve) => (curve, Vec::new()),
-            Source::File { file, unit, site } => {
+            Source::File { file, to_si, site } => {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let table = read(&text, measure, unit, site).map_err(|error| match error.line {
+                let table = read(&text, measure, to_si, site).map_err(|error| match error.line {
                     Some(line) => {
                         SceneError::Line { file: name.clone(), line, key: None, message: error.message }
                     }
@@ -85,11 +85,13 @@ impl HazardEntry {
 }
 
 /// Reads the hazard of a study.
-pub(super) fn hazard(table: &Spanned<HazardTable>, place: &Place<'_>) -> Result<HazardEntry, SceneError> {
+pub(super) fn hazard(
+    table: &Spanned<HazardTable>,
+    measure: &IntensityMeasure,
+    place: &Place<'_>,
+) -> Result<HazardEntry, SceneError> {
     let HazardTable { points, file, site, unit, years, target } = table.get_ref();
-    let unit = unit.as_ref().map_or(Ok(Unit::StandardGravity), |text| {
-        text.get_ref().parse::<Unit>().map_err(|error| place.error(text.span(), error.to_string()))
-    })?;
+    let to_si = to_si(measure, unit.as_ref(), place)?;
     let positive = |name: &str, value: &Spanned<f64>| {
         let number = *value.get_ref();
         if number > 0.0 && number.is_finite() {
@@ -102,14 +104,14 @@ pub(super) fn hazard(table: &Spanned<HazardTable>, place: &Place<'_>) -> Result<
             if let Some(site) = site {
                 return Err(place.error(site.span(), "site belongs to a file of OpenQuake; leave it out"));
             }
-            let in_si = points.get_ref().iter().map(|[x, rate]| [unit.to_si(*x), *rate]).collect();
+            let in_si = points.get_ref().iter().map(|[x, rate]| [to_si(*x), *rate]).collect();
             // the message has the numbers of the file
             let checked = HazardCurve::new(points.get_ref().clone()).and(HazardCurve::new(in_si));
             Source::Points(checked.map_err(|error| place.error(points.span(), error.to_string()))?)
         }
         (None, Some(file)) => Source::File {
             file: file.get_ref().clone(),
-            unit,
+            to_si,
             site: site.as_ref().map(|site| *site.get_ref()),
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),

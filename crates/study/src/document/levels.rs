@@ -2,16 +2,15 @@
 
 use toml::Spanned;
 
-use crate::ida::{IntensityMeasure, Levels};
+use crate::ida::{IntensityMeasure, Levels, ToSi};
 use check::{CheckFile, read};
-use ground_motion::Unit;
 use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::tables;
 
 /// Names of the intensity measures.
-const MEASURES: [&str; 4] = ["PGA", "Sa", "AvgSA", "code"];
+const MEASURES: [&str; 9] = ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
 /// Names of the ways to choose levels.
-const METHODS: [&str; 3] = ["hunt", "step", "grid"];
+const METHODS: [&str; 4] = ["hunt", "step", "grid", "cloud"];
 /// Resolution and gap of a hunt that states none.
 const RESOLUTION: f64 = 0.01;
 const GAP: f64 = 0.1;
@@ -32,14 +31,14 @@ tables! {
         pub(super) select: Option<Spanned<usize>>,
     }
 
-    /// Levels of intensity: hunt, step (to the first overturning) or grid.
+    /// Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
     #[derive(Debug)]
     pub(super) struct LevelsTable {
         /// How levels are chosen.
         #[key(enum = METHODS.to_vec())]
         method: Spanned<String>,
-        /// Unit of the levels: m/s2, cm/s2, mm/s2 or g.
-        #[key(default = "g")]
+        /// Unit of the levels: of an acceleration m/s2, cm/s2, mm/s2 or g; of PGV and Arias cm/s, m/s or
+        /// mm/s; of PGD and Housner cm, m or mm; of CAV g s, m/s or cm/s. By default that of the results.
         unit: Option<Spanned<String>>,
         /// First level and first step of a hunt.
         first: Option<f64>,
@@ -57,6 +56,9 @@ tables! {
         gap: Option<f64>,
         /// Levels of a grid.
         values: Option<Vec<f64>>,
+        /// Factor on the records of a cloud.
+        #[key(exclusiveMinimum = 0, default = 1)]
+        scale: Option<f64>,
     }
 }
 
@@ -74,7 +76,15 @@ pub(super) fn measure(
     }
     match (spec.measure.get_ref().as_str(), spec.period, &spec.periods) {
         ("PGA", None, None) => Ok(IntensityMeasure::Pga),
-        ("PGA", ..) => refuse("PGA has no periods; leave them out"),
+        ("PGV", None, None) => Ok(IntensityMeasure::Pgv),
+        ("PGD", None, None) => Ok(IntensityMeasure::Pgd),
+        ("Arias", None, None) => Ok(IntensityMeasure::Arias),
+        ("CAV", None, None) => Ok(IntensityMeasure::Cav),
+        ("Housner", None, None) => Ok(IntensityMeasure::Housner),
+        ("PGA" | "PGV" | "PGD" | "Arias" | "CAV", ..) => {
+            refuse(&format!("{} has no periods; leave them out", spec.measure.get_ref()))
+        }
+        ("Housner", ..) => refuse("Housner has the periods 0.1 to 2.5 s; leave them out"),
         ("Sa", Some(period), None) => Ok(IntensityMeasure::Sa { period }),
         ("Sa", ..) => refuse("Sa needs one period in s, such as period = 0.5"),
         ("AvgSA", None, None) => Ok(IntensityMeasure::default()),
@@ -113,19 +123,19 @@ fn of_code(
     Ok(IntensityMeasure::Code { periods, shape })
 }
 
-pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<Levels, SceneError> {
+pub(super) fn levels(
+    table: &Spanned<LevelsTable>,
+    measure: &IntensityMeasure,
+    place: &Place<'_>,
+) -> Result<Levels, SceneError> {
     let spec = table.get_ref();
-    let unit = match &spec.unit {
-        None => Unit::StandardGravity,
-        Some(text) => {
-            text.get_ref().parse::<Unit>().map_err(|error| place.error(text.span(), error.to_string()))?
-        }
-    };
+    let to_si = to_si(measure, spec.unit.as_ref(), place)?;
     let method = spec.method.get_ref().as_str();
     let keys: &[&str] = match method {
         "hunt" => &["first", "increase", "top", "resolution", "gap"],
         "step" => &["step", "top"],
         "grid" => &["values", "step", "top"],
+        "cloud" => &["scale"],
         other => {
             let message = format!("method = {other:?} is not one of {}", METHODS.join(", "));
             return Err(place.error(spec.method.span(), message));
@@ -139,15 +149,18 @@ pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<
         ("resolution", spec.resolution),
         ("gap", spec.gap),
         ("values", spec.values.as_ref().map(|_| 0.0)),
+        ("scale", spec.scale),
+        ("unit", spec.unit.as_ref().filter(|_| method == "cloud").map(|_| 0.0)),
     ];
-    if let Some((name, _)) = given.iter().find(|(name, value)| value.is_some() && !keys.contains(name)) {
+    let is_taken = |name: &str| keys.contains(&name);
+    if let Some((name, _)) = given.iter().find(|(name, value)| value.is_some() && !is_taken(name)) {
         let message = format!("{name} has no part in method = {method:?}, which takes {}", keys.join(", "));
         return Err(place.error(table.span(), message));
     }
     let needed = |name: &str| {
         let missing = || place.error(table.span(), format!("method = {method:?} needs {name}"));
         let value = given.iter().find(|(given, _)| *given == name).and_then(|(_, value)| *value);
-        value.map(|value| unit.to_si(value)).ok_or_else(missing)
+        value.map(to_si).ok_or_else(missing)
     };
     match method {
         "hunt" => Ok(Levels::HuntAndFill {
@@ -157,16 +170,30 @@ pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<
             resolution: spec.resolution.unwrap_or(RESOLUTION),
             gap: spec.gap.unwrap_or(GAP),
         }),
+        "cloud" => Ok(Levels::Cloud { scale: spec.scale.unwrap_or(1.0) }),
         "step" => Ok(Levels::ToOverturning { step: needed("step")?, top: needed("top")? }),
         _ => match (&spec.values, spec.step, spec.top) {
-            (Some(values), None, None) => Ok(Levels::Grid(values.iter().map(|&x| unit.to_si(x)).collect())),
+            (Some(values), None, None) => Ok(Levels::Grid(values.iter().map(|&x| to_si(x)).collect())),
             (None, Some(step), Some(top)) => {
                 // bounded before it is counted: a study takes no more than 2000
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 2001")]
                 let count = (top / step * (1.0 + 1e-12)).floor().clamp(0.0, 2001.0) as u32;
-                Ok(Levels::Grid((1..=count).map(|k| unit.to_si(step * f64::from(k))).collect()))
+                Ok(Levels::Grid((1..=count).map(|k| to_si(step * f64::from(k))).collect()))
             }
             _ => Err(place.error(table.span(), "method = \"grid\" needs values, or step and top")),
         },
     }
+}
+
+/// Returns what converts intensities of a file, in a unit or without one in that of the results, to SI units.
+pub(super) fn to_si(
+    measure: &IntensityMeasure,
+    unit: Option<&Spanned<String>>,
+    place: &Place<'_>,
+) -> Result<ToSi, SceneError> {
+    let given = unit.map(|unit| unit.get_ref().as_str());
+    measure.to_si(given).map_err(|message| match unit {
+        Some(unit) => place.error(unit.span(), message),
+        None => unreachable!("a measure knows its own unit: {message}"),
+    })
 }

@@ -31,7 +31,7 @@ use run::walls::{WallEntry, WallTable, entries};
 use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
-use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels};
+use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity};
 use crate::uncertain::Uncertain;
 
 use hazard::{HazardTable, hazard};
@@ -58,12 +58,14 @@ pub struct StudyFile {
     pub measure: IntensityMeasure,
     /// How many of the records are taken, those that fit the spectrum of the site best; all where `None`.
     pub select: Option<usize>,
-    /// Levels \[m/s²\].
+    /// Levels, in the SI unit of the measure.
     pub levels: Levels,
     /// Free vibration after each record \[s\].
     pub tail: f64,
     /// Which runs have overturned.
     pub collapse: Collapse,
+    /// The signs with which records are run.
+    pub polarity: Polarity,
     /// Options of the report, without the hazard.
     pub report: ReportOptions,
     /// Probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
@@ -89,6 +91,10 @@ tables! {
         /// Which runs have collapsed: those that exceed `u_ins`, or those that fall and do not come back.
         #[key(enum = Collapse::ALL.map(|(name, _)| name).to_vec(), default = "exceeds")]
         collapse_is: Option<Spanned<String>>,
+        /// The signs with which records are run: as they are, reversed, both as two records, or at each level
+        /// the one that demands more of the wall.
+        #[key(enum = Polarity::ALL.map(|(name, _)| name).to_vec(), default = "as_recorded")]
+        polarity: Option<Spanned<String>>,
         /// Intensity measure by which records are scaled.
         intensity: Option<Spanned<IntensityTable>>,
         /// Levels of intensity.
@@ -152,7 +158,15 @@ impl StudyFile {
                 place.error(given.span(), format!("tail = {tail} s must be from 0 to {LONGEST_TAIL} s"))
             );
         }
-        let levels = levels(&document.levels, place)?;
+        let measure = measure(document.intensity.as_ref(), place)?;
+        let levels = levels(&document.levels, &measure, place)?;
+        if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
+            && word.get_ref() == Collapse::Falls.name()
+        {
+            let message = "collapse_is = \"falls\" has no part in a cloud: its regression takes a demand of \
+                           u_ins and more as a collapse";
+            return Err(place.error(word.span(), message));
+        }
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -162,7 +176,6 @@ impl StudyFile {
                 .map(|table| records(table, place))
                 .transpose()?
                 .unwrap_or_default(),
-            measure: measure(document.intensity.as_ref(), place)?,
             select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
             tail,
             collapse: document
@@ -171,12 +184,19 @@ impl StudyFile {
                 .map(|word| chosen("collapse_is", word, &Collapse::ALL, place))
                 .transpose()?
                 .unwrap_or_default(),
-            hazard: document.hazard.as_ref().map(|table| hazard(table, place)).transpose()?,
+            polarity: document
+                .polarity
+                .as_ref()
+                .map(|word| chosen("polarity", word, &Polarity::ALL, place))
+                .transpose()?
+                .unwrap_or_default(),
+            hazard: document.hazard.as_ref().map(|table| hazard(table, &measure, place)).transpose()?,
             uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
             target: target(document.reliability.as_ref(), place)?,
             levels,
             models,
+            measure,
         })
     }
 }

@@ -232,6 +232,14 @@ pub(super) fn report(
         }
         report.modelling_uncertainty = beta;
     }
+    if matches!(levels, Levels::Cloud { .. }) {
+        let given = [("beta", &spec.beta), ("collapse", &spec.collapse)];
+        if let Some((key, Some(word))) = given.into_iter().find(|(_, word)| word.is_some()) {
+            let message =
+                format!("{key} has no part in a cloud, whose regression has one beta; leave it out");
+            return Err(place.error(word.span(), message));
+        }
+    }
     report.seed = spec.seed.unwrap_or(report.seed);
     if let Some(ratios) = &spec.loss_ratios {
         check_losses(&report.fractions, ratios.get_ref())

@@ -4,8 +4,6 @@
 use std::fmt::Write as _;
 
 use crate::fragility::{CONFIDENCE, FragilityFunction, Lognormal};
-use crate::tables::in_g;
-use ground_motion::STANDARD_GRAVITY;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Column, Digits, Table};
 use report::{counted, escaped};
@@ -22,7 +20,8 @@ pub(crate) struct Classes<'a> {
     states: &'a [(usize, String)],
     table: Table,
     plots: String,
-    /// Curves of the highest limit state of a class: the place of the model, θ \[g\] and β.
+    /// Curves of the highest limit state of a class: the place of the model, θ in the unit of
+    /// results, and β.
     curves: Vec<(usize, [f64; 2])>,
 }
 
@@ -33,7 +32,7 @@ impl<'a> Classes<'a> {
             Column::text("", "class"),
             Column::text("", "model"),
             Column::number("", "u_max/u_ins", Digits::AtMost(6)),
-            Column::number("", "θ\n[g]", three),
+            Column::number("", format!("θ\n[{}]", manifest.contents.unit.name()), three),
             Column::number("", "interval", three),
             Column::number("", "β", three),
             Column::number("", "interval", three),
@@ -53,16 +52,17 @@ impl<'a> Classes<'a> {
         known: &[Known],
     ) {
         let Manifest { contents, report, .. } = self.manifest;
+        let unit = contents.unit;
         let interval = |ends: [String; 2]| -> Cell<'static> { ends.join(" … ").into() };
         for (k, (place, _)) in self.states.iter().enumerate() {
-            let [_, low, high] = known[k].theta.texts(STANDARD_GRAVITY, 3);
+            let [_, low, high] = known[k].theta.texts(unit.size(), 3);
             let [_, beta_low, beta_high] = known[k].beta.texts(1.0, 3);
             let curve = function.map(|function| function.states[k]);
             self.table.row([
                 name.to_owned().into(),
                 contents.models[model].name.clone().into(),
                 report.fractions[*place].into(),
-                curve.map(|curve| in_g(curve.median)).into(),
+                curve.map(|curve| unit.of(curve.median)).into(),
                 interval([low, high]),
                 function.map(|function| function.dispersion(k)).into(),
                 interval([beta_low, beta_high]),
@@ -73,7 +73,8 @@ impl<'a> Classes<'a> {
         }
         let last = self.states.len() - 1;
         self.curves.extend(
-            function.map(|function| (model, [in_g(function.states[last].median), function.dispersion(last)])),
+            function
+                .map(|function| (model, [unit.of(function.states[last].median), function.dispersion(last)])),
         );
         if model + 1 == contents.models.len() {
             self.draw(name, walls);
@@ -95,7 +96,7 @@ impl<'a> Classes<'a> {
             let line: Vec<_> = (1..=POINTS).map(|k| [at(k), curve.probability(at(k))]).collect();
             plot.line(&line, "fit", looks[model].0);
         }
-        let axis = format!("{} (g)", self.manifest.contents.measure);
+        let axis = self.manifest.contents.axis();
         let svg = plot.svg(&format!("class{}", self.plots.len()), [&axis, "probability"]);
         // writing to a String cannot fail
         let _ = write!(

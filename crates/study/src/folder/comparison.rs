@@ -4,8 +4,6 @@ use std::fmt::Write;
 
 use crate::fragility::Interval;
 use crate::results::WallResults;
-use crate::tables::in_g;
-use ground_motion::STANDARD_GRAVITY;
 use report::escaped;
 use report::palette::sign;
 
@@ -35,15 +33,16 @@ impl Comparison {
         if all().count() < 2 {
             return String::new();
         }
+        let unit = manifest.contents.unit;
         let bounds = all().flat_map(|median| [median.estimate, median.range[1], median.least[0]]);
-        let end = 1.06 * bounds.filter(|value| value.is_finite()).map(in_g).fold(1e-6, f64::max);
+        let end = 1.06 * bounds.filter(|value| value.is_finite()).map(|x| unit.of(x)).fold(1e-6, f64::max);
         let ticks = report::ticks([0.0, end], STEPS);
         let step = 100.0 * ticks.get(1).map_or(end, |tick| tick.0) / end;
         let mut html = format!(
-            "<section><h2>Median collapse intensity of every wall, {} (g)</h2>\
+            "<section><h2>Median collapse intensity of every wall, {}</h2>\
              <p class=\"subtitle\">Marks: medians over the records; lines: their 95&nbsp;% intervals.</p>\
              <div class=\"forest\" style=\"--step:{step:.3}%;--high:{}px\">",
-            escaped(&manifest.contents.measure),
+            escaped(&manifest.contents.axis()),
             LANE * manifest.contents.models.len()
         );
         for (wall, medians) in manifest.contents.walls.iter().zip(&self.0) {
@@ -68,8 +67,9 @@ fn lane(manifest: &Manifest, model: usize, median: &Interval, end: f64) -> Strin
         return String::new();
     }
     let (color, mark) = looks(manifest)[model];
-    let place = |intensity: f64| 100.0 * (in_g(intensity) / end).clamp(0.0, 1.0);
-    let [text, low, high] = median.texts(STANDARD_GRAVITY, 3).map(|text| escaped(&text));
+    let unit = manifest.contents.unit;
+    let place = |intensity: f64| 100.0 * (unit.of(intensity) / end).clamp(0.0, 1.0);
+    let [text, low, high] = median.texts(unit.size(), 3).map(|text| escaped(&text));
     let (from, to) = (place(median.least[1]), place(median.range[1]));
     let mut html = format!(
         "<div style=\"top:{}px\" title=\"{}: {text} ({low} … {high})\">\

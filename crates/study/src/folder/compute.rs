@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 use crate::ida::{Case, Curve, IdaError, Study};
 use run::parallel;
@@ -26,8 +25,8 @@ pub enum ComputeError {
 }
 
 /// Computes some parts of a study, in rising order, and writes each once it is complete. Threads share the
-/// combinations of a part. `done` is called with each combination, its curve and the time that it took, and
-/// says whether to go on.
+/// combinations of a part. `done` is called with each combination and its curve, on the thread that has
+/// computed it, and says whether to go on.
 ///
 /// # Errors
 /// [`ComputeError`] of the first combination that fails, or where `done` stops the work.
@@ -36,7 +35,7 @@ pub fn compute(
     folder: &Folder,
     parts: &[usize],
     threads: usize,
-    done: impl Fn(Case, &Curve, Duration) -> ControlFlow<()> + Sync,
+    done: impl Fn(Case, &Curve) -> ControlFlow<()> + Sync,
 ) -> Result<(), ComputeError> {
     let size = study.part_size();
     // only the last part may have fewer combinations, and it comes last
@@ -46,9 +45,8 @@ pub fn compute(
         let part = parts[place / size];
         let range = study.part(part);
         let index = range.start + place % size;
-        let begun = Instant::now();
         let curve = study.curve(study.case(index))?;
-        if done(study.case(index), &curve, begun.elapsed()).is_break() {
+        if done(study.case(index), &curve).is_break() {
             return Err(ComputeError::Stopped);
         }
         let mut open = open.lock().unwrap_or_else(std::sync::PoisonError::into_inner);

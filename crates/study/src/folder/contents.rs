@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, IntensityMeasure, Study};
+use crate::ida::{Case, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
 use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
 use serde::{Deserialize, Serialize};
@@ -18,15 +18,23 @@ pub struct Contents {
     /// Name of the intensity measure.
     pub measure: String,
     pub(crate) measure_details: String,
+    /// Unit in which results state intensities.
+    pub(crate) unit: IntensityUnit,
     /// Periods of the spectrum of the site \[s\], and its shape, where it is the measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) spectrum: Option<[Vec<f64>; 2]>,
     pub(crate) levels: String,
-    /// Levels \[m/s²\] where all records share them.
+    /// Whether each record is run once, at its own level.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_cloud: bool,
+    /// Levels where all records share them, in SI units.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
     /// Which runs have overturned, by the word of study files.
     pub(crate) collapse_is: String,
+    /// The signs with which records are run.
+    #[serde(default)]
+    pub(crate) polarity: Polarity,
     /// Combinations of each part; the last part may have fewer.
     pub part_size: usize,
     /// Damping models.
@@ -73,7 +81,7 @@ pub struct RecordNote {
     pub points: usize,
     /// Step \[s\].
     pub step_s: f64,
-    /// Intensity \[m/s²\].
+    /// Intensity, in the SI unit of the measure.
     pub intensity: f64,
     /// Its spectrum over that of the site, at each period of the measure; empty for other measures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -138,14 +146,17 @@ impl Contents {
             sources: crate::SOURCES.to_owned(),
             measure: study.measure().name(),
             measure_details: study.measure().description(),
+            unit: study.measure().unit(),
             spectrum: match study.measure() {
                 IntensityMeasure::Code { periods, shape } => Some([periods.clone(), shape.clone()]),
                 _ => None,
             },
-            levels: study.levels().description(),
+            levels: study.levels().description(study.measure().unit().si()),
+            is_cloud: matches!(study.levels(), Levels::Cloud { .. }),
             grid: study.levels().shared(),
             tail_s: study.tail(),
             collapse_is: study.collapse().name().to_owned(),
+            polarity: study.polarity(),
             part_size: study.part_size(),
             walls: walls.collect(),
             models: models
@@ -154,6 +165,11 @@ impl Contents {
                 .collect(),
             records: records.collect(),
         }
+    }
+
+    /// Returns the measure and its unit, for axes: `PGA (g)`.
+    pub(crate) fn axis(&self) -> String {
+        format!("{} ({})", self.measure, self.unit.name())
     }
 
     /// Counts the combinations.
@@ -197,7 +213,7 @@ impl Contents {
     /// Writes everything except the walls.
     fn head(&self) -> String {
         let Self { program, sources, measure, measure_details, levels, grid, collapse_is, .. } = self;
-        let how = (self.tail_s, collapse_is, self.part_size);
+        let how = (self.tail_s, collapse_is, self.polarity, self.part_size);
         let runs = (program, sources, measure, measure_details, levels, grid, how);
         format!("{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
     }
@@ -206,18 +222,19 @@ impl Contents {
     pub(crate) fn difference(&self, other: &Self) -> String {
         let lines = |contents: &Self| {
             let Self { program, sources, measure_details, levels, tail_s, part_size, .. } = contents;
-            let collapse_is = &contents.collapse_is;
+            let (collapse_is, unit) = (&contents.collapse_is, contents.unit.si());
             let head = format!(
                 "program {program}\nsources {sources}\nintensity {measure_details}\nlevels: {levels}\n\
-                 tail of {tail_s} s\ncollapse is {collapse_is}\nparts of {part_size}"
+                 tail of {tail_s} s\ncollapse is {collapse_is}\npolarity {}\nparts of {part_size}",
+                contents.polarity.name()
             );
             let models =
                 contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));
             let records = contents.records.iter().map(|record| {
                 let RecordNote { name, fingerprint, points, step_s, intensity, .. } = record;
                 format!(
-                    "record {name}, {points} points of {step_s} s, intensity {intensity} m/s², fingerprint \
-                     {fingerprint}"
+                    "record {name}, {points} points of {step_s} s, intensity {intensity} {unit}, \
+                     fingerprint {fingerprint}"
                 )
             });
             let walls = contents.walls.iter().flat_map(|wall| {

@@ -56,12 +56,13 @@ pub fn curve_tables(folder: &Folder) -> Result<[Table; 2], FolderError> {
 
 /// Returns the names that the tables of a folder state.
 pub(crate) fn names(folder: &Folder) -> Names<'_> {
-    let Contents { walls, models, records, .. } = folder.contents();
+    let Contents { walls, models, records, unit, .. } = folder.contents();
     Names {
         walls: walls.iter().map(|wall| &*wall.name).collect(),
         models: models.iter().map(|model| &*model.name).collect(),
         records: records.iter().map(|record| &*record.name).collect(),
         fractions: &folder.manifest().report.fractions,
+        unit: *unit,
         has_yielding_ties: folder.contents().has_yielding_ties(),
     }
 }

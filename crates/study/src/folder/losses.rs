@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::{CONFIDENCE, Interval, Lognormal, TAIL};
 use crate::hazard::Hazard;
-use crate::tables::in_g;
+use crate::ida::IntensityUnit;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Digits, Table};
@@ -105,12 +105,13 @@ impl<'a> Losses<'a> {
         model: usize,
         states: &[Fitted],
     ) -> Result<(), FolderError> {
+        let unit = self.manifest.contents.unit;
         let curves: Option<Vec<_>> = states.iter().map(|state| state.curve).collect();
-        let points = curves.map_or_else(Vec::new, |curves| points(&self.ratios, &curves));
+        let points = curves.map_or_else(Vec::new, |curves| points(&self.ratios, &curves, unit));
         let model_name = &self.manifest.contents.models[model].name;
         let is_begun = std::mem::replace(&mut self.is_begun, true);
         let text = |table: &Table| if is_begun { table.csv_rows() } else { table.csv() };
-        let table = of_points(name, model_name, &points);
+        let table = of_points(name, model_name, unit, &points);
         self.curves.write(|file| file.write_all(text(&table).as_bytes()))?;
         if let Some((draft, names)) = self.xml.as_mut().filter(|_| !points.is_empty()) {
             let id = names.id(name, model_name);
@@ -150,7 +151,7 @@ impl<'a> Losses<'a> {
         for (model, line) in lines {
             plot.line(&line, "fit", looks[model].0);
         }
-        let axis = format!("{} (g)", self.manifest.contents.measure);
+        let axis = self.manifest.contents.axis();
         let number = self.plots.iter().map(Vec::len).sum::<usize>();
         let svg = plot.svg(&format!("loss{number}"), [&axis, "mean loss ratio"]);
         self.plots[usize::from(!is_class)].push((name.to_owned(), svg));
@@ -220,7 +221,7 @@ impl Manifest {
 
 /// Returns the loss from where the first curve rises to where the last one ends. Where curves cross, a limit
 /// state is at most as probable as those before it.
-fn points(ratios: &[f64], curves: &[[f64; 2]]) -> Vec<Point> {
+fn points(ratios: &[f64], curves: &[[f64; 2]], unit: IntensityUnit) -> Vec<Point> {
     let end = |sign: f64| curves.iter().map(move |[theta, beta]| theta * libm::exp(sign * TAIL * beta));
     let (low, high) = (end(-1.0).fold(f64::INFINITY, f64::min), end(1.0).fold(0.0, f64::max));
     let at = |k: u32| {
@@ -239,7 +240,7 @@ fn points(ratios: &[f64], curves: &[[f64; 2]]) -> Vec<Point> {
         };
         let mean = moment(1);
         let deviation = libm::sqrt((moment(2) - mean * mean).max(0.0));
-        Point { intensity: in_g(x), mean, deviation, masses }
+        Point { intensity: unit.of(x), mean, deviation, masses }
     };
     (0..POINTS).map(at).collect()
 }
@@ -266,11 +267,11 @@ fn annual(hazard: &Hazard, ratios: &[f64], states: &[Fitted]) -> Option<Annual> 
     Some(Annual { within, range, resamples: count, most })
 }
 
-fn of_points(name: &str, model: &str, points: &[Point]) -> Table {
+fn of_points(name: &str, model: &str, unit: IntensityUnit, points: &[Point]) -> Table {
     Table::over(points)
         .text("wall", "", |_| name.to_owned())
         .text("model", "", |_| model.to_owned())
-        .value("intensity_g", |point| point.intensity)
+        .value(format!("intensity{}", unit.ending()), |point| point.intensity)
         .value("mean_loss_ratio", |point| point.mean)
         .value("deviation_of_loss_ratio", |point| point.deviation)
         .done()
@@ -308,13 +309,13 @@ mod tests {
     #[test]
     fn losses_are_those_by_hand() {
         let curves = [[2.0, 0.4], [2.0, 0.4]];
-        let middle = &points(&[0.2, 1.0], &curves)[20];
-        assert!((middle.intensity - in_g(2.0)).abs() < 1e-12);
+        let middle = &points(&[0.2, 1.0], &curves, IntensityUnit::Gravity)[20];
+        assert!((middle.intensity - IntensityUnit::Gravity.of(2.0)).abs() < 1e-12);
         let wanted = [0.5, 0.0, 0.5];
         assert!(middle.masses.iter().zip(wanted).all(|(mass, wanted)| (mass - wanted).abs() < 1e-12));
         assert!((middle.mean - 0.5).abs() < 1e-12 && (middle.deviation - 0.5).abs() < 1e-12);
         // curves that cross keep masses from 0 on, with the sum 1
-        for point in points(&[0.2, 0.5, 1.0], &[[2.0, 0.4], [1.8, 0.3], [4.0, 0.9]]) {
+        for point in points(&[0.2, 0.5, 1.0], &[[2.0, 0.4], [1.8, 0.3], [4.0, 0.9]], IntensityUnit::Gravity) {
             assert!(point.masses.iter().all(|mass| *mass >= 0.0));
             assert!((point.masses.iter().sum::<f64>() - 1.0).abs() < 1e-15);
             assert!((0.0..=1.0).contains(&point.mean));

@@ -1,11 +1,12 @@
-//! Fragility functions as NRML 0.5, the format of risk engines. Intensities are in g.
+//! Fragility functions as NRML 0.5, the format of risk engines. Intensities are in the unit that `OpenQuake`
+//! has for the measure, which is that of all results.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use crate::document::ReportOptions;
 use crate::fragility::{FragilityFunction, TAIL};
-use crate::tables::in_g;
+use crate::ida::IntensityUnit;
 use report::escaped;
 
 use super::contents::Manifest;
@@ -22,13 +23,16 @@ pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
     states.into_iter().map(named).collect()
 }
 
-/// Returns the name in NRML of an intensity measure: `PGA`, `SA(T)` or `AvgSA`, whose periods NRML leaves to
-/// the description; `None` for the others.
+/// Returns the name in NRML of an intensity measure, as `OpenQuake` has it: `PGA`, `PGV`, `PGD`, `SA(T)`,
+/// `IA`, `CAV`, or `AvgSA`, whose periods NRML leaves to the description; `None` for the others.
 pub(crate) fn measure(name: &str) -> Option<String> {
     let period = name.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
-    period
-        .map(|period| format!("SA({period})"))
-        .or_else(|| ["PGA", "AvgSA"].contains(&name).then(|| name.into()))
+    let known = ["PGA", "PGV", "PGD", "CAV", "AvgSA"];
+    match name {
+        "Arias" => Some("IA".into()),
+        _ if known.contains(&name) => Some(name.into()),
+        _ => period.map(|period| format!("SA({period})")),
+    }
 }
 
 /// What precedes the functions of a model: the kind of model, more than its description, and its end.
@@ -41,8 +45,9 @@ fn head(manifest: &Manifest, model: &str, more: &str) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
          <{model} id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n    \
-         <description>{}: {more}; intensities in g{}</description>\n",
+         <description>{}: {more}; intensities in {}{}</description>\n",
         escaped(&manifest.title),
+        manifest.contents.unit.name(),
         escaped(&periods)
     )
 }
@@ -83,6 +88,7 @@ impl Names {
 /// Writes the functions of a study one by one.
 pub(crate) struct Writer {
     measure: String,
+    unit: IntensityUnit,
     states: Vec<(usize, String)>,
     names: Names,
 }
@@ -96,7 +102,8 @@ impl Writer {
         let more = "a limit state is named by its fraction of the static instability displacement";
         let head = head(manifest, "fragilityModel", more);
         let text = format!("{head}    <limitStates>{}</limitStates>\n", names.join(" "));
-        Some((Self { measure, states, names: Names::of(manifest) }, text))
+        let unit = manifest.contents.unit;
+        Some((Self { measure, unit, states, names: Names::of(manifest) }, text))
     }
 
     /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
@@ -109,7 +116,8 @@ impl Writer {
         function: &FragilityFunction,
     ) -> io::Result<bool> {
         let curves = function.states.iter().enumerate();
-        let curves: Vec<_> = curves.map(|(k, curve)| (in_g(curve.median), function.dispersion(k))).collect();
+        let curves: Vec<_> =
+            curves.map(|(k, curve)| (self.unit.of(curve.median), function.dispersion(k))).collect();
         let end = |sign: f64| curves.iter().map(move |(median, beta)| median * libm::exp(sign * TAIL * beta));
         let (least, most) = (end(-1.0).fold(f64::INFINITY, f64::min), end(1.0).fold(0.0, f64::max));
         let params: Vec<_> = curves.iter().map(|(median, beta)| moments(*median, *beta)).collect();
@@ -132,10 +140,16 @@ impl Writer {
     }
 
     /// Writes in a comment what is known of a function that is not written.
-    pub(crate) fn note(out: &mut dyn Write, name: &str, thetas: &[(String, String)]) -> io::Result<()> {
+    pub(crate) fn note(
+        &self,
+        out: &mut dyn Write,
+        name: &str,
+        thetas: &[(String, String)],
+    ) -> io::Result<()> {
         let thetas: Vec<_> = thetas.iter().map(|(state, theta)| format!("{state} {theta}")).collect();
         // a comment must not have two dashes
-        let text = format!("{name}: theta in g of {}", thetas.join(", ")).replace("--", "- -");
+        let text =
+            format!("{name}: theta in {} of {}", self.unit.name(), thetas.join(", ")).replace("--", "- -");
         writeln!(out, "    <!-- no function of {} -->", escaped(&text))
     }
 
@@ -171,7 +185,7 @@ mod tests {
     fn a_function_of_infinite_numbers_is_left_out() {
         let states = vec![(0, "u_ins_1".to_owned())];
         let names = Names { has_models: false, ids: BTreeSet::new() };
-        let mut writer = Writer { measure: "PGA".into(), states, names };
+        let mut writer = Writer { measure: "PGA".into(), unit: IntensityUnit::Gravity, states, names };
         for (beta, is_written) in [(0.5, true), (50.0, false)] {
             let curve = crate::fragility::Lognormal { median: 3.0, dispersion: beta };
             let (function, mut out) = (FragilityFunction::new(&[curve], 0.0), Vec::new());
@@ -190,8 +204,9 @@ mod tests {
 
     #[test]
     fn measures_have_the_names_of_nrml() {
-        let names = ["PGA", "Sa(0.5 s)", "AvgSA", "a_g"].map(measure);
-        assert_eq!(names, [Some("PGA".into()), Some("SA(0.5)".into()), Some("AvgSA".into()), None]);
+        let names = ["PGA", "Sa(0.5 s)", "AvgSA", "Arias", "PGV"].map(measure);
+        assert_eq!(names, ["PGA", "SA(0.5)", "AvgSA", "IA", "PGV"].map(|name| Some(name.into())));
+        assert_eq!(["a_g", "Housner"].map(measure), [None, None]);
     }
 
     #[test]

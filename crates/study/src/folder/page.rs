@@ -3,9 +3,8 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Collapse, Crossing, Exceedance};
+use crate::ida::{Collapse, Crossing, Exceedance, Polarity};
 use crate::results::{StateResults, WallResults};
-use crate::tables::in_g;
 use report::counted;
 use report::escaped;
 use report::many_lines::STYLE;
@@ -26,18 +25,24 @@ const MOST_LISTED: usize = 200;
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{}, {}, {}: {}. Intensity: {}. {}; the lowest level at which it does is \
-         the collapse.",
+        "{}, {}, {}: {}. Intensity: {}. {}{}{}.",
         counted(contents.walls.len(), "wall"),
         counted(contents.records.len(), "record"),
         counted(contents.models.len(), "damping model"),
         counted(runs, "run"),
         measure_words(manifest),
+        match contents.polarity {
+            Polarity::AsRecorded => "",
+            Polarity::Reversed => "Records are reversed. ",
+            Polarity::Both => "Each record is run as it is and reversed, as two records. ",
+            Polarity::Worst => "At each level the sign of a record counts that demands more. ",
+        },
         if contents.collapse_is == Collapse::Falls.name() {
             "A wall has overturned if it ends beyond u<sub>ins</sub>; one that comes back has not"
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
         },
+        if contents.is_cloud { "" } else { "; the lowest level at which it does is the collapse" },
     );
     template::page(
         include_str!("page.html"),
@@ -77,6 +82,18 @@ fn measure_words(manifest: &Manifest) -> String {
 /// Explains medians, fits and intervals.
 fn reading(manifest: &Manifest) -> String {
     let report = &manifest.report;
+    if manifest.contents.is_cloud {
+        return format!(
+            "Each record is run once, at its own level; points at the right edge are walls that overturned. \
+             The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
+             likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
+             them: θ = exp((ln d − a)/b), β = σ/b. Intervals contain 95&nbsp;% of {} resamples of the \
+             records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
+             counts the walls that overturned.",
+            report.resamples,
+            escaped(&report.reference)
+        );
+    }
     let (drawn, observed) = match report.collapse {
         Crossing::Fraction => (
             "marks are the fractions of the records that exceed the limit state at each level",
@@ -145,8 +162,12 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
             collapses(shown)
         );
     }
-    let drawn = if contents.grid.is_some() { "Stripes" } else { "IDA curves" };
-    let _ = write!(html, "</div><h3>{drawn}, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
+    let drawn = match (contents.is_cloud, contents.grid.is_some()) {
+        (true, _) => "Clouds, with their regressions",
+        (false, true) => "Stripes, with their 16, 50 and 84 % fractiles",
+        (false, false) => "IDA curves, with their 16, 50 and 84 % fractiles",
+    };
+    let _ = write!(html, "</div><h3>{drawn}</h3><div class=\"row\">");
     for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
         let _ = write!(
             html,
@@ -193,22 +214,22 @@ fn shape(parameters: &str) -> String {
 
 /// Lists the collapse of each record with each model, unless there are too many records for a page.
 fn collapses(shown: Shown<'_>) -> String {
-    let Contents { records, models, .. } = &shown.manifest.contents;
-    if records.len() > MOST_LISTED {
+    let Contents { records, models, unit, .. } = &shown.manifest.contents;
+    if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud {
         return String::new();
     }
     let columns = models.iter().map(|model| Column::number("", model.name.clone(), Digits::Decimals(3)));
     let mut table = Table::new([Column::text("", "record")].into_iter().chain(columns));
     for (index, record) in records.iter().enumerate() {
         let collapse = |model| match shown.results.curves(model)[index].collapse() {
-            Exceedance::Above(top) => Cell::Between([in_g(top), f64::INFINITY]),
-            exceedance => Cell::Number(in_g(exceedance.bounds()[1])),
+            Exceedance::Above(top) => Cell::Between([unit.of(top), f64::INFINITY]),
+            exceedance => Cell::Number(unit.of(exceedance.bounds()[1])),
         };
         table.row([record.name.clone().into()].into_iter().chain((0..models.len()).map(collapse)));
     }
     format!(
-        "<details><summary>Collapse of each record, {} (g)</summary>{}</details>",
-        escaped(&shown.manifest.contents.measure),
+        "<details><summary>Collapse of each record, {}</summary>{}</details>",
+        escaped(&shown.manifest.contents.axis()),
         table.html()
     )
 }
@@ -217,11 +238,13 @@ fn collapses(shown: Shown<'_>) -> String {
 fn table(shown: Shown<'_>, collapse: usize) -> String {
     let Shown { manifest, wall, results } = shown;
     let (contents, report) = (&manifest.contents, &manifest.report);
+    let unit = contents.unit;
     let mut html = format!(
-        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
+        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median ({1})</th><th>θ ({1})</th><th>β</th>\
          <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th><th>misfit</th>\
-         <th>θ (g) of the first, last, fraction</th></tr></thead><tbody>",
-        escaped(&report.reference)
+         <th>θ ({1}) of the first, last, fraction</th></tr></thead><tbody>",
+        escaped(&report.reference),
+        unit.name()
     );
     for (model, (state, (color, mark))) in results.states(collapse).iter().zip(looks(manifest)).enumerate() {
         let StateResults { summary, by_crossing, .. } = state;
@@ -229,7 +252,6 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
         let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
-        let gravity = ground_motion::STANDARD_GRAVITY;
         let crosses =
             (0..report.fractions.len()).any(|state| results.summary(state, model).crossing.is_some());
         let sign_of_doubt = match report.beta {
@@ -238,7 +260,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             _ => "",
         };
         let thetas = by_crossing.iter().map(|curve| {
-            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", in_g(curve.median)))
+            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", unit.of(curve.median)))
         });
         let _ = write!(
             html,
@@ -247,8 +269,8 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             escaped(&contents.models[model].name),
             sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
-            words(&summary.median, gravity),
-            words(&summary.theta, gravity),
+            words(&summary.median, unit.size()),
+            words(&summary.theta, unit.size()),
             match summary.fitted {
                 Ok(_) => {
                     let [estimate, low, high] = summary.beta.texts(1.0, 2);
@@ -268,7 +290,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
 }
 
 /// An estimate over its interval.
-fn words(interval: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = interval.texts(unit, 3).map(|text| escaped(&text));
+fn words(interval: &Interval, size: f64) -> String {
+    let [estimate, low, high] = interval.texts(size, 3).map(|text| escaped(&text));
     format!("{estimate}<br><small>{low} … {high}</small>")
 }

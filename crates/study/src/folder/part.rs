@@ -21,6 +21,8 @@ use rocking_wall::scene::fingerprint;
 use super::contents::Contents;
 use super::error::FolderError;
 
+/// The column of intensities; its name ends with their SI unit.
+const INTENSITY: &str = "intensity";
 /// Columns with their types. The intensity has the SI unit of the study, so that it is read back to the last
 /// bit. A wall that did not overturn has no time of overturning.
 const COLUMNS: [(&str, Physical); 8] = [
@@ -28,7 +30,7 @@ const COLUMNS: [(&str, Physical); 8] = [
     ("wall", Physical::BYTE_ARRAY),
     ("model", Physical::BYTE_ARRAY),
     ("record", Physical::BYTE_ARRAY),
-    ("intensity_m_s2", Physical::DOUBLE),
+    (INTENSITY, Physical::DOUBLE),
     ("u_max_over_u_ins", Physical::DOUBLE),
     ("overturned", Physical::BOOLEAN),
     ("overturn_time_s", Physical::DOUBLE),
@@ -103,8 +105,10 @@ fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Res
         Ok(Arc::new(builder.with_repetition(repetition).with_logical_type(text).build()?))
     };
     let ties = if contents.has_yielding_ties() { &TIE_COLUMNS[..] } else { &[] };
-    let columns = || COLUMNS.iter().chain(ties);
-    let fields = columns().map(column).collect::<Result<_, ParquetError>>()?;
+    let intensity = format!("{INTENSITY}{}", contents.unit.si_ending());
+    let named = |&(name, physical)| (if name == INTENSITY { intensity.as_str() } else { name }, physical);
+    let columns: Vec<(&str, Physical)> = COLUMNS.iter().chain(ties).map(named).collect();
+    let fields = columns.iter().map(column).collect::<Result<_, ParquetError>>()?;
     let schema = Arc::new(Type::group_type_builder("runs").with_fields(fields).build()?);
     let zero = String::from_utf8_lossy(NO_CHECKSUM);
     let entry = KeyValue::new(KEY.to_owned(), format!("{}{CHECKSUM}{zero}", head(study, part)));
@@ -113,7 +117,7 @@ fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Res
         .set_key_value_metadata(Some(vec![entry]))
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
-    for (name, _) in columns().filter(|(_, physical)| *physical == Physical::DOUBLE) {
+    for (name, _) in columns.iter().filter(|(_, physical)| *physical == Physical::DOUBLE) {
         // these numbers hardly repeat, so that a dictionary would not help
         properties = properties.set_column_dictionary_enabled(ColumnPath::from(*name), false);
     }

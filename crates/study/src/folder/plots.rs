@@ -1,9 +1,8 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
-use crate::fragility::steps;
-use crate::ida::{Crossing, Curve, Run};
+use crate::fragility::{Regression, steps};
+use crate::ida::{Crossing, Curve, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
-use crate::tables::in_g;
 use report::many_lines::ManyLines;
 use run::sample::fractile;
 
@@ -28,7 +27,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) results: &'a WallResults,
 }
 
-/// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a limit state, given by its place.
+/// Intensity at the end of a wall's axes, in the unit of results: nearly all exceedances of a limit state,
+/// given by its place.
 pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
     let models = shown.manifest.contents.models.len();
     let largest = |model: usize| {
@@ -46,35 +46,36 @@ pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
         // a single outlying record must not squeeze the others
         (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
     };
-    1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
+    1.05 * shown.manifest.contents.unit.of((0..models).map(largest).fold(1e-6, f64::max))
 }
 
 /// Draws the observations, as steps or as marks at the levels of stripes, and the fit of each model.
 pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
+    let unit = manifest.contents.unit;
     let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
     for (StateResults { summary, sample, .. }, (color, mark)) in
         results.states(place).iter().zip(looks(manifest))
     {
         let counts = sample.counts();
-        if counts.is_empty() {
+        if counts.is_empty() && !manifest.contents.is_cloud {
             let mut points = vec![[0.0, 0.0]];
             let mut before = 0.0;
             for (intensity, part) in steps(sample.exceedances()) {
-                points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
+                points.extend([[unit.of(intensity), before], [unit.of(intensity), part]]);
                 before = part;
             }
             points.push([2.0 * top, before]);
             plot.line(&points, "steps", color);
-        } else {
+        } else if !counts.is_empty() {
             let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
-                [in_g(level), f64::from(exceeded) / f64::from(runs.max(1))]
+                [unit.of(level), f64::from(exceeded) / f64::from(runs.max(1))]
             };
             plot.marks(&counts.iter().map(part).collect::<Vec<_>>(), mark, color);
         }
         if let Ok(fit) = summary.fitted {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
-            let probability = |x: f64| fit.probability(x * ground_motion::STANDARD_GRAVITY);
+            let probability = |x: f64| fit.probability(x * unit.size());
             let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
             plot.line(&curve, "fit", color);
             if counts.is_empty() {
@@ -83,7 +84,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
             }
         }
     }
-    plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", manifest.contents.measure), "probability"])
+    plot.svg(&format!("f{wall}-{place}"), [&manifest.contents.axis(), "probability"])
 }
 
 /// Draws the collapse fragility of a wall for a file, with the wall's name.
@@ -97,41 +98,49 @@ pub(crate) fn panel(manifest: &Manifest, wall: usize, results: &WallResults) -> 
 /// Draws the runs of one model, intensity over demand: a curve for each record, or the points of stripes.
 pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
-    let all = results.curves(model);
+    let (all, unit) = (results.curves(model), manifest.contents.unit);
     let (color, _) = looks(manifest)[model];
     let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
     for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
-        if manifest.contents.grid.is_some() {
+        if manifest.contents.grid.is_some() || manifest.contents.is_cloud {
             let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
-            let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), in_g(run.intensity)]).collect();
+            let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), unit.of(run.intensity)]).collect();
             plot.points(&runs, "runs", color);
         } else {
-            plot.named_line(&path(curve), "record", color, &record.name);
+            plot.named_line(&path(curve, unit), "record", color, &record.name);
         }
     }
-    for (points, class) in fractile_paths(all).iter().zip(["fractile outer", "fractile outer", "fractile"]) {
-        plot.line(points, class, color);
+    if let Some(cloud) = results.clouds().get(model) {
+        let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
+        let line = |fit: Regression| (1..=POINTS).map(|k| [fit.demand(at(k) * unit.size()), at(k)]).collect();
+        let line: Vec<_> = cloud.fit().map(line).unwrap_or_default();
+        plot.line(&line, "fractile", color);
+    } else {
+        let classes = ["fractile outer", "fractile outer", "fractile"];
+        for (points, class) in fractile_paths(all, unit).iter().zip(classes) {
+            plot.line(points, class, color);
+        }
     }
-    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", manifest.contents.measure)])
+    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &manifest.contents.axis()])
 }
 
 /// Returns the points of a curve up to its collapse, where it becomes flat.
-fn path(curve: &Curve) -> Vec<[f64; 2]> {
+fn path(curve: &Curve, unit: IntensityUnit) -> Vec<[f64; 2]> {
     let mut points = vec![[0.0, 0.0]];
     for run in curve.runs() {
         if run.overturning.is_some() {
             let standing = points.last().map_or(0.0, |point| point[0]);
-            points.extend([[standing, in_g(run.intensity)], [2.0 * DEMAND_END, in_g(run.intensity)]]);
+            points.extend([[standing, unit.of(run.intensity)], [2.0 * DEMAND_END, unit.of(run.intensity)]]);
             break;
         }
-        points.push([run.demand, in_g(run.intensity)]);
+        points.push([run.demand, unit.of(run.intensity)]);
     }
     points
 }
 
 /// The 16, 84 and 50 % fractiles of the intensity at which a record first exceeds a demand, over the demand.
 /// They rise with the demand, and go flat at the collapse.
-fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
+fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<[f64; 2]>; 3] {
     let mut paths = [const { Vec::new() }; 3].map(|mut path: Vec<[f64; 2]>| {
         path.push([0.0, 0.0]);
         path
@@ -144,9 +153,9 @@ fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
         for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
             // unknown above the levels
             let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());
-            path.extend(known.map(|intensity| [demand, in_g(intensity)]));
+            path.extend(known.map(|intensity| [demand, unit.of(intensity)]));
             if k == POINTS {
-                path.extend(known.map(|intensity| [2.0 * DEMAND_END, in_g(intensity)]));
+                path.extend(known.map(|intensity| [2.0 * DEMAND_END, unit.of(intensity)]));
             }
         }
     }
@@ -155,7 +164,7 @@ fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
 
 #[cfg(test)]
 mod tests {
-    use crate::ida::{Curve, Run};
+    use crate::ida::{Curve, IntensityUnit, Run};
 
     use super::fractile_paths;
 
@@ -165,7 +174,7 @@ mod tests {
         let demands = [[0.5, 0.1, 0.9], [0.2, 0.6, 0.3], [0.4, 0.2, 1.0]];
         let curves =
             demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));
-        for path in fractile_paths(&curves) {
+        for path in fractile_paths(&curves, IntensityUnit::Gravity) {
             assert!(path.is_sorted_by(|a, b| a[0] < b[0] && a[1] <= b[1]) && path.len() > 20, "{path:?}");
         }
     }

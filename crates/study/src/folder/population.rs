@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use crate::results::WallResults;
-use crate::tables::in_g;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
@@ -21,7 +20,7 @@ const WEAKEST: usize = 10;
 /// What the page of a large study shows, wall by wall.
 #[derive(Debug)]
 pub(crate) struct Population {
-    /// Medians of each limit state and model \[m/s²\], infinite above the levels.
+    /// Medians of each limit state and model, infinite above the levels.
     medians: Vec<Vec<Vec<f64>>>,
     /// Dispersions of each model at the last limit state, where there is a fit.
     dispersions: Vec<Vec<f64>>,
@@ -59,9 +58,10 @@ impl Population {
              whose median intensity is at most that of the axis. The runs of each wall are in the parts, its \
              fragilities in fragilities.csv.</p><div class=\"row\">"
         );
-        let measure = format!("{} (g)", manifest.contents.measure);
+        let (measure, unit) = (manifest.contents.axis(), manifest.contents.unit);
         for (place, fraction) in manifest.report.fractions.iter().enumerate() {
-            let medians = self.medians[place].iter().map(|medians| sorted(medians, in_g)).collect::<Vec<_>>();
+            let medians = self.medians[place].iter().map(|medians| sorted(medians, |x| unit.of(x)));
+            let medians: Vec<_> = medians.collect();
             let _ = write!(
                 html,
                 "<figure><figcaption>Medians of u<sub>max</sub>/u<sub>ins</sub> {}</figcaption>{}</figure>",
@@ -86,8 +86,11 @@ impl Population {
     fn tables(&self, manifest: &Manifest) -> String {
         let all: Vec<_> = (0..self.medians.len()).collect();
         let fractiles = self.fractiles(manifest, &all).html();
-        let mut html =
-            format!("<section><h2>Fractiles of the medians over the walls (g)</h2>{fractiles}</section>\n");
+        let unit = manifest.contents.unit;
+        let name = unit.name();
+        let mut html = format!(
+            "<section><h2>Fractiles of the medians over the walls ({name})</h2>{fractiles}</section>\n"
+        );
         let Some(medians) = self.medians.last().and_then(|medians| medians.first()) else {
             return html;
         };
@@ -95,7 +98,9 @@ impl Population {
         order.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
         let weakest = Table::over(order.into_iter().take(WEAKEST))
             .text("", "wall", |wall| manifest.contents.walls[*wall].name.clone())
-            .number("", "median (g)", Digits::Decimals(3), |wall| known(Some(in_g(medians[*wall]))))
+            .number("", format!("median ({name})"), Digits::Decimals(3), |wall| {
+                known(Some(unit.of(medians[*wall])))
+            })
             .done();
         let _ = writeln!(
             html,
@@ -108,12 +113,13 @@ impl Population {
         html
     }
 
-    /// Returns the fractiles of the medians over the walls \[g\], by limit states, given by their places, and
-    /// models.
+    /// Returns the fractiles of the medians over the walls, in the unit of results, by limit states, given by
+    /// their places, and models.
     pub(crate) fn fractiles(&self, manifest: &Manifest, places: &[usize]) -> Table {
         let rows = places.iter().flat_map(|&place| {
             let models = manifest.contents.models.iter().zip(&self.medians[place]);
-            models.map(move |(model, medians)| (place, model, sorted(medians, in_g)))
+            let unit = manifest.contents.unit;
+            models.map(move |(model, medians)| (place, model, sorted(medians, |x| unit.of(x))))
         });
         let mut table = Table::over(rows)
             .number("", "u_max/u_ins", Digits::AtMost(6), |(place, ..)| manifest.report.fractions[*place])
@@ -135,7 +141,7 @@ fn known(median: Option<f64>) -> Cell<'static> {
     median.filter(|median| median.is_finite()).map_or("open".into(), Cell::Number)
 }
 
-fn sorted(values: &[f64], convert: fn(f64) -> f64) -> Vec<f64> {
+fn sorted(values: &[f64], convert: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut values: Vec<f64> = values.iter().map(|&value| convert(value)).collect();
     values.sort_by(f64::total_cmp);
     values

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::{CONFIDENCE, Interval};
 use crate::hazard::{Hazard, Rate, probability};
-use crate::tables::in_g;
+use crate::ida::IntensityUnit;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Column, Digits, Table};
@@ -109,7 +109,8 @@ impl<'a> Rates<'a> {
             self.beyond[1] += usize::from(rate.beyond[1] > MOST_BEYOND * rate.within());
         }
         let model_name = &manifest.contents.models[model].name;
-        self.write(&rates(hazard, name, model_name, &rows), &shares(hazard, name, model_name, &rows))?;
+        let (unit, names) = (manifest.contents.unit, [name, model_name]);
+        self.write(&rates(hazard, unit, names, &rows), &shares(hazard, unit, names, &rows))?;
         if !is_class && manifest.contents.walls.len() > MOST_WALLS {
             return Ok(());
         }
@@ -138,12 +139,13 @@ impl<'a> Rates<'a> {
 
     /// Adds the shares of the last limit state to the plot of a wall or class.
     fn draw(&mut self, name: &str, model: usize, row: Option<&Row>) {
-        self.lines.extend(row.map(|row| (model, cumulated(self.hazard, &row.rate))));
+        let unit = self.manifest.contents.unit;
+        self.lines.extend(row.map(|row| (model, cumulated(self.hazard, unit, &row.rate))));
         if model + 1 < self.manifest.contents.models.len() {
             return;
         }
         let points = self.hazard.curve.points();
-        let ends = [points[0][0], points[points.len() - 1][0]].map(in_g);
+        let ends = [points[0][0], points[points.len() - 1][0]].map(|x| unit.of(x));
         let mut plot = ManyLines::new(SIZE, ends, [0.0, 1.0]);
         let looks = looks(self.manifest);
         for (model, line) in self.lines.drain(..) {
@@ -151,7 +153,7 @@ impl<'a> Rates<'a> {
             plot.marks(&line, looks[model].1, looks[model].0);
         }
         let id = format!("rate{}", self.plots.len());
-        let axis = format!("{} (g)", self.manifest.contents.measure);
+        let axis = self.manifest.contents.axis();
         self.plots.push((name.to_owned(), plot.svg(&id, [&axis, "share of the rate up to there"])));
     }
 
@@ -159,12 +161,13 @@ impl<'a> Rates<'a> {
     pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
         let Self { manifest, hazard, drafts, shown, plots, beyond: [all, much], .. } = self;
         let paths = drafts.into_iter().map(|draft| draft.commit(true)).collect::<Result<_, _>>()?;
-        let points = hazard.curve.points();
-        let [from, to] = [points[0][0], points[points.len() - 1][0]].map(in_g);
+        let (points, unit) = (hazard.curve.points(), manifest.contents.unit);
+        let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| unit.of(x));
         let mut words = format!(
-            "annual rates from {} of {from:.3} to {to:.3} g, {:.0} % intervals of the records; \"at most\" \
+            "annual rates from {} of {from:.3} to {to:.3} {}, {:.0} % intervals of the records; \"at most\" \
              adds what may lie outside",
             manifest.contents.measure,
+            unit.name(),
             100.0 * CONFIDENCE
         );
         if let Some(target) = hazard.target {
@@ -173,8 +176,9 @@ impl<'a> Rates<'a> {
         let (mut told, mut html) = (words.clone() + "\n", String::new());
         let beyond = format!(
             "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, at \
-             {to:.3} g; give points of higher intensities",
-            100.0 * MOST_BEYOND
+             {to:.3} {}; give points of higher intensities",
+            100.0 * MOST_BEYOND,
+            unit.name()
         );
         let _ = write!(html, "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.", escaped(&words));
         if let Some(table) = shown {
@@ -200,13 +204,13 @@ impl<'a> Rates<'a> {
 }
 
 /// The rates in every digit.
-fn rates(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
+fn rates(hazard: &Hazard, unit: IntensityUnit, [name, model]: [&str; 2], rows: &[Row]) -> Table {
     let years = hazard.years;
     Table::over(rows)
         .text("wall", "", |_| name.to_owned())
         .text("model", "", |_| model.to_owned())
         .value("u_max_over_u_ins", |row| row.fraction)
-        .value("theta_g", |row| in_g(row.curve[0]))
+        .value(format!("theta{}", unit.ending()), |row| unit.of(row.curve[0]))
         .value("beta", |row| row.curve[1])
         .value("annual_rate", |row| row.rate.within())
         .value("annual_rate_low", |row| Some(row.interval[0]).filter(|rate| rate.is_finite()))
@@ -228,7 +232,7 @@ fn rates(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
 }
 
 /// The parts of the rates by the segments of the hazard curve.
-fn shares(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
+fn shares(hazard: &Hazard, unit: IntensityUnit, [name, model]: [&str; 2], rows: &[Row]) -> Table {
     let segments = rows.iter().flat_map(|row| {
         let parts = row.rate.segments.iter().zip(row.rate.shares());
         parts.zip(hazard.curve.points().windows(2)).map(move |(part, ends)| (row, part, ends))
@@ -237,8 +241,8 @@ fn shares(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
         .text("wall", "", |_| name.to_owned())
         .text("model", "", |_| model.to_owned())
         .value("u_max_over_u_ins", |(row, ..)| row.fraction)
-        .value("from_g", |(.., ends)| in_g(ends[0][0]))
-        .value("to_g", |(.., ends)| in_g(ends[1][0]))
+        .value(format!("from{}", unit.ending()), |(.., ends)| unit.of(ends[0][0]))
+        .value(format!("to{}", unit.ending()), |(.., ends)| unit.of(ends[1][0]))
         .value("annual_rate", |(_, part, _)| *part.0)
         .value("share", |(_, part, _)| Some(part.1).filter(|share| share.is_finite()))
         .done()
@@ -282,13 +286,13 @@ fn met(hazard: &Hazard, row: &Row) -> &'static str {
     hazard.target.map_or("", |target| row.rate.against(target).word())
 }
 
-/// The part of the rate from intensities up to each point \[g\].
-fn cumulated(hazard: &Hazard, rate: &Rate) -> Vec<[f64; 2]> {
+/// The part of the rate from intensities up to each point, these in a unit.
+fn cumulated(hazard: &Hazard, unit: IntensityUnit, rate: &Rate) -> Vec<[f64; 2]> {
     let mut sum = 0.0;
-    let mut line = vec![[in_g(hazard.curve.points()[0][0]), 0.0]];
+    let mut line = vec![[unit.of(hazard.curve.points()[0][0]), 0.0]];
     for (share, point) in rate.shares().into_iter().zip(&hazard.curve.points()[1..]) {
         sum += share;
-        line.push([in_g(point[0]), if sum.is_finite() { sum } else { 0.0 }]);
+        line.push([unit.of(point[0]), if sum.is_finite() { sum } else { 0.0 }]);
     }
     line
 }

@@ -8,8 +8,7 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{KINDS, Kind, Names, TIES, in_g};
-use ground_motion::STANDARD_GRAVITY;
+use crate::tables::{CLOUD, KINDS, Kind, Names, TIES};
 use report::counted;
 use report::table::{Cell, Digits, Table};
 use run::file::{self, Draft};
@@ -60,7 +59,9 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     file::remove(&folder.path().join(PAGE))?;
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let grid = contents.grid.clone();
-    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report);
+    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report)
+        .with_polarity(contents.polarity)
+        .with_cloud(contents.is_cloud);
     let mut output = Output::new(folder, runs)?;
     let mut curves = Curves::of(folder);
     let of_wall = models.len() * contents.records.len();
@@ -124,11 +125,12 @@ impl<'a> Output<'a> {
             Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
+        let cloud = folder.contents().is_cloud.then_some(&CLOUD);
         let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().chain(ties).copied().map(draft).collect::<Result<_, _>>()?,
+            tables: kinds.iter().chain(ties).chain(cloud).copied().map(draft).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.path(), folder.manifest())?,
@@ -163,6 +165,14 @@ impl<'a> Output<'a> {
         }
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
+            if manifest.contents.is_cloud {
+                let table = (CLOUD.1)(&self.names, wall, results).html();
+                let _ = writeln!(
+                    self.sections,
+                    "<section><h3>Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM</h3>\
+                     <div class=\"scroll\">{table}</div></section>"
+                );
+            }
             if manifest.contents.walls[wall].has_yielding_tie {
                 let table = (TIES.1)(&self.names, wall, results).html();
                 let _ = writeln!(
@@ -236,9 +246,10 @@ impl<'a> Output<'a> {
         let (contents, report) = (&manifest.contents, &manifest.report);
         let Some(collapse) = collapse(manifest) else { return String::new() };
         let mut text = format!(
-            "{}; collapse {} in g, 95 % intervals of {} resamples of {}\n",
+            "{}; collapse {} in {}, 95 % intervals of {} resamples of {}\n",
             counted(self.runs, "run"),
             contents.measure,
+            contents.unit.name(),
             report.resamples,
             counted(contents.records.len(), "record")
         );
@@ -288,10 +299,10 @@ impl<'a> Output<'a> {
     /// Adds the collapse of a wall to the summary.
     fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
         let Some(collapse) = collapse(manifest) else { return };
-        let three = Digits::Decimals(3);
-        let estimate = |of: &Interval| Cell::Between(of.bounds(STANDARD_GRAVITY)[0]);
-        let ends = |of: &Interval, unit| {
-            let [_, low, high] = of.texts(unit, 3);
+        let (three, unit) = (Digits::Decimals(3), manifest.contents.unit);
+        let estimate = |of: &Interval| Cell::Between(of.bounds(unit.size())[0]);
+        let ends = |of: &Interval, size| {
+            let [_, low, high] = of.texts(size, 3);
             format!("{low} … {high}")
         };
         let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, 3)[0], ends(of, 1.0));
@@ -299,7 +310,7 @@ impl<'a> Output<'a> {
             .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
             .text("", "model", |(model, _)| model.name.clone())
             .number("", "median", three, |(_, one)| estimate(&one.median))
-            .number("", "interval", three, |(_, one)| ends(&one.median, STANDARD_GRAVITY))
+            .number("", "interval", three, |(_, one)| ends(&one.median, unit.size()))
             .number("", "theta", three, |(_, one)| estimate(&one.theta))
             .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
             .number("", "censored", three, |(_, one)| one.censored)
@@ -318,6 +329,11 @@ impl<'a> Output<'a> {
         let more = if self.doubted > NAMED { " …" } else { "" };
         let fits = manifest.contents.walls.len() * manifest.contents.models.len();
         let named = format!("{} of {fits} fits: {}{more}", self.doubted, self.doubts.join(", "));
+        if self.doubted > 0 && manifest.contents.is_cloud {
+            return Some(format!(
+                "theta of the collapse lies outside the runs in {named}; scale the records, or add others"
+            ));
+        }
         (self.doubted > 0).then(|| match manifest.report.beta {
             Dispersion::Common => format!(
                 "limit states contradict a common beta in {named}; their fitted curves are rough, see the \
@@ -337,16 +353,26 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
 }
 
 /// Names a wall and model whose limit states contradict a common β, with the β of each, or whose curves
-/// cross, with the limit states and intensities at which they do.
+/// cross, with the limit states and intensities at which they do; of a cloud, whose θ of the collapse lies
+/// outside the runs.
 fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
     let Manifest { report, contents, .. } = manifest;
+    let unit = contents.unit;
+    let in_unit = |intensity: f64| format!("{:.3} {}", unit.of(intensity), unit.name());
     let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
-    let words: Vec<_> = if report.beta == Dispersion::Common {
+    let words: Vec<_> = if contents.is_cloud {
+        let runs = results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
+        let [least, most] = [f64::min, f64::max].map(|end| runs.clone().reduce(end).unwrap_or(f64::NAN));
+        let theta = collapse(manifest).and_then(|state| results.summary(state, model).fitted.ok());
+        let theta = theta.map(|curve| curve.median).filter(|theta| !(least..=most).contains(theta));
+        let told = |theta| format!("{}, runs {} to {}", in_unit(theta), in_unit(least), in_unit(most));
+        theta.map(told).into_iter().collect()
+    } else if report.beta == Dispersion::Common {
         let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
         alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()
     } else {
         let crossing = |(summary, fraction): (&Summary, &f64)| {
-            summary.crossing.map(|at| format!("{fraction} at {:.3} g", in_g(at)))
+            summary.crossing.map(|at| format!("{fraction} at {}", in_unit(at)))
         };
         summaries.zip(&report.fractions).filter_map(crossing).collect()
     };

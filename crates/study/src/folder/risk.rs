@@ -8,8 +8,6 @@ use std::path::{Path, PathBuf};
 use crate::document::{ReportOptions, WallClass};
 use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Interval, Summary, covariance};
 use crate::results::WallResults;
-use crate::tables::in_g;
-use ground_motion::STANDARD_GRAVITY;
 
 use run::file::{self, Draft};
 
@@ -212,19 +210,20 @@ impl<'a> Risk<'a> {
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
         let model = &contents.models[model].name;
+        let unit = contents.unit;
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-        let bounds = |k: usize, part: usize| Cell::Between(known[k].theta.bounds(STANDARD_GRAVITY)[part]);
+        let bounds = |k: usize, part: usize| Cell::Between(known[k].theta.bounds(unit.size())[part]);
         let covariance = |k: usize, part: usize| known[k].covariance.map(|moments| moments[part]);
         let mut table = Table::over(self.states.iter().enumerate())
             .text("wall", "", |_| name.to_owned())
             .value("walls", |_| walls)
             .text("model", "", |_| model.clone())
             .text("measure", "", |_| contents.measure.clone())
-            .text("unit", "", |_| "g")
+            .text("unit", "", |_| unit.name())
             .text("limit_state", "", |(_, (_, state))| state.clone())
             .value("u_max_over_u_ins", |(_, (place, _))| report.fractions[*place])
             .value("theta", |(k, _)| match function {
-                Some(function) => Cell::Number(in_g(function.states[*k].median)),
+                Some(function) => Cell::Number(unit.of(function.states[*k].median)),
                 None => bounds(*k, 0),
             })
             .value("theta_low", |(k, _)| bounds(*k, 1))
@@ -260,10 +259,10 @@ impl<'a> Risk<'a> {
         let Some(function) = function else {
             let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
             let theta = |((_, state), known): (&(usize, String), &Known)| {
-                (state.clone(), known.theta.texts(STANDARD_GRAVITY, 3)[0].clone())
+                (state.clone(), known.theta.texts(unit.size(), 3)[0].clone())
             };
             let thetas: Vec<_> = self.states.iter().zip(known).map(theta).collect();
-            return Ok(draft.write(|file| nrml::Writer::note(file, &id, &thetas))?);
+            return Ok(draft.write(|file| writer.note(file, &id, &thetas))?);
         };
         let is_written = draft.write(|file| writer.function(file, [name, model], function))?;
         self.left_out[1] += usize::from(!is_written);
@@ -276,8 +275,8 @@ impl<'a> Risk<'a> {
         let measure = &self.manifest.contents.measure;
         if self.xml.is_none() {
             return format!(
-                "no {file}: NRML knows PGA, Sa(T) and AvgSA, and not {measure}; for it run the study with \
-                 intensity = {{ measure = \"AvgSA\" }}\n"
+                "no {file}: OpenQuake knows PGA, PGV, PGD, Sa(T), AvgSA, IA and CAV, and not {measure}; \
+                 for it run the study with intensity = {{ measure = \"AvgSA\" }}\n"
             );
         }
         let lack = |(count, reason): (usize, &str)| match count {
@@ -308,11 +307,13 @@ impl<'a> Risk<'a> {
     /// Describes the result of a class.
     fn line(&self, class: &WallClass, model: usize, function: &FragilityFunction) -> String {
         let Manifest { contents, report, .. } = self.manifest;
+        let unit = contents.unit;
         let state = |(k, (place, _)): (usize, &(usize, String))| {
             let curve = function.states[k];
             format!(
-                "{:.3} g to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
-                in_g(curve.median),
+                "{:.3} {} to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
+                unit.of(curve.median),
+                unit.name(),
                 report.fractions[*place],
                 function.dispersion(k),
                 curve.beta_records,

@@ -17,6 +17,8 @@ pub struct Bootstrap {
     records: usize,
     samples: usize,
     seed: u64,
+    /// Records that are drawn together.
+    group: usize,
 }
 
 /// An estimate and its bootstrap interval.
@@ -48,7 +50,17 @@ pub struct Resampled {
 impl Bootstrap {
     /// Prepares `samples` resamples of `records` records. The same seed gives the same draws.
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
-        Self { records, samples, seed }
+        Self { records, samples, seed, group: 1 }
+    }
+
+    /// Draws groups of so many records that follow each other, such as a record and its reverse.
+    ///
+    /// # Panics
+    /// If the records are no whole number of groups.
+    #[must_use]
+    pub fn in_groups(self, group: usize) -> Self {
+        assert!(self.records.is_multiple_of(group), "whole groups of records");
+        Self { group, ..self }
     }
 
     /// Computes something of each resample, from the indices of the records drawn.
@@ -56,7 +68,10 @@ impl Bootstrap {
         let mut random = Pcg::new(self.seed);
         let mut drawn = vec![0; self.records];
         let resample = |_| {
-            drawn.fill_with(|| random.below(self.records));
+            for group in drawn.chunks_mut(self.group) {
+                let first = random.below(self.records / self.group) * self.group;
+                group.iter_mut().zip(first..).for_each(|(place, record)| *place = record);
+            }
             result(&drawn)
         };
         (0..self.samples).map(resample).collect()
@@ -73,6 +88,18 @@ impl Bootstrap {
                 *value = exceedances[index].or_infinity();
             }
             sample_median(&mut resampled)
+        })
+    }
+
+    /// Computes something of each resample, from how often each record was drawn.
+    pub(super) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
+        let mut counts = vec![0; self.records];
+        self.each(|drawn| {
+            counts.fill(0);
+            for &record in drawn {
+                counts[record] += 1;
+            }
+            result(&counts)
         })
     }
 
@@ -99,14 +126,7 @@ impl Bootstrap {
         };
         let ones = vec![1; self.records];
         let near = fit(&ones, &[]);
-        let mut counts = vec![0; self.records];
-        let samples = self.each(|drawn| {
-            counts.fill(0);
-            for &record in drawn {
-                counts[record] += 1;
-            }
-            ends(&counts, fit(&counts, &near))
-        });
+        let samples = self.counted(|counts| ends(counts, fit(counts, &near)));
         let resampled = |(state, [least, most, beta]): (usize, [f64; 3])| {
             let side =
                 |side: usize| -> Vec<f64> { samples.iter().map(|sample| sample[state][side]).collect() };

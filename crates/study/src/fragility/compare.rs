@@ -1,6 +1,7 @@
 //! Fragilities of several models beside that of a reference.
 
 use super::bootstrap::{Bootstrap, Interval, Resampled};
+use super::cloud::{Cloud, Regression};
 use super::dispersion::{Dispersion, Estimator};
 use super::fit::{FitError, Lognormal, fit_from, log_likelihood};
 use super::observation::Sample;
@@ -15,9 +16,10 @@ pub const CONFIDENCE: f64 = 0.95;
 pub struct Summary {
     /// Number of records.
     pub records: usize,
-    /// Number of records that do not exceed the limit state at any level.
+    /// Number of records that do not exceed the limit state at any level; of a cloud, those whose wall
+    /// overturned.
     pub censored: usize,
-    /// Intensity that half of the records need.
+    /// Intensity that half of the records need; of a cloud, θ.
     pub median: Interval,
     /// Curve, with the dispersion of the estimator.
     pub fitted: Result<Lognormal, FitError>,
@@ -60,6 +62,27 @@ pub fn compare(
     assert!(models.iter().all(|model| shape(model) == states), "each model has a result for each record");
     let all: Vec<Vec<Fragility>> =
         models.iter().map(|model| Fragility::of_states(model, estimator, bootstrap)).collect();
+    beside(&all, reference)
+}
+
+/// Compares the clouds of some models as [`compare`] does, at some fractions of `u_ins`.
+///
+/// # Panics
+/// If there is no model of that number, or the models differ in their number of records.
+pub fn compare_clouds(
+    models: &[Cloud],
+    fractions: &[f64],
+    reference: usize,
+    bootstrap: &Bootstrap,
+) -> Vec<Vec<Summary>> {
+    let all: Vec<Vec<Fragility>> =
+        models.iter().map(|cloud| Fragility::of_cloud(cloud, fractions, bootstrap)).collect();
+    beside(&all, reference)
+}
+
+/// Puts the fragilities of each model beside those of a reference: limit state by limit state, model by
+/// model.
+fn beside(all: &[Vec<Fragility>], reference: usize) -> Vec<Vec<Summary>> {
     let at = |state: usize| {
         let base = &all[reference][state];
         let summary = |(model, fragilities): (usize, &Vec<Fragility>)| {
@@ -71,16 +94,15 @@ pub fn compare(
                     own.over(base).interval(CONFIDENCE)
                 }
             };
-            let censored = |exceedance: &&Exceedance| matches!(exceedance, Exceedance::Above(_));
             Summary {
-                records: states[state],
-                censored: models[model][state].exceedances().iter().filter(censored).count(),
+                records: own.records,
+                censored: own.censored,
                 median: own.median.interval(CONFIDENCE),
                 fitted: own.fitted,
                 alone: own.alone,
                 contradicted: own.contradicted,
                 crossing: own.crossing,
-                misfit: own.fitted.ok().map(|curve| models[model][state].misfit(|x| curve.probability(x))),
+                misfit: own.misfit,
                 theta: own.theta.interval(CONFIDENCE),
                 beta: own.beta.interval(CONFIDENCE),
                 resamples: own.resamples(),
@@ -90,16 +112,19 @@ pub fn compare(
         };
         all.iter().enumerate().map(summary).collect()
     };
-    (0..states.len()).map(at).collect()
+    (0..all[reference].len()).map(at).collect()
 }
 
 /// Medians and fits of one model at one limit state, with those of its resamples.
 struct Fragility {
+    records: usize,
+    censored: usize,
     median: Resampled,
     fitted: Result<Lognormal, FitError>,
     alone: Result<Lognormal, FitError>,
     contradicted: bool,
     crossing: Option<f64>,
+    misfit: Option<f64>,
     theta: Resampled,
     beta: Resampled,
 }
@@ -117,10 +142,58 @@ impl Fragility {
         let resampled = medians.zip(bootstrap.fitted(states, estimator));
         let fits = fitted.into_iter().zip(alone).zip(crossings);
         let mut all = Vec::new();
-        for ((median, [theta, beta]), ((fitted, alone), crossing)) in resampled.zip(fits) {
-            all.push(Self { median, fitted, alone, contradicted, crossing, theta, beta });
+        for (((median, [theta, beta]), ((fitted, alone), crossing)), state) in resampled.zip(fits).zip(states)
+        {
+            let records = state.exceedances().len();
+            let censored = |exceedance: &&Exceedance| matches!(exceedance, Exceedance::Above(_));
+            let censored = state.exceedances().iter().filter(censored).count();
+            let misfit = fitted.ok().map(|curve| state.misfit(|x| curve.probability(x)));
+            all.push(Self {
+                records,
+                censored,
+                median,
+                fitted,
+                alone,
+                contradicted,
+                crossing,
+                misfit,
+                theta,
+                beta,
+            });
         }
         all
+    }
+
+    /// The fragilities of limit states that follow from one regression: they have one β, and do not cross.
+    fn of_cloud(cloud: &Cloud, fractions: &[f64], bootstrap: &Bootstrap) -> Vec<Self> {
+        let own = cloud.fit();
+        let resampled = bootstrap.counted(|counts| cloud.fit_drawn(counts).ok());
+        let state = |&fraction: &f64| {
+            // nothing is known of θ without a regression
+            let ends = |fit: Option<Regression>| {
+                let curve = fit.map(|fit| fit.fragility(fraction));
+                curve.map_or([0.0, f64::INFINITY, f64::NAN], |curve| {
+                    [curve.median, curve.median, curve.dispersion]
+                })
+            };
+            let [least, most, beta] = ends(own.ok());
+            let each = |side: usize| resampled.iter().map(|fit| ends(*fit)[side]).collect::<Vec<_>>();
+            let theta = Resampled { estimate: [least, most], least: each(0), most: each(1) };
+            let fitted = own.map(|fit| fit.fragility(fraction));
+            Self {
+                records: cloud.records(),
+                censored: cloud.collapsed(),
+                median: theta.clone(),
+                fitted,
+                alone: fitted,
+                contradicted: false,
+                crossing: None,
+                misfit: None,
+                theta,
+                beta: Resampled { estimate: [beta; 2], least: each(2), most: each(2) },
+            }
+        };
+        fractions.iter().map(state).collect()
     }
 
     /// Returns θ and β of each resample.

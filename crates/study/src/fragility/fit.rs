@@ -49,6 +49,12 @@ pub enum FitError {
     /// The curve of maximum likelihood does not rise.
     #[error("the demand is not exceeded more often at higher intensities: check the levels and counts")]
     Falling,
+    /// The demands of a cloud have no regression.
+    #[error(
+        "fewer than three walls stand at different intensities, or their demands do not scatter: add \
+         records, or change the scale"
+    )]
+    Cloud,
     /// An intensity that has no logarithm, or more exceedances than runs.
     #[error(
         "an observation is invalid: intensities must be positive and finite, exceedances no more than runs"

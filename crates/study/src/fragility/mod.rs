@@ -9,7 +9,7 @@
 //! Spectra 31(1), 2015, 579–599.
 //!
 //! Limit states of the same runs have each their own β, or one for all, or dispersions with which their
-//! curves do not cross: see [`Dispersion`].
+//! curves do not cross: see [`Dispersion`]. Those of a [`Cloud`] follow from a regression.
 //!
 //! ```
 //! use study::fragility::{Observation, fit};
@@ -22,6 +22,7 @@
 
 mod bootstrap;
 mod class;
+mod cloud;
 mod compare;
 mod dispersion;
 mod fit;
@@ -31,7 +32,8 @@ mod term;
 
 pub use bootstrap::{Bootstrap, Interval, Resampled};
 pub use class::{ClassResamples, FragilityFunction, StateCurve};
-pub use compare::{CONFIDENCE, Summary, compare, covariance};
+pub use cloud::{Cloud, Regression};
+pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};
 pub use dispersion::{Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::{cumulative, quantile};

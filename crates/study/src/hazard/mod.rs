@@ -35,7 +35,7 @@ pub const YEARS: f64 = 50.0;
 /// The hazard of a study, and what is asked of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hazard {
-    /// Intensities \[m/s²\] and annual rates of exceedance \[1/year\].
+    /// Intensities, in SI units, and annual rates of exceedance \[1/year\].
     pub curve: HazardCurve,
     /// Years of the probabilities.
     pub years: f64,

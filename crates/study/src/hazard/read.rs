@@ -1,7 +1,6 @@
 //! Hazard curves from files: two columns, or a table of `OpenQuake`.
 
-use crate::ida::IntensityMeasure;
-use ground_motion::Unit;
+use crate::ida::{IntensityMeasure, ToSi};
 
 use super::curve::{HazardCurve, HazardError};
 
@@ -18,7 +17,7 @@ pub struct ReadError {
 /// A curve of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The curve, intensities in m/s².
+    /// The curve, intensities in SI units.
     pub curve: HazardCurve,
     /// What was left out or could not be checked.
     pub warnings: Vec<String>,
@@ -27,8 +26,8 @@ pub struct Table {
 const FORMS: &str = "expected a line of names with a measure or \"intensity\" and \"annual_rate\", or a \
                      hazard-curve CSV of OpenQuake";
 
-/// Reads the hazard curve of a study's measure from the text of a file; `unit` is that of the intensities
-/// of two columns, and `site` the number from 1 of a site of `OpenQuake`.
+/// Reads the hazard curve of a study's measure from the text of a file; `to_si` converts the
+/// intensities of two columns, and `site` is the number from 1 of a site of `OpenQuake`.
 ///
 /// # Errors
 /// [`ReadError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
@@ -36,7 +35,7 @@ const FORMS: &str = "expected a line of names with a measure or \"intensity\" an
 pub fn read(
     text: &str,
     measure: &IntensityMeasure,
-    unit: Unit,
+    to_si: ToSi,
     site: Option<u32>,
 ) -> Result<Table, ReadError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
@@ -52,14 +51,14 @@ pub fn read(
         let message = "site belongs to a hazard-curve CSV of OpenQuake; leave it out for two columns";
         return Err(ReadError { line: None, message: message.into() });
     }
-    two_columns(*first, rest, measure, unit)
+    two_columns(*first, rest, measure, to_si)
 }
 
 fn two_columns(
     (line, names): (usize, &str),
     rows: &[(usize, &str)],
     measure: &IntensityMeasure,
-    unit: Unit,
+    to_si: ToSi,
 ) -> Result<Table, ReadError> {
     let fail = |message: String| ReadError { line: Some(line), message };
     let cells: Vec<_> = names.split(',').map(str::trim).collect();
@@ -73,7 +72,7 @@ fn two_columns(
             let message = format!("found {} cells, expected an intensity and an annual rate", numbers.len());
             return Err(ReadError { line: Some(line), message });
         };
-        Ok([unit.to_si(x), rate])
+        Ok([to_si(x), rate])
     };
     let points = rows.iter().map(point).collect::<Result<Vec<_>, _>>()?;
     let place = |error: HazardError| {
@@ -90,7 +89,8 @@ fn two_columns(
 }
 
 /// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
-/// years is a rate of −ln(1 − P)/t; levels are in g.
+/// years is a rate of −ln(1 − P)/t; levels are in the unit of
+/// results.
 fn open_quake(
     (line, comment): (usize, &str),
     rest: &[(usize, &str)],
@@ -138,14 +138,19 @@ fn open_quake(
     };
     let (line, row) = sites[at];
     let cells: Vec<_> = row.split(',').collect();
-    let mut points = Vec::new();
+    let (mut points, unit) = (Vec::new(), measure.unit());
     for (column, level) in levels {
-        let cell = cells.get(column).ok_or_else(|| fail(line, format!("the row ends before {level} g")))?;
+        let cell = cells
+            .get(column)
+            .ok_or_else(|| fail(line, format!("the row ends before {level} {}", unit.name())))?;
         let poe = number(cell, line)?;
         if !(0.0..=1.0).contains(&poe) {
-            return Err(fail(line, format!("the probability {poe} at {level} g must be from 0 to 1")));
+            return Err(fail(
+                line,
+                format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name()),
+            ));
         }
-        points.push([Unit::StandardGravity.to_si(level), -libm::log1p(-poe) / years]);
+        points.push([level * unit.size(), -libm::log1p(-poe) / years]);
     }
     let all = points.len();
     // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
@@ -174,10 +179,10 @@ fn same_measure(name: &str, measure: &IntensityMeasure) -> Result<Option<String>
         inner.trim().trim_end_matches('s').trim().parse().ok()
     };
     let is_same = match measure {
-        IntensityMeasure::Pga => name.eq_ignore_ascii_case("PGA"),
         IntensityMeasure::Sa { period } => spectral(name) == Some(*period),
-        IntensityMeasure::AvgSa { .. } => name.eq_ignore_ascii_case("AvgSA"),
+        IntensityMeasure::Arias => ["Arias", "IA"].iter().any(|own| name.eq_ignore_ascii_case(own)),
         IntensityMeasure::Code { .. } => ["a_g", "ag"].iter().any(|own| name.eq_ignore_ascii_case(own)),
+        _ => name.eq_ignore_ascii_case(&measure.name()),
     };
     let own = measure.name();
     if !is_same {
@@ -194,6 +199,8 @@ fn same_measure(name: &str, measure: &IntensityMeasure) -> Result<Option<String>
 mod tests {
     use super::*;
 
+    const G: ToSi = |x| 9.806_65 * x;
+
     const OPEN_QUAKE: &str = "#,,,,\"generated_by='OpenQuake engine 3.16.3', checksum=1, kind='mean', \
         investigation_time=50.0, imt='SA(0.5)'\"\n\
         lon,lat,depth,poe-0.0500000,poe-0.1000000,poe-0.2000000,poe-0.4000000,poe-0.8000000\n\
@@ -203,7 +210,7 @@ mod tests {
     #[test]
     fn tables_of_openquake_have_rates() {
         let measure = IntensityMeasure::Sa { period: 0.5 };
-        let read = |site| read(OPEN_QUAKE, &measure, Unit::StandardGravity, site);
+        let read = |site| read(OPEN_QUAKE, &measure, G, site);
         let Table { curve, warnings } = read(Some(1)).unwrap();
         let given = [[0.1, 0.5], [0.2, 0.1], [0.4, 0.02]];
         assert_eq!(curve.points().len(), 3, "{warnings:?}");
@@ -217,14 +224,14 @@ mod tests {
         for (site, words) in [(None, "has 2 sites; give site = n"), (Some(3), "must be from 1 to 2")] {
             assert!(read(site).unwrap_err().message.contains(words));
         }
-        let other = super::read(OPEN_QUAKE, &IntensityMeasure::Pga, Unit::StandardGravity, Some(1));
+        let other = super::read(OPEN_QUAKE, &IntensityMeasure::Pga, G, Some(1));
         let told = other.unwrap_err();
         assert!(told.line == Some(1) && told.message.contains("\"SA(0.5)\", the study of PGA"), "{told}");
     }
 
     #[test]
     fn two_columns_have_a_unit_and_their_measure() {
-        let read = |text| read(text, &IntensityMeasure::Pga, Unit::StandardGravity, None);
+        let read = |text| read(text, &IntensityMeasure::Pga, G, None);
         let table = read("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-3\n").unwrap();
         assert_eq!(table.curve.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
         assert_eq!(read("intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n").unwrap(), table);

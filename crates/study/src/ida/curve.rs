@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A run: one wall through one record scaled to one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Level: the intensity to which the record was scaled \[m/s²\].
+    /// Level: the intensity to which the record was scaled, in SI units.
     pub intensity: f64,
     /// Demand: largest |u|/`u_ins` \[-\]; 1 of a wall that overturned.
     pub demand: f64,
@@ -51,12 +51,12 @@ impl TieDemand {
 /// Intensity at which the demand exceeds a limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exceedance {
-    /// At this intensity \[m/s²\].
+    /// At this intensity.
     At(f64),
-    /// Between these two levels \[m/s²\]: the wall does not exceed it at the lower one, which is 0 below the
+    /// Between these two levels: the wall does not exceed it at the lower one, which is 0 below the
     /// lowest level, and exceeds it at the upper one.
     Between([f64; 2]),
-    /// Above this intensity, the highest level of the curve \[m/s²\]: the record is censored.
+    /// Above this intensity, the highest level of the curve: the record is censored.
     Above(f64),
 }
 
@@ -79,7 +79,7 @@ impl Crossing {
 }
 
 impl Exceedance {
-    /// Returns the least and the most that the intensity can be \[m/s²\].
+    /// Returns the least and the most that the intensity can be.
     pub fn bounds(self) -> [f64; 2] {
         match self {
             Self::At(intensity) => [intensity; 2],
@@ -159,7 +159,7 @@ impl Curve {
         }
     }
 
-    /// Returns the highest level below the collapse, or 0 \[m/s²\]. The collapse lies between the two.
+    /// Returns the highest level below the collapse, or 0. The collapse lies between the two.
     pub fn level_below_collapse(&self) -> f64 {
         self.runs[..self.below_collapse].last().map_or(0.0, |run| run.intensity)
     }
@@ -222,7 +222,7 @@ impl Curve {
         None
     }
 
-    /// Returns the highest level \[m/s²\].
+    /// Returns the highest level.
     pub fn top(&self) -> f64 {
         self.runs.last().map_or(0.0, |run| run.intensity)
     }

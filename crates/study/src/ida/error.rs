@@ -19,8 +19,8 @@ pub enum IdaError {
     #[error("record {record:?}: {source}")]
     Record { record: String, source: Box<GroundMotionError> },
     /// A record whose intensity is zero or not finite.
-    #[error("record {record:?} has the intensity {intensity} m/s² and cannot be scaled; leave it out")]
-    Unscalable { record: String, intensity: f64 },
+    #[error("record {record:?} has the intensity {intensity} and cannot be scaled; leave it out")]
+    Unscalable { record: String, intensity: String },
     /// A value of the levels is outside its limits.
     #[error("{name} of the levels is {value}; it must be {limit}")]
     Levels { name: &'static str, value: String, limit: String },
@@ -31,8 +31,6 @@ pub enum IdaError {
     #[error("wall {wall:?}, record {record:?}: {source}")]
     Floors { wall: String, record: String, source: Box<SceneError> },
     /// A run failed.
-    #[error(
-        "wall {wall:?}, record {record:?}, damping model {model:?}, from the level {level} m/s² on: {source}"
-    )]
-    Run { wall: String, record: String, model: String, level: f64, source: Box<SolverError> },
+    #[error("wall {wall:?}, record {record:?}, damping model {model:?}, from the level {level} on: {source}")]
+    Run { wall: String, record: String, model: String, level: String, source: Box<SolverError> },
 }

@@ -2,26 +2,31 @@
 
 use super::curve::Run;
 use super::error::IdaError;
-use ground_motion::STANDARD_GRAVITY;
+use super::unit::IntensityUnit;
 use record::LANES;
 
 /// Most levels of one curve.
 const MOST_LEVELS: usize = 2000;
 /// Bound on the rounds of bracketing and filling; each shortens the bracket or the gaps up to ninefold.
 const MOST_ROUNDS: usize = 40;
-/// Largest intensity \[m/s²\].
+/// Largest intensity, in SI units.
 const HIGHEST: f64 = 1e4;
 
-/// Levels of intensity at which a curve is run \[m/s²\].
+/// Levels of intensity at which a curve is run, in the SI unit of the measure: m/s² of an acceleration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
+    /// Each record once, at its own intensity times a scale: a cloud.
+    Cloud {
+        /// Factor on every record \[-\].
+        scale: f64,
+    },
     /// Each of these, in rising order, also beyond overturning.
     Grid(Vec<f64>),
     /// `step`, 2 `step` … up to the first level at which the wall overturns, at most up to `top`.
     ToOverturning {
-        /// Distance between levels \[m/s²\].
+        /// Distance between levels.
         step: f64,
-        /// Highest level \[m/s²\].
+        /// Highest level.
         top: f64,
     },
     /// Growing steps until the wall overturns, then a bracket of the collapse, then levels in the gaps below
@@ -30,23 +35,17 @@ pub enum Levels {
     /// D. Vamvatsikos, C. A. Cornell: Applied incremental dynamic analysis. Earthquake Spectra 20(2), 2004,
     /// 523–553. The bracket is cut into up to nine parts at once, whose levels run side by side.
     HuntAndFill {
-        /// First level and first step \[m/s²\].
+        /// First level and first step.
         first: f64,
-        /// Increase of each step over the one before \[m/s²\].
+        /// Increase of each step over the one before.
         increase: f64,
-        /// Highest level \[m/s²\].
+        /// Highest level.
         top: f64,
         /// Largest bracket of the collapse, as a part of the collapse intensity \[-\].
         resolution: f64,
         /// Largest gap between levels below the collapse, as a part of the collapse intensity \[-\].
         gap: f64,
     },
-}
-
-/// Formats an acceleration in both units, since a study may state either.
-fn acceleration(value: f64) -> String {
-    let rounded = |value: f64| format!("{value:.5e}").parse().unwrap_or(value);
-    format!("{} m/s² ({} g)", rounded(value), rounded(value / STANDARD_GRAVITY))
 }
 
 /// Formats a pure number.
@@ -58,7 +57,7 @@ fn number(value: f64) -> String {
 fn check_range(
     name: &'static str,
     value: f64,
-    shown: fn(f64) -> String,
+    shown: impl Fn(f64) -> String,
     [least, most]: [f64; 2],
 ) -> Result<(), IdaError> {
     if value >= least && value <= most {
@@ -79,37 +78,41 @@ impl Levels {
         match self {
             Self::Grid(levels) => Some(levels.clone()),
             Self::ToOverturning { step, top } => Some(multiples(*step, *top).collect()),
-            Self::HuntAndFill { .. } => None,
+            Self::HuntAndFill { .. } | Self::Cloud { .. } => None,
         }
     }
 
-    /// Describes the levels in words, to all digits.
-    pub fn description(&self) -> String {
+    /// Describes the levels in words, to all digits; `unit` is the SI unit of the measure.
+    pub fn description(&self, unit: &str) -> String {
         match self {
             Self::Grid(levels) => {
                 let levels: Vec<_> = levels.iter().map(f64::to_string).collect();
-                format!("grid of {} m/s²", levels.join(", "))
+                format!("grid of {} {unit}", levels.join(", "))
             }
-            Self::ToOverturning { step, top } => format!("steps of {step} up to {top} m/s²"),
+            Self::Cloud { scale } => format!("cloud of the records times {scale}"),
+            Self::ToOverturning { step, top } => format!("steps of {step} up to {top} {unit}"),
             Self::HuntAndFill { first, increase, top, resolution, gap } => format!(
-                "hunt from {first} with {increase} more at each step up to {top} m/s², resolution \
+                "hunt from {first} with {increase} more at each step up to {top} {unit}, resolution \
                  {resolution}, gap {gap}"
             ),
         }
     }
 
-    /// Returns the highest level at which every record is run, even if the wall overturns below it \[m/s²\].
-    pub(super) fn certain(&self) -> f64 {
+    /// Returns the highest level at which a record is run, even if the wall overturns below it. `own` is its
+    /// level in a cloud.
+    pub(super) fn certain(&self, own: f64) -> f64 {
         match *self {
             Self::Grid(ref levels) => levels.iter().copied().fold(0.0, f64::max),
             Self::ToOverturning { step, .. } => step,
             Self::HuntAndFill { first, .. } => first,
+            Self::Cloud { .. } => own,
         }
     }
 
     /// Estimates the number of runs of one curve. It is a guess where that depends on the collapse.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {
+            Self::Cloud { .. } => 1.0,
             Self::Grid(ref levels) => levels.len() as f64,
             Self::ToOverturning { step, top } => (0.5 * top / step).max(1.0),
             // the hunt and the bracket take about twenty
@@ -121,10 +124,12 @@ impl Levels {
     ///
     /// # Errors
     /// [`IdaError::Levels`] for a value outside its limits.
-    pub(super) fn check(&self) -> Result<(), IdaError> {
+    pub(super) fn check(&self, unit: IntensityUnit) -> Result<(), IdaError> {
+        let intensity = |value| unit.shown(value);
         let count = |count: f64| check_range("number", count, number, [1.0, MOST_LEVELS as f64]);
-        let top = |top| check_range("top", top, acceleration, [1e-6, HIGHEST]);
+        let top = |top| check_range("top", top, intensity, [1e-6, HIGHEST]);
         match *self {
+            Self::Cloud { scale } => check_range("scale", scale, number, [f64::MIN_POSITIVE, HIGHEST]),
             Self::Grid(ref levels) => {
                 count(levels.len() as f64)?;
                 top(levels.iter().copied().fold(0.0, f64::max))?;
@@ -134,7 +139,7 @@ impl Levels {
                     let rises = level > before;
                     if !rises {
                         let limit = "above 0 and above the level before it".to_owned();
-                        return Err(IdaError::Levels { name: "a value", value: acceleration(level), limit });
+                        return Err(IdaError::Levels { name: "a value", value: intensity(level), limit });
                     }
                     before = level;
                 }
@@ -142,13 +147,13 @@ impl Levels {
             }
             Self::ToOverturning { step, top: highest } => {
                 top(highest)?;
-                check_range("step", step, acceleration, [f64::MIN_POSITIVE, highest])?;
+                check_range("step", step, intensity, [f64::MIN_POSITIVE, highest])?;
                 count(highest / step)
             }
             Self::HuntAndFill { first, increase, top: highest, resolution, gap } => {
                 top(highest)?;
-                check_range("first", first, acceleration, [f64::MIN_POSITIVE, highest])?;
-                check_range("increase", increase, acceleration, [0.0, highest])?;
+                check_range("first", first, intensity, [f64::MIN_POSITIVE, highest])?;
+                check_range("increase", increase, intensity, [0.0, highest])?;
                 check_range("resolution", resolution, number, [1e-12, 1.0])?;
                 check_range("gap", gap, number, [0.01, 1.0])?;
                 count(hunt([first, increase, highest]).count() as f64)
@@ -156,9 +161,15 @@ impl Levels {
         }
     }
 
-    /// Runs the levels of one curve. `run` takes some levels and returns a run for each.
-    pub(super) fn trace<E>(&self, mut run: impl FnMut(&[f64]) -> Result<Vec<Run>, E>) -> Result<Vec<Run>, E> {
+    /// Runs the levels of one curve. `own` is the level of the record in a cloud; `run` takes some levels and
+    /// returns a run for each.
+    pub(super) fn trace<E>(
+        &self,
+        own: f64,
+        mut run: impl FnMut(&[f64]) -> Result<Vec<Run>, E>,
+    ) -> Result<Vec<Run>, E> {
         match *self {
+            Self::Cloud { .. } => run(&[own]),
             Self::Grid(ref levels) => run(levels),
             Self::ToOverturning { step, top } => {
                 let mut runs = ascend(multiples(step, top), &mut run)?;

@@ -3,11 +3,23 @@
 use ground_motion::spectrum::AVERAGE_PERIODS;
 use ground_motion::{GroundMotion, GroundMotionError, Spectrum};
 
+use super::unit::IntensityUnit;
+
 /// Intensity measure by which records are scaled; spectral ones are at 5 % damping.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IntensityMeasure {
     /// Peak ground acceleration.
     Pga,
+    /// Peak ground velocity.
+    Pgv,
+    /// Peak ground displacement.
+    Pgd,
+    /// Arias intensity; it grows with the square of the motion.
+    Arias,
+    /// Cumulative absolute velocity.
+    Cav,
+    /// Housner's spectrum intensity, from 0.1 to 2.5 s.
+    Housner,
     /// Spectral acceleration Sa(T).
     Sa {
         /// T \[s\].
@@ -59,13 +71,19 @@ impl Default for IntensityMeasure {
 }
 
 impl IntensityMeasure {
-    /// Returns the intensity of a motion \[m/s²\]. It is proportional to the motion.
+    /// Returns the intensity of a motion in SI units: m/s² of accelerations, m/s of PGV, Arias intensity and
+    /// CAV, m of PGD and Housner's intensity.
     ///
     /// # Errors
     /// [`GroundMotionError`] if there is no period, or one is outside its limits.
     pub fn of(&self, motion: &GroundMotion) -> Result<f64, GroundMotionError> {
         match self {
             Self::Pga => Ok(motion.peak()),
+            Self::Pgv => Ok(motion.peak_velocity()),
+            Self::Pgd => Ok(motion.peak_displacement()),
+            Self::Arias => Ok(motion.arias_intensity()),
+            Self::Cav => Ok(motion.cumulative_absolute_velocity()),
+            Self::Housner => Spectrum::default().housner_intensity(motion),
             Self::Sa { period } => Spectrum::default().acceleration(motion, *period),
             Self::AvgSa { periods } => Spectrum::default().average(motion, periods),
             Self::Code { periods, shape } => {
@@ -73,6 +91,29 @@ impl IntensityMeasure {
                     shape.iter().map(|ordinate| libm::log(*ordinate)).sum::<f64>() / shape.len() as f64;
                 Ok(Spectrum::default().average(motion, periods)? / libm::exp(mean))
             }
+        }
+    }
+
+    /// Returns the factor on a motion that multiplies its intensity by a ratio: the ratio itself, of Arias
+    /// intensity its square root.
+    pub fn factor(&self, ratio: f64) -> f64 {
+        if *self == Self::Arias { ratio.sqrt() } else { ratio }
+    }
+
+    /// Returns by what a factor on a motion multiplies its intensity, the inverse of
+    /// [`factor`](Self::factor).
+    pub fn ratio(&self, factor: f64) -> f64 {
+        if *self == Self::Arias { factor * factor } else { factor }
+    }
+
+    /// Returns the unit in which results state it.
+    pub fn unit(&self) -> IntensityUnit {
+        match self {
+            Self::Pga | Self::Sa { .. } | Self::AvgSa { .. } | Self::Code { .. } => IntensityUnit::Gravity,
+            Self::Pgv => IntensityUnit::CentimetrePerSecond,
+            Self::Pgd | Self::Housner => IntensityUnit::Centimetre,
+            Self::Arias => IntensityUnit::MetrePerSecond,
+            Self::Cav => IntensityUnit::GravitySecond,
         }
     }
 
@@ -91,7 +132,7 @@ impl IntensityMeasure {
     /// Returns the periods at which it takes spectra \[s\].
     pub fn periods(&self) -> &[f64] {
         match self {
-            Self::Pga => &[],
+            Self::Pga | Self::Pgv | Self::Pgd | Self::Arias | Self::Cav | Self::Housner => &[],
             Self::Sa { period } => std::slice::from_ref(period),
             Self::AvgSa { periods } | Self::Code { periods, .. } => periods,
         }
@@ -100,18 +141,23 @@ impl IntensityMeasure {
     /// Describes the measure to all digits: `AvgSA over 0.2, 0.4 s`.
     pub fn description(&self) -> String {
         match self {
-            Self::Pga | Self::Sa { .. } => self.name(),
             Self::AvgSa { periods } => format!("{} over {} s", self.name(), listed(periods)),
             Self::Code { periods, shape } => {
                 format!("{} over {} s of a spectrum {}", self.name(), listed(periods), listed(shape))
             }
+            _ => self.name(),
         }
     }
 
-    /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`, `a_g`.
+    /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`, `a_g`, `Arias`.
     pub fn name(&self) -> String {
         match self {
             Self::Pga => "PGA".into(),
+            Self::Pgv => "PGV".into(),
+            Self::Pgd => "PGD".into(),
+            Self::Arias => "Arias".into(),
+            Self::Cav => "CAV".into(),
+            Self::Housner => "Housner".into(),
             Self::Sa { period } => format!("Sa({period} s)"),
             Self::AvgSa { .. } => "AvgSA".into(),
             Self::Code { .. } => "a_g".into(),

@@ -28,6 +28,8 @@ mod error;
 mod levels;
 mod measure;
 mod parts;
+mod polarity;
+mod unit;
 
 use std::borrow::Cow;
 
@@ -44,10 +46,14 @@ use run::records::NamedRecord;
 use run::shaking::Shaking;
 use run::walls::NamedWall;
 
+use polarity::worse;
+
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::{IntensityMeasure, Misfit};
+pub use polarity::Polarity;
+pub use unit::{IntensityUnit, ToSi};
 
 /// Longest free vibration after a record of a study \[s\].
 pub const LONGEST_TAIL: f64 = 1000.0;
@@ -62,7 +68,8 @@ pub struct Study {
     levels: Levels,
     tail: f64,
     collapse: Collapse,
-    /// Intensity of each unscaled record \[m/s²\].
+    polarity: Polarity,
+    /// Intensity of each unscaled record, in SI units.
     intensities: Vec<f64>,
 }
 
@@ -94,7 +101,7 @@ impl Study {
         if let Some(&(what, _)) = lists.iter().find(|(_, count)| *count == 0) {
             return Err(IdaError::Empty { what });
         }
-        levels.check()?;
+        levels.check(measure.unit())?;
         for wall in &walls {
             models.iter().try_for_each(|model| motion(wall, model).map(drop))?;
         }
@@ -102,13 +109,15 @@ impl Study {
             let name = || record.name.clone();
             match measure.of(&record.motion) {
                 Ok(intensity) if intensity > 0.0 && intensity.is_finite() => Ok(intensity),
-                Ok(intensity) => Err(IdaError::Unscalable { record: name(), intensity }),
+                Ok(intensity) => {
+                    Err(IdaError::Unscalable { record: name(), intensity: measure.unit().shown(intensity) })
+                }
                 Err(source) => Err(IdaError::Record { record: name(), source: Box::new(source) }),
             }
         };
         let intensities = records.iter().map(intensity).collect::<Result<_, _>>()?;
-        let (tail, collapse) = (DEFAULT_TAIL, Collapse::Exceeds);
-        Ok(Self { walls, records, models, measure, levels, tail, collapse, intensities })
+        let (tail, collapse, polarity) = (DEFAULT_TAIL, Collapse::Exceeds, Polarity::AsRecorded);
+        Ok(Self { walls, records, models, measure, levels, tail, collapse, polarity, intensities })
     }
 
     /// Sets the free vibration after each record \[s\].
@@ -129,14 +138,35 @@ impl Study {
         Self { collapse, ..self }
     }
 
+    /// Sets the signs with which the records are run.
+    #[must_use]
+    pub fn with_polarity(self, polarity: Polarity) -> Self {
+        let (signs, given) = (self.polarity.signs(), self.given_records());
+        // a reversed record has the intensity of the record
+        let intensities = self.intensities.iter().step_by(signs);
+        let of_signs = |intensity: &f64| std::iter::repeat_n(*intensity, polarity.signs());
+        let intensities = intensities.flat_map(of_signs).collect();
+        Self { records: polarity.records(given), intensities, polarity, ..self }
+    }
+
     /// Returns the walls.
     pub fn walls(&self) -> &[NamedWall] {
         &self.walls
     }
 
-    /// Returns the records.
+    /// Returns the records that are run: with both signs, each record and its reverse.
     pub fn records(&self) -> &[NamedRecord] {
         &self.records
+    }
+
+    /// Returns the records as they were given.
+    pub fn given_records(&self) -> Vec<NamedRecord> {
+        self.polarity.given(&self.records)
+    }
+
+    /// Returns the signs with which the records are run.
+    pub fn polarity(&self) -> Polarity {
+        self.polarity
     }
 
     /// Returns the damping models.
@@ -164,7 +194,7 @@ impl Study {
         self.collapse
     }
 
-    /// Returns the intensity of an unscaled record \[m/s²\].
+    /// Returns the intensity of an unscaled record, in the SI unit of the measure.
     pub fn intensity(&self, record: usize) -> f64 {
         self.intensities[record]
     }
@@ -172,9 +202,12 @@ impl Study {
     /// Warns about accelerations that no record has. They are those of the strongest record at the highest
     /// level, or at the lowest one where levels go on to overturning.
     pub fn warning(&self) -> Option<Warning> {
-        let level = self.levels.certain();
-        let peaks = self.records.iter().zip(&self.intensities);
-        let peaks = peaks.map(|(record, intensity)| record.motion.peak() * level / intensity);
+        let peaks = self.records.iter().enumerate();
+        let peak = |(index, record): (usize, &NamedRecord)| {
+            let level = self.levels.certain(self.own_level(index));
+            record.motion.peak() * self.measure.factor(level / self.intensities[index])
+        };
+        let peaks = peaks.map(peak);
         peaks.max_by(f64::total_cmp).and_then(Warning::of_peak)
     }
 
@@ -220,16 +253,22 @@ impl Study {
         let support = self.support_motion(case)?;
         let solver = RecordSolver::new(&motion, support.step());
         let shaking = Shaking::new(&motion, &solver, &support, self.tail);
-        let runs = self.levels.trace(|levels| {
+        let runs = self.levels.trace(self.own_level(case.record), |levels| {
             self.runs(case, &motion, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
                 record: record.name.clone(),
                 model: self.models[case.model].name.clone(),
-                level: levels[0],
+                level: self.measure.unit().shown(levels[0]),
                 source: Box::new(source),
             })
         })?;
         Ok(Curve::new(runs))
+    }
+
+    /// Returns the level of a record in a cloud: its intensity times the scale.
+    fn own_level(&self, record: usize) -> f64 {
+        let scale = if let Levels::Cloud { scale } = self.levels { scale } else { 1.0 };
+        self.intensities[record] * self.measure.ratio(scale)
     }
 
     /// Returns the motion of the supports of a wall under a record: that of the ground, or that of its floors
@@ -258,7 +297,7 @@ impl Study {
         parallel::map(self.count(), threads, |index| self.curve(self.case(index)))
     }
 
-    /// Runs the record of a combination scaled to each of some levels \[m/s²\].
+    /// Runs the record of a combination scaled to each of some levels, in the SI unit of the measure.
     fn runs(
         &self,
         case: Case,
@@ -266,7 +305,8 @@ impl Study {
         shaking: &Shaking<'_>,
         levels: &[f64],
     ) -> Result<Vec<Run>, SolverError> {
-        let factors: Vec<_> = levels.iter().map(|level| level / self.intensities[case.record]).collect();
+        let intensity = self.intensities[case.record];
+        let factors: Vec<_> = levels.iter().map(|level| self.measure.factor(level / intensity)).collect();
         let instability = motion.wall().body().instability;
         let run = |(&intensity, outcome): (&f64, Outcome)| Run {
             intensity,
@@ -274,11 +314,19 @@ impl Study {
             overturning: outcome.overturning,
             tie: TieDemand::of(motion.wall(), &outcome.state),
         };
-        let outcomes = match self.collapse {
-            Collapse::Exceeds => shaking.runs([0.0, 0.0], &factors)?,
-            Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], &factors)?,
+        let of = |factors: &[f64]| {
+            let outcomes = match self.collapse {
+                Collapse::Exceeds => shaking.runs([0.0, 0.0], factors)?,
+                Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], factors)?,
+            };
+            Ok::<Vec<Run>, SolverError>(levels.iter().zip(outcomes).map(run).collect())
         };
-        Ok(levels.iter().zip(outcomes).map(run).collect())
+        let runs = of(&factors)?;
+        if self.polarity != Polarity::Worst || motion.wall().has_equal_sides() {
+            return Ok(runs);
+        }
+        let reversed: Vec<_> = factors.iter().map(|factor| -factor).collect();
+        Ok(runs.into_iter().zip(of(&reversed)?).map(|(run, reversed)| worse(run, reversed)).collect())
     }
 }
 

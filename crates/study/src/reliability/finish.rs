@@ -32,7 +32,9 @@ pub fn finish(
 ) -> Result<Report, FolderError> {
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
-    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), &manifest.report);
+    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), &manifest.report)
+        .with_polarity(contents.polarity)
+        .with_cloud(contents.is_cloud);
     let hazard = manifest.report.hazard.as_ref().map(|hazard| &hazard.curve);
     let paths = FILES.map(|name| folder.path().join(name));
     let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];

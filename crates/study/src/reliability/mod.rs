@@ -30,7 +30,7 @@ use check::{CheckFile, WallCodes};
 use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
 
-use crate::ida::{Curve, IntensityMeasure};
+use crate::ida::{Curve, IntensityMeasure, Levels};
 use crate::loaded::LoadedStudy;
 use crate::results::Fitting;
 
@@ -70,6 +70,9 @@ impl Reliability {
                  \"code\" }"
                     .into(),
             );
+        }
+        if matches!(loaded.study.levels(), Levels::Cloud { .. }) {
+            return refused("a study of reliability needs levels, and a cloud runs each record once".into());
         }
         for wall in &walls {
             let code = codes.of(wall);

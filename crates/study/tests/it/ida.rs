@@ -170,10 +170,17 @@ fn intensities_scale_with_the_motion() {
     let record = records(1).remove(0).motion;
     for measure in [
         IntensityMeasure::Pga,
+        IntensityMeasure::Pgv,
+        IntensityMeasure::Pgd,
+        IntensityMeasure::Arias,
+        IntensityMeasure::Cav,
+        IntensityMeasure::Housner,
         IntensityMeasure::Sa { period: 0.7 },
         IntensityMeasure::AvgSa { periods: periods.clone() },
     ] {
-        let (one, two) = (measure.of(&record).unwrap(), measure.of(&record.scaled(2.0)).unwrap());
+        // the factor of twice the intensity is 2, of Arias intensity √2
+        let twice = record.scaled(measure.factor(2.0));
+        let (one, two) = (measure.of(&record).unwrap(), measure.of(&twice).unwrap());
         assert!((two / one - 2.0).abs() < 1e-12, "{measure:?}");
     }
     // the geometric mean of the spectrum

@@ -6,6 +6,7 @@
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;
 mod calibration;
+mod cloud;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod estimators;
@@ -13,6 +14,7 @@ mod fragility;
 mod ida;
 mod margins;
 mod messages;
+mod polarity;
 mod record_files;
 mod reliability;
 mod reliability_tables;

@@ -36,7 +36,7 @@ pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
-    compute(&loaded.study, &folder, &missing, 2, |_, _, _| CONTINUE).unwrap();
+    compute(&loaded.study, &folder, &missing, 2, |_, _| CONTINUE).unwrap();
     study::folder::finish(&folder, 2, || {}).unwrap();
     let report = finish(&folder, &Reliability::of(loaded).unwrap(), 2, || {}).unwrap();
     (path, report)
@@ -158,7 +158,7 @@ fn runs_are_those_of_the_analysis() {
     let parts = of_parts.contents().parts();
     for part in [0, 1] {
         let mine: Vec<_> = (part..parts).step_by(2).collect();
-        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _, _| CONTINUE).unwrap();
+        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _| CONTINUE).unwrap();
     }
     study::folder::finish(&of_parts, 1, || {}).unwrap();
     finish(&of_parts, &Reliability::of(&loaded).unwrap(), 1, || {}).unwrap();

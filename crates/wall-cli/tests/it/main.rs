@@ -19,6 +19,7 @@ mod overturning;
 mod paper;
 mod record;
 mod risk;
+mod signs;
 mod simulate;
 #[allow(dead_code, reason = "the tests of the readers use more of it")]
 #[path = "../../../ground-motion/tests/it/specimen.rs"]

@@ -20,6 +20,8 @@ use study::reliability::{self, Reliability};
 use crate::output::progress::{self, Progress};
 use crate::output::{self, Console};
 
+use super::processor;
+
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Study file (TOML): walls, records, damping models, intensity, levels
@@ -67,7 +69,7 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 18] = [
+const FILES: [&str; 19] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -78,6 +80,7 @@ const FILES: [&str; 18] = [
     "pelicun.json",
     "fragilities.svg",
     "ties.csv",
+    "cloud.csv",
     "rates.csv",
     "rate_shares.csv",
     "vulnerability.csv",
@@ -209,12 +212,14 @@ fn compute(
     }
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
+    processor::begin();
     progress::shown(|progress| {
-        study::folder::compute(study, folder, missing, threads, |case, curve, time| {
+        study::folder::compute(study, folder, missing, threads, |case, curve| {
+            let seconds = processor::since_last();
             let runs = curve.runs().len();
             if let Ok(mut shares) = shares.lock() {
                 let share = &mut shares[case.model];
-                share.seconds += time.as_secs_f64();
+                share.seconds += seconds;
                 share.runs += runs;
                 share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
             }

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod ida;
+mod processor;
 mod spectrum;
 mod tie;
 
