@@ -265,7 +265,7 @@ class Hazard(TypedDict, total=False):
     - points: Points: intensity and annual rate of exceedance [1/year]; intensities rise, rates fall.
     - site: Number of the site in a file of OpenQuake, from 1, at least 1.
     - target: Annual rate that each limit state should not exceed [1/year], above 0.
-    - unit: Unit of the intensities of points and of a CSV: m/s2, cm/s2, mm/s2 or g; default "g".
+    - unit: Unit of the intensities of points and of a CSV, as that of levels; by default that of the results.
     - years: Years of the probabilities, above 0; default 50.0.
     """
 
@@ -287,14 +287,14 @@ class Intensity(TypedDict, total=False):
       1.
     """
 
-    measure: Required[Literal["PGA", "Sa", "AvgSA", "code"]]
+    measure: Required[Literal["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"]]
     period: float
     periods: Sequence[float]
     select: int
 
 
 class Levels(TypedDict, total=False):
-    """Levels of intensity: hunt, step (to the first overturning) or grid.
+    """Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
 
     - first: First level and first step of a hunt.
     - gap: Largest gap between levels of a hunt, as a part of the collapse intensity; default 0.1.
@@ -302,17 +302,20 @@ class Levels(TypedDict, total=False):
     - method: How levels are chosen.
     - resolution: Largest bracket of the collapse in a hunt, as a part of the collapse intensity; default
       0.01.
+    - scale: Factor on the records of a cloud, above 0; default 1.
     - step: Distance between levels of step and grid.
     - top: Highest level.
-    - unit: Unit of the levels: m/s2, cm/s2, mm/s2 or g; default "g".
+    - unit: Unit of the levels: of an acceleration m/s2, cm/s2, mm/s2 or g; of PGV and Arias cm/s, m/s or
+      mm/s; of PGD and Housner cm, m or mm; of CAV g s, m/s or cm/s. By default that of the results.
     - values: Levels of a grid.
     """
 
     first: float
     gap: float
     increase: float
-    method: Required[Literal["hunt", "step", "grid"]]
+    method: Required[Literal["hunt", "step", "grid", "cloud"]]
     resolution: float
+    scale: float
     step: float
     top: float
     unit: str
