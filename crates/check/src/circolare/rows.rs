@@ -203,12 +203,7 @@ impl Checked<'_> {
                 Some(false) => "not passed",
                 None => "no check is possible",
             };
-            let value = number(varied.value, 4);
-            notes.push(format!(
-                "with {} = {value} zeta_E = {}, {passed}.",
-                varied.parameter,
-                three(varied.zeta)
-            ));
+            notes.push(format!("with {} zeta_E = {}, {passed}.", varied.assigned(), three(varied.zeta)));
         }
         notes
     }
@@ -236,7 +231,7 @@ fn deciding(statement: &Statement) -> String {
         Method::Dynamic => "The runs under records",
     };
     let class_iv = statement.table.use_class == Some(UseClass::IV);
-    format!("{method}{}", if class_iv { ", and SLD in use class IV," } else { "" })
+    format!("{method}{}", if class_iv { " and SLD in use class IV" } else { "" })
 }
 
 /// The dynamic check of a limit state, and its runs.

@@ -233,29 +233,26 @@ fn sensitivity(case: &Case<'_>, sign: f64, checks: &Checks, warnings: &mut Vec<S
     let one = |factor: f64| {
         let value = factor * value;
         let found = searched(&case.with(factor), sign, case.rule, hinge::COARSE);
-        let (governs, zeta) = match &found {
-            Ok((_, checks)) => checks.governing(statement),
-            Err(_) => {
-                return Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
-            }
+        let impossible = Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
+        let Ok((_, checks)) = found else { return impossible };
+        let (governs, zeta) = checks.governing(statement);
+        let varied = Sensitivity {
+            zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
+            passed: Some(zeta >= 1.0),
+            slv: checks.slv.map(|check| check.zeta),
+            slc: checks.slc.map(|check| check.zeta),
+            ..impossible
         };
         if (zeta >= 1.0) != (own >= 1.0) {
             warnings.push(format!(
-                "{}: {parameter} turns the verdict: with {parameter} = {value} {} has zeta_E = {zeta:.3}, {}",
+                "{}: {parameter} turns the verdict: with {} {} has zeta_E = {zeta:.3}, {}",
                 case.name(Side::of(sign)),
+                varied.assigned(),
                 governs.name(),
                 passed(zeta)
             ));
         }
-        let checks = found.ok().map(|(_, checks)| checks);
-        Sensitivity {
-            parameter,
-            value,
-            zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
-            passed: Some(zeta >= 1.0),
-            slv: checks.and_then(|checks| Some(checks.slv?.zeta)),
-            slc: checks.and_then(|checks| Some(checks.slc?.zeta)),
-        }
+        varied
     };
     VARIED.map(one).to_vec()
 }
