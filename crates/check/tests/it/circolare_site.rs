@@ -85,7 +85,7 @@ fn a_report_is_about_the_site_of_the_check() {
     for (given, words) in [
         (
             "nominal_life = 100",
-            "line 5: [report] nominal_life = 100 differs from 50 of [check.site]; leave it",
+            "line 6: [report] nominal_life = 100 differs from 50 of [check.site]; leave it",
         ),
         ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1 of [check.site]"),
         ("coordinates = [42.1, 13.03]", "coordinates = [42.1, 13.03] differs from [42.02, 13.03] of"),
