@@ -299,7 +299,7 @@ fn displacement(
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
-    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch]));
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch], curve.anchors));
     Ok(DisplacementCheck {
         hinge: curve.hinge,
         d,

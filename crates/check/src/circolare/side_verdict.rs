@@ -148,6 +148,12 @@ pub struct TieNumbers {
     pub breaks: Option<f64>,
     /// What the curve loses there, over its largest a \[-\].
     pub loss: Option<f64>,
+    /// `N_y` \[N\].
+    #[serde(skip)]
+    pub strength: Option<f64>,
+    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
+    #[serde(skip)]
+    pub anchors: Option<f64>,
 }
 
 /// `ζ_E` of a side without its tie.

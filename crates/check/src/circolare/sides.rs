@@ -86,6 +86,8 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         yields: tie.strength_displacement(),
         breaks: tie.fracture_displacement(),
         loss: curve.tie_break().map(|broken| broken.loss),
+        strength: tie.strength,
+        anchors: curve.anchors,
     });
     let untied = curve.tie().is_some().then(|| case.at(sign, hinge, false)).transpose()?;
     let untied = untied.map(|(_, checks)| Untied {

@@ -21,8 +21,8 @@ use crate::file::CheckFile;
 use crate::site::Records;
 
 pub(crate) use inputs::the_wall;
-use language::translated;
 pub use language::{Language, terms};
+use language::{translated, with_symbols};
 use markup::{formula, list, table};
 use project::as_written;
 pub(crate) use project::{EXCEEDED, return_period};
@@ -85,7 +85,7 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = sheet(page, verdict, origin)?.section("Document", &document(origin)?).text(SIGNED);
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(translated(page, origin.report.language))
+    Ok(with_symbols(&translated(page, origin.report.language)))
 }
 
 /// Adds the sections about a wall: verdict, those of the code, warnings.
@@ -114,7 +114,10 @@ impl Origin<'_> {
     /// The code and the date as markup.
     fn source(&self, verdict: &Verdict<'_>) -> String {
         let (source, date) = (escaped(verdict.code.source), self.date());
-        format!("<p class=\"subtitle\">{source}</p>\n<p class=\"subtitle\">{date}</p>")
+        format!(
+            "<p class=\"kind\">Calculation report</p>\n<p class=\"subtitle\">{source}</p>\n\
+             <p class=\"subtitle\">{date}</p>"
+        )
     }
 
     /// The date as markup, as the user gives it.

@@ -6,7 +6,7 @@ use ::report::escaped;
 use ::report::page::Page;
 use run::walls::NamedWall;
 
-use super::language::translated;
+use super::language::{translated, with_symbols};
 use super::project::as_written;
 use super::{Origin, SIGNED, document, head, sheet};
 use crate::error::CheckError;
@@ -65,5 +65,5 @@ pub fn page_of_walls(
     let page = page.section("Document", &document(origin)?);
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
-    Ok(translated(page, origin.report.language))
+    Ok(with_symbols(&translated(page, origin.report.language)))
 }

@@ -185,6 +185,12 @@ fn italian_reports_have_no_english() {
     let beam =
         STRIP.replace("\"law\"", "\"beam\"\nyoung_modulus = 1e9").replace("\"worst\"", "\"least_alpha0\"");
     let anchor = TIED.replace("60e3", "30e3");
+    let (before, after) = TIED.split_once("[tie.bar]").unwrap();
+    let check = after.split_once("[check]").unwrap().1.replace("yield", "none");
+    let brittle =
+        format!("{before}tie_stiffness = 5e6\ntie_strength = 10e3\ntie_slack = 0.001\n[check]{check}");
+    let given =
+        STRIP.replace("\"worst\"", "\"given\"").replace("[force_law]", "hinge_ratio = 0.6\n[force_law]");
     for (name, scene) in [
         ("strip", STRIP),
         ("beam", &beam),
@@ -193,6 +199,8 @@ fn italian_reports_have_no_english() {
         ("site", SITE),
         ("tied", TIED),
         ("anchor", &anchor),
+        ("brittle", &brittle),
+        ("given", &given),
         ("fractions", FRACTIONS),
     ] {
         fs::write(folder.join("scene.toml"), scene).unwrap();
