@@ -230,12 +230,12 @@ impl<'a> CheckFile<'a> {
         })
     }
 
-    /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U` that
-    /// it leaves out are those of `[check.site]`.
+    /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U`
+    /// that it leaves out are those of `[check.site]`.
     ///
     /// # Errors
-    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used, or differs from
-    /// that of the site.
+    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used, or differs
+    /// from that of the site.
     pub fn report(&self) -> Result<ReportTable, SceneError> {
         let is_study = self.document.contains_key("levels") || self.document.contains_key("models");
         // what is wrong with the site is told where the check is read

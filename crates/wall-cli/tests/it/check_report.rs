@@ -284,8 +284,8 @@ fn a_tie_has_its_own_section() {
         SLD = { ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }\n\
         SLV = { ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.1 }\n\
         SLC = { ag = 0.334, F0 = 2.4, TC = 0.364, building_damping = 0.15 }\n";
-    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, yield_stress = 235e6, \
-               ultimate_strain = 0.02, anchor_capacity = 60e3, spacing = 3 } }\n";
+    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, \
+               yield_stress = 235e6, ultimate_strain = 0.02, anchor_capacity = 60e3, spacing = 3 } }\n";
     let page = report(&folder, &format!("{facade}{check}{bar}"), &[]);
     check_whole(&page);
     let tie = section(&page, "The tie");
@@ -335,8 +335,8 @@ fn hinges_have_their_own_section() {
         format!(
             "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3.4\nthickness = 0.4\ndensity = 1900\n\
              overburden = 60e3\noverburden_eccentricity = 0.05\n{ratio}\n[force_law]\na1 = 0.03\n\
-             [check]\ncode = \"circolare-2019\"\nhinge = {hinge:?}\nbefore_activation = \"law\"\nsoil = \"B\"\n\
-             masonry_strength = 1.5e6\nconfidence_factor = 1.2\n\
+             [check]\ncode = \"circolare-2019\"\nhinge = {hinge:?}\nbefore_activation = \"law\"\n\
+             soil = \"B\"\nmasonry_strength = 1.5e6\nconfidence_factor = 1.2\n\
              building = {{ storeys = 3, period = 0.32, height_ratio = 0.83 }}\n\
              SLD = {{ ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }}\n\
              SLV = {{ ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.1 }}\n\

@@ -65,8 +65,8 @@ pub(in crate::circolare) fn figure(
 /// The share of the axis below which what a tie does cannot be read \[-\].
 const HIDDEN: f64 = 0.3;
 
-/// Where to cut the axis of d so that the tie can be read: at twice `u_r`, or `u_y` of a tie that lasts; `None`
-/// where the whole curve shows it \[m\].
+/// Where to cut the axis of d so that the tie can be read: at twice `u_r`, or `u_y` of a tie that lasts;
+/// `None` where the whole curve shows it \[m\].
 fn cut(side: &SideVerdict) -> Option<f64> {
     let tie = side.tie?;
     let d = 2.0 * side.d_per_u * tie.breaks.filter(|breaks| side.d_per_u * breaks < side.d0).or(tie.yields)?;
