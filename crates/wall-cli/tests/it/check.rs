@@ -269,7 +269,8 @@ fn the_smallest_wall_that_passes_is_found() {
         let names: Vec<_> = checks.iter().map(|check| check["check"].as_str().unwrap()).collect();
         assert_eq!(names, ["SLV with q", "SLV"]);
         assert_eq!(checks[1]["curve"].as_array().unwrap().len(), 241);
-        assert!(content(&folder, "find.svg").contains("ζ_E"));
+        let chart = content(&folder, "find.svg");
+        assert!(chart.contains("ζ_E") && chart.contains(&format!("{sought} (")), "{sought}");
     }
     let words = ["tie_strength is sought, but the wall has no tie"];
     refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);
