@@ -32,7 +32,7 @@ use crate::file::CheckFile;
 use crate::find::Sought;
 use crate::report::{Figure, Origin, the_wall};
 use crate::rule::Rule;
-use crate::site::Records;
+use crate::site::{Level, Records};
 use crate::{circolare, fractions};
 
 /// The codes. A new one is a module and a line here.
@@ -101,6 +101,14 @@ pub trait Code: fmt::Debug + Send + Sync {
     /// \[s\]: that of the limit state by which the wall must not fall. `None` where the table states no site.
     fn spectral_shape(&self, _periods: &[f64]) -> Option<Vec<f64>> {
         None
+    }
+
+    /// What its records become at a limit state, as its runs take them; `None` where the code has no runs.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a limit state without a site, without records, or of a wall that cannot be checked.
+    fn level(&self, _subject: Subject<'_>, _state: &str) -> Result<Option<Level>, CheckError> {
+        Ok(None)
     }
 
     /// Whether the demand is that of a building which only the table `[check]` states.
