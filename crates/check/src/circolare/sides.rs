@@ -47,8 +47,9 @@ fn searched(
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
-            let places = hinge::least(search, range, |x| {
-                let mut zetas = case.at(sign, Some(x), true)?.1.zetas();
+            let places = hinge::least(search, range, |x, which| {
+                let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
+                let mut zetas = case.of_these(sign, (Some(x), true), wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }

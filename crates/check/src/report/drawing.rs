@@ -112,7 +112,10 @@ impl Drawing<'_> {
     }
 
     fn text(&mut self, [x, y]: [f64; 2], anchor: &str, text: &str) {
-        let _ = writeln!(self.svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>");
+        // a white edge keeps it apart from lines behind it
+        let edge = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
+        let place = format!("x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\"");
+        let _ = writeln!(self.svg, "<text {place} {edge}>{text}</text>");
     }
 
     /// An arrow that points down to a place.

@@ -23,6 +23,8 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
         text += &forces(case, side);
         text += &required(case, side);
     }
+    text +=
+        "<p>The plate, the masonry around it and the connections are verified apart for these forces.</p>\n";
     is_held.then_some(text)
 }
 
