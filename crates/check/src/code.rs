@@ -30,7 +30,7 @@ use serde_json::{Value, json};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::find::Sought;
-use crate::report::{Figure, Origin, the_wall};
+use crate::report::{Figure, Origin, overview, the_wall};
 use crate::rule::Rule;
 use crate::site::{Level, Records};
 use crate::{circolare, fractions};
@@ -233,6 +233,11 @@ pub trait Details {
 
     /// Intermediate numbers: a row for each, a column for each side.
     fn numbers(&self) -> Table;
+
+    /// The wall in a table of walls: headings, with units, and cells, as markup.
+    fn overview(&self) -> Vec<(String, String)> {
+        overview(self.wall(), self.parameters())
+    }
 
     /// The sections of a report between verdict and warnings: by default the wall, the figure and the
     /// numbers.

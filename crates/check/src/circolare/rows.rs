@@ -387,6 +387,10 @@ impl Details for Checked<'_> {
         super::report::capacity::figure(self, name, side)
     }
 
+    fn overview(&self) -> Vec<(String, String)> {
+        super::report::overview::of(self)
+    }
+
     fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
         super::report::sections(self, origin)
     }

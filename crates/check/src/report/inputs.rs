@@ -6,7 +6,7 @@ use rocking_wall::scene::{GROUPS, parameter_text};
 use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable};
 use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
-use super::markup::{formula, shown, stated, table};
+use super::markup::{formula, kilonewtons, shown, stated, table};
 use super::{Origin, drawing};
 
 /// Lengths that are read in mm.
@@ -108,6 +108,16 @@ fn unit_for_people(unit: &str) -> (&str, f64) {
 
 fn value_in(value: f64, (unit, factor): (&str, f64)) -> String {
     format!("<span class=\"value\">{} {unit}</span>", stated(factor * value))
+}
+
+/// Mechanism, h, b and O in a table of walls.
+pub(crate) fn overview(wall: &Wall, parameters: &Parameters) -> Vec<(String, String)> {
+    vec![
+        ("mechanism".into(), mechanism(parameters.mechanism).into()),
+        (formula("h") + " [m]", stated(parameters.height)),
+        (formula("b") + " [m]", stated(parameters.thickness)),
+        (formula("O") + " [kN]", kilonewtons(wall.body().overburden)),
+    ]
 }
 
 fn parameter(

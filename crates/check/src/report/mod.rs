@@ -20,7 +20,7 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
 
-pub(crate) use inputs::the_wall;
+pub(crate) use inputs::{overview, the_wall};
 pub use language::{Language, terms};
 use language::{translated, with_symbols};
 use markup::{formula, list, table};
@@ -82,7 +82,9 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
-    let page = sheet(page, verdict, origin)?.section("Document", &document(origin)?).text(SIGNED);
+    // a signature does not stand alone on its page
+    let page = sheet(page, verdict, origin)?.text("<div class=\"together\">");
+    let page = page.section("Document", &document(origin)?).text(SIGNED).text("</div>");
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
     Ok(with_symbols(&translated(page, origin.report.language)))

@@ -7,8 +7,10 @@ use ::report::page::Page;
 use run::walls::NamedWall;
 
 use super::language::{translated, with_symbols};
+use super::markup::table;
 use super::project::as_written;
 use super::{Origin, SIGNED, document, head, sheet};
+use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
 
@@ -43,9 +45,10 @@ pub fn page_of_walls(
     });
     let _ = write!(
         cover,
-        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>",
+        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>{}",
         as_written(governing),
-        head(worst)
+        head(worst),
+        data(checked())
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
     let mut page = Page::new(title).styled(include_str!("page.css")).text(&origin.source(worst));
@@ -66,4 +69,19 @@ pub fn page_of_walls(
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
     Ok(with_symbols(&translated(page, origin.report.language)))
+}
+
+/// The data of the walls and the numbers of their governing sides: a row a wall.
+fn data<'a>(walls: impl Iterator<Item = (&'a str, &'a Verdict<'a>)>) -> String {
+    let mut heads = vec!["wall".to_owned()];
+    let mut rows = Vec::new();
+    for (name, verdict) in walls {
+        let (own, cells): (Vec<_>, Vec<_>) = verdict.details.overview().into_iter().unzip();
+        if rows.is_empty() {
+            heads.extend(own);
+        }
+        rows.push([as_written(name), cells.join("</td><td>")]);
+    }
+    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+    format!("<div class=\"data\">{}</div>", table(&heads, &rows))
 }

@@ -240,6 +240,8 @@ fn a_report_of_walls_has_a_cover_and_sheets() {
             "<p>Governing wall: <span translate=\"no\">tie &amp; co</span></p>",
             "<td><span translate=\"no\">low</span></td>",
             "Stamp and signature",
+            // the data of each wall, beside its numbers
+            "<td>simple overturning</td><td>2.5</td><td>0.3</td><td>0</td>",
         ],
     );
     // the worst first, each with its own numbers and where they come from
@@ -259,7 +261,13 @@ fn a_report_of_walls_has_a_cover_and_sheets() {
     let italian = content(&folder, "muri.html");
     assert_has(
         &italian,
-        &["tie &amp; co", "Parete determinante:", "<html lang=\"it\"", "Riepilogo delle pareti"],
+        &[
+            "tie &amp; co",
+            "Parete determinante:",
+            "Pareti che soddisfano la verifica: ",
+            "<html lang=\"it\"",
+            "Riepilogo delle pareti",
+        ],
     );
 
     // a wall that cannot be checked stands on the cover; the report is written all the same

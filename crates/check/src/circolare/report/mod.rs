@@ -4,12 +4,13 @@ pub(super) mod capacity;
 mod hinges;
 mod inputs;
 mod limit_states;
+pub(super) mod overview;
 mod readings;
 mod runs;
 mod site;
 mod ties;
 
-use super::table::Activation;
+use super::table::{Activation, Hinge};
 use super::verdict::Checked;
 use crate::error::CheckError;
 use crate::report::{Origin, the_wall};
@@ -26,6 +27,9 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(S
         // a wall that is rigid or a beam before it rocks has no elastic branch of its law
         let is_left_out = case.parameters.a3 == 1.0 && matches!(name, "force_law" | "a3" | "softening");
         let replaced = (name == "a1" || is_left_out) && !is_dynamic && !is_law;
+        // a hinge that is searched has a section of its own
+        let replaced =
+            replaced || name == "hinge_ratio" && case.rule.is_some_and(|rule| rule != Hinge::Given);
         (STATIC.contains(&group) || is_dynamic && DYNAMIC.contains(&group)) && !replaced
     };
     let one = |heading: &str, markup: String| (heading.to_owned(), markup);
