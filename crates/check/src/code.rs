@@ -30,9 +30,9 @@ use serde_json::{Value, json};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::find::Sought;
-use crate::report::{Figure, Origin, the_wall};
+use crate::report::{Figure, Origin, overview, the_wall};
 use crate::rule::Rule;
-use crate::site::Records;
+use crate::site::{Level, Records};
 use crate::{circolare, fractions};
 
 /// The codes. A new one is a module and a line here.
@@ -101,6 +101,14 @@ pub trait Code: fmt::Debug + Send + Sync {
     /// \[s\]: that of the limit state by which the wall must not fall. `None` where the table states no site.
     fn spectral_shape(&self, _periods: &[f64]) -> Option<Vec<f64>> {
         None
+    }
+
+    /// What its records become at a limit state, as its runs take them; `None` where the code has no runs.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a limit state without a site, without records, or of a wall that cannot be checked.
+    fn level(&self, _subject: Subject<'_>, _state: &str) -> Result<Option<Level>, CheckError> {
+        Ok(None)
     }
 
     /// Whether the demand is that of a building which only the table `[check]` states.
@@ -225,6 +233,11 @@ pub trait Details {
 
     /// Intermediate numbers: a row for each, a column for each side.
     fn numbers(&self) -> Table;
+
+    /// The wall in a table of walls: headings, with units, and cells, as markup.
+    fn overview(&self) -> Vec<(String, String)> {
+        overview(self.wall(), self.parameters())
+    }
 
     /// The sections of a report between verdict and warnings: by default the wall, the figure and the
     /// numbers.

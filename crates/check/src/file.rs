@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use crate::error::CheckError;
 use crate::report::ReportTable;
+use crate::report::project::SiteOfProject;
 use crate::site::Records;
 
 /// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
@@ -237,23 +238,31 @@ impl<'a> CheckFile<'a> {
         })
     }
 
-    /// Reads the table `[report]`; that of a study says what the study shows.
+    /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U`
+    /// that it leaves out are those of `[check.site]`.
     ///
     /// # Errors
-    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used.
+    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used, or differs
+    /// from that of the site.
     pub fn report(&self) -> Result<ReportTable, SceneError> {
         let is_study = self.document.contains_key("levels") || self.document.contains_key("models");
+        // what is wrong with the site is told where the check is read
+        let site = self.check().and_then(|check| check.get_ref().get("site")).cloned();
+        let site = site.and_then(|site| SiteOfProject::deserialize(ValueDeserializer::from(site)).ok());
+        let site = site.unwrap_or_default();
         let Some(given) = self.document.get("report").filter(|_| !is_study) else {
-            return Ok(ReportTable::default());
+            return Ok(ReportTable::of_site(&site));
         };
-        let table = ReportTable::deserialize(ValueDeserializer::from(given.clone())).map_err(|error| {
-            let (_, message) = refusal(&self.place, &self.document, &error);
-            self.place.error(error.span().unwrap_or(given.span()), message)
-        })?;
-        if let Some((key, message)) = table.fault() {
+        let mut table =
+            ReportTable::deserialize(ValueDeserializer::from(given.clone())).map_err(|error| {
+                let (_, message) = refusal(&self.place, &self.document, &error);
+                self.place.error(error.span().unwrap_or(given.span()), message)
+            })?;
+        let faulty = table.fault().map_or(Ok(()), Err).and_then(|()| table.complete(&site));
+        faulty.map_err(|(key, message)| {
             let span = given.get_ref().get(key).map_or(given.span(), Spanned::span);
-            return Err(self.place.error(span, format!("[report] {message}")));
-        }
+            self.place.error(span, format!("[report] {message}"))
+        })?;
         Ok(table)
     }
 

@@ -17,5 +17,5 @@ pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
 pub use report::{Figure, Language, Origin, ReportTable, page, page_of_walls, report_schema, terms};
 pub use rule::Rule;
-pub use site::Records;
+pub use site::{Level, Records};
 pub use walls::{WallCodes, WallVerdicts, check_walls};

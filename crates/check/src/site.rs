@@ -21,6 +21,15 @@ pub struct Records {
     pub warnings: Vec<String>,
 }
 
+/// The level of shaking of a limit state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Factors on the records of the code, in their order \[-\].
+    pub factors: Vec<f64>,
+    /// The storeys below the wall, as the limit state has them.
+    pub floors: Option<Floors>,
+}
+
 impl Records {
     /// Returns the motion that acts on a wall under each record: the record itself, or the motion of its
     /// floors, those of a strip wall by their weights.

@@ -97,7 +97,7 @@ impl WallVerdicts<'_> {
         };
         let mut table = Table::new(
             [
-                Column::text("name", "wall"),
+                Column::text("name", "wall").of_user(),
                 Column::number("passed", "passed", four),
                 Column::number(symbol, symbol, four),
                 Column::text("governs", "governs"),

@@ -25,7 +25,7 @@ pub(crate) struct Study {
 }
 
 /// A study as values that pickle can send: its text, its walls, and its records with steps and samples.
-type Values<Samples> = (String, Vec<(String, String)>, Vec<(String, f64, Samples)>);
+type Values<Samples> = (String, Vec<(String, String, Vec<String>)>, Vec<(String, f64, Samples)>);
 
 #[pymethods]
 impl Study {

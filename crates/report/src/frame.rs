@@ -12,6 +12,8 @@ pub(crate) const CHARACTER: f64 = 7.1;
 const BETWEEN_NUMBERS: [f64; 2] = [70.0, 30.0];
 /// Exponents of ten between the numbers of a vertical axis that counts them.
 const EXPONENTS: f64 = 3.0;
+/// Ratio of the ends of a logarithmic axis up to which it has numbers between the powers of ten.
+const FEW: f64 = 1.1e3;
 /// Distance of the legend from the sides of the plot area, height of its rows, length of its samples \[px\].
 const LEGEND: f64 = 8.0;
 const ROW: f64 = 18.0;
@@ -44,7 +46,7 @@ impl Frame<'_> {
         let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
         let across = match self.scale {
             Scale::Linear => part(x, across),
-            Scale::Logarithmic => part(x.log10(), across.map(f64::log10)),
+            Scale::LogarithmicAcross | Scale::Logarithmic => part(x.log10(), across.map(f64::log10)),
         };
         [left + (right - left) * across, bottom - (bottom - top) * part(y, up)]
     }
@@ -61,13 +63,10 @@ impl Frame<'_> {
         let count = [(right - left) / BETWEEN_NUMBERS[0], (bottom - top) / BETWEEN_NUMBERS[1]];
         match self.scale {
             Scale::Linear => [ticks(across, count[0]), ticks(up, count[1])],
+            Scale::LogarithmicAcross => [logarithmic(across), ticks(up, count[1])],
             Scale::Logarithmic => {
-                let decades = multiples(1.0, across.map(f64::log10)).map(|power| 10.0_f64.powf(power));
                 let powers = multiples(EXPONENTS, up);
-                [
-                    decades.map(|value| (value, number(value, 9))).collect(),
-                    powers.map(|power| (power, power_of_ten(power))).collect(),
-                ]
+                [decades(across, &[1.0]), powers.map(|power| (power, power_of_ten(power))).collect()]
             }
         }
     }
@@ -115,6 +114,21 @@ fn multiples(step: f64, [low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
     multiples.take_while(move |value| *value <= high + 1e-9)
 }
 
+/// Powers of ten within a range, times each of some factors, with their texts.
+fn decades(range: [f64; 2], factors: &[f64]) -> Vec<(f64, String)> {
+    let [low, high] = range.map(f64::log10);
+    let of = |power: f64| factors.iter().map(move |factor| factor * 10.0_f64.powf(power));
+    let values = multiples(1.0, [low.floor(), high]).flat_map(of);
+    let inside = values.filter(|value| (low - 1e-9..=high + 1e-9).contains(&value.log10()));
+    inside.map(|value| (value, number(value, 9))).collect()
+}
+
+/// Numbers of a logarithmic axis: 1, 2 and 5 times powers of ten over a few decades, over many the powers.
+fn logarithmic(range: [f64; 2]) -> Vec<(f64, String)> {
+    let factors: &[f64] = if range[1] > FEW * range[0] { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    decades(range, factors)
+}
+
 fn power_of_ten(exponent: f64) -> String {
     if exponent == 0.0 { "1".to_owned() } else { format!("1e{exponent:.0}") }
 }
@@ -144,4 +158,17 @@ pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f
         let _ = write!(svg, "<text x=\"{x:.2}\" y=\"{:.2}\">{name}</text>", y + 4.4);
     }
     svg.push_str("</g>");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::logarithmic;
+
+    #[test]
+    fn logarithmic_axes_have_round_numbers() {
+        let texts = |range| logarithmic(range).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+        assert_eq!(texts([0.06, 12.0]), ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
+        // the ends belong to the axis
+        assert_eq!(texts([1.0, 1e4]), ["1", "10", "100", "1000", "10000"]);
+    }
 }

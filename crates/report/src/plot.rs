@@ -151,6 +151,8 @@ impl Series {
 pub enum Scale {
     /// Both count the values.
     Linear,
+    /// x counts the values, spaced by their logarithms; y counts the values.
+    LogarithmicAcross,
     /// x counts the values, spaced by their logarithms. y counts exponents of ten.
     Logarithmic,
 }

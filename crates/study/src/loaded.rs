@@ -8,7 +8,7 @@ use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
 use run::records::{NamedRecord, all_records, record_files};
 use run::wall_text::{wall_of_text, wall_text};
-use run::walls::{Ignored, NamedWall, WallSource, check_unique, walls};
+use run::walls::{Ignored, NamedWall, WallSource, assumed, check_unique, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
@@ -46,8 +46,8 @@ pub struct LoadedStudy {
 pub struct Sent {
     /// Text of the study file.
     pub text: String,
-    /// Walls: names, and parameters as the tables of a study file.
-    pub walls: Vec<(String, String)>,
+    /// Walls: names, parameters as the tables of a study file, and those that decide and nobody stated.
+    pub walls: Vec<(String, String, Vec<String>)>,
     /// Records: names, steps \[s\] and samples \[m/s²\].
     pub records: Vec<(String, f64, Vec<f64>)>,
 }
@@ -114,7 +114,10 @@ impl LoadedStudy {
 
     /// Returns the study as plain values.
     pub fn sent(&self) -> Sent {
-        let wall = |wall: &NamedWall| (wall.name.clone(), wall_text(wall));
+        let wall = |wall: &NamedWall| {
+            let assumed = wall.assumed.iter().map(|&name| name.to_owned()).collect();
+            (wall.name.clone(), wall_text(wall), assumed)
+        };
         let record = |record: &NamedRecord| {
             (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
         };
@@ -134,7 +137,10 @@ impl LoadedStudy {
     pub fn received(sent: Sent) -> Result<Self, SceneError> {
         let name = "a study that was sent";
         let mut file = StudyFile::parse(name, &sent.text)?;
-        let wall = |(name, text): (String, String)| wall_of_text(name, &text);
+        let wall = |(name, text, unstated): (String, String, Vec<String>)| {
+            let assumed = assumed(|_, name| unstated.iter().all(|other| other != name));
+            Ok::<_, SceneError>(NamedWall { assumed, ..wall_of_text(name, &text)? })
+        };
         let walls = sent.walls.into_iter().map(wall).collect::<Result<_, _>>()?;
         let walls = Walls::of(name, &mut file, walls, &mut Vec::new())?;
         let record = |(name, step, samples)| {

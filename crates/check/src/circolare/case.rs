@@ -136,6 +136,17 @@ impl<'a> Case<'a> {
         hinge: Option<f64>,
         tied: bool,
     ) -> Result<(Curve, Checks), CheckError> {
+        self.of_these(sign, (hinge, tied), [true; 4])
+    }
+
+    /// The same with those of the checks that are wanted, in the order of
+    /// [`Deciding::ALL`](super::verdict::Deciding::ALL).
+    pub(super) fn of_these(
+        &self,
+        sign: f64,
+        (hinge, tied): (Option<f64>, bool),
+        wanted: [bool; 4],
+    ) -> Result<(Curve, Checks), CheckError> {
         let named = |error: CheckError| match hinge {
             Some(hinge) if self.rule != Some(Hinge::Given) => error.at_hinge(hinge),
             _ => error,
@@ -149,7 +160,7 @@ impl<'a> Case<'a> {
                 own = self.demands_at(curve.body())?;
                 &own
             };
-            let checks = Checks::new(&curve, self.statement, demands)?;
+            let checks = Checks::new(&curve, self.statement, demands, wanted)?;
             Ok((curve, checks))
         };
         found().map_err(named)
@@ -174,7 +185,7 @@ impl<'a> Case<'a> {
             alpha0(to)?;
             return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
         }
-        Ok(hinge::least(hinge::FINE, range, |x| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
+        Ok(hinge::least(hinge::FINE, range, |x, _| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
     }
 }
 

@@ -138,25 +138,37 @@ pub(super) struct Checks {
 }
 
 impl Checks {
-    pub(super) fn new(curve: &Curve, statement: &Statement, demands: &Demands) -> Result<Self, CheckError> {
+    /// Makes those of the checks that are wanted, in the order of [`Deciding::ALL`]; SLD raises the last two.
+    pub(super) fn new(
+        curve: &Curve,
+        statement: &Statement,
+        demands: &Demands,
+        [wants_sld, wants_slv_q, wants_slv, wants_slc]: [bool; 4],
+    ) -> Result<Self, CheckError> {
         let of = |state: LimitState| statement.state(state).zip(demands[state as usize].as_ref());
         let sld = of(LimitState::Sld)
+            .filter(|_| wants_sld || wants_slv || wants_slc)
             .map(|(given, demand)| activation(curve, statement, (given, demand), given.damping, 1.0))
             .transpose()?;
         let q = statement.behaviour_factor;
         // a spectrum of another damping than that of the activation leaves this check out
         let slv_q = of(LimitState::Slv)
+            .filter(|_| wants_slv_q)
             .filter(|(given, demand)| {
                 statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
             })
             .map(|(given, demand)| activation(curve, statement, (given, demand), given.activation_damping, q))
             .transpose()?;
         let floor = sld.map(|sld| sld.ag);
-        let by_displacement = |state: LimitState| {
+        let by_displacement = |state: LimitState, is_wanted: bool| {
             let rules = statement.rules(state);
-            of(state).map(|stated| displacement(curve, stated, rules, floor)).transpose()
+            of(state)
+                .filter(|_| is_wanted)
+                .map(|stated| displacement(curve, stated, rules, floor))
+                .transpose()
         };
-        let (slv, slc) = (by_displacement(LimitState::Slv)?, by_displacement(LimitState::Slc)?);
+        let slv = by_displacement(LimitState::Slv, wants_slv)?;
+        let slc = by_displacement(LimitState::Slc, wants_slc)?;
         if let (Some(slv), Some(slc)) = (slv, slc)
             && slc.d < slv.d
         {
@@ -299,7 +311,7 @@ fn displacement(
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
-    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch]));
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch], curve.anchors));
     Ok(DisplacementCheck {
         hinge: curve.hinge,
         d,

@@ -63,6 +63,8 @@ pub(super) struct Curve {
     pub(super) stretch: f64,
     /// M* \[kg\].
     pub(super) mass: f64,
+    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
+    pub(super) anchors: Option<f64>,
     /// α0 \[-\].
     pub(super) alpha0: f64,
     /// `u_0`, where the force of the wall alone vanishes \[m\].
@@ -130,6 +132,7 @@ impl Curve {
             acting,
             stretch,
             mass,
+            anchors: tie::anchors(&parameters),
             alpha0: acting / pushed_weight,
             zero,
             elastic: Elastic { period: 0.0, displacement: 0.0, acceleration: 0.0 },

@@ -10,15 +10,14 @@ use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Sides, Tie, Wall};
 
+use super::LimitState;
 use super::case::Case;
-use super::compatibility::{Compatibility, Ratios};
 use super::curve::Curve;
 use super::demand::{MEAN_COUNTS_FROM, combined};
+use super::level::scaled;
 use super::side_verdict::{DisplacementCheck, SideVerdict};
-use super::states::{Source, StateStatement};
-use super::table::{Method, Polarities, RecordScale};
+use super::table::{Method, Polarities};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts};
-use super::{G, LimitState};
 use crate::error::CheckError;
 use crate::site::Records;
 use run::bisection::first_true;
@@ -33,9 +32,6 @@ const POWERS: std::ops::RangeInclusive<i32> = -463..=463;
 const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
 const HALVINGS: u32 = 10;
-
-/// Shortest period at which records are held against the spectrum \[s\].
-const SHORTEST: f64 = 0.15;
 
 /// Thresholds of both sides; infinite on one to which the wall cannot rock \[m\].
 #[derive(Clone, Copy, Debug)]
@@ -244,41 +240,6 @@ pub(super) fn check(
     let slv = state(LimitState::Slv, |side| side.slv.map(|check| (check.d, check.period)))?;
     let slc = state(LimitState::Slc, |side| side.slc.map(|check| (check.d, check.period)))?;
     Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { hinge, tie_is_end, slv, slc }))
-}
-
-/// The factors of the records, and their mean spectrum beside that of the ground; `longest` is `T_SLV` or
-/// `T_SLC` \[s\].
-fn scaled(
-    case: &Case<'_>,
-    given: &StateStatement,
-    longest: f64,
-) -> Result<(Vec<f64>, Option<Compatibility>), CheckError> {
-    let statement = case.statement;
-    let (records, scale) = (&statement.records, statement.table.record_scale);
-    let Source::Code(ground) = &given.source else {
-        if scale == RecordScale::None {
-            return Ok((vec![1.0; records.named.len()], None));
-        }
-        let name = if scale == RecordScale::Ag { "ag" } else { "spectrum" };
-        let message =
-            format!("record_scale = {name:?} needs S of F0 and TC; give them, or record_scale = \"none\"");
-        return Err(CheckError::value(&["record_scale"], message));
-    };
-    let first = case.floors.map(|floors| given.building_period.unwrap_or(floors.storeys().periods()[0]));
-    let range = statement.table.record_range;
-    let range = range
-        .unwrap_or([SHORTEST, [2.0, 2.0 * first.unwrap_or(0.0), longest].into_iter().fold(0.0, f64::max)]);
-    let ratios = Ratios::new(records, ground, range)?;
-    let factors: Vec<f64> = match scale {
-        RecordScale::None => vec![1.0; records.named.len()],
-        RecordScale::Ag => {
-            let peak = given.ag * G * ground.s;
-            records.named.iter().map(|record| peak / record.motion.peak()).collect()
-        }
-        RecordScale::Spectrum => ratios.factors(),
-    };
-    let compatibility = ratios.judged(&factors);
-    Ok((factors, Some(compatibility)))
 }
 
 /// Runs of one wall under what it feels of each record.

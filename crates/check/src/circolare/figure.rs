@@ -74,6 +74,7 @@ pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<P
 
 /// Draws the curve a(d) of a side over the demands of SLV and SLC, in acceleration and displacement: the
 /// secants to `d_SLV` and `d_SLC` (dashed), the rays of `T_SLV` and `T_SLC` (dotted) and the demands on them.
+/// `cut` ends the axis of d before the curve ends \[m\].
 ///
 /// # Errors
 /// [`CheckError`] of a record, or of points with another damping.
@@ -81,6 +82,7 @@ pub(super) fn over_demand(
     side: &SideVerdict,
     statement: &Statement,
     demands: &[Option<Demand>; 3],
+    cut: Option<f64>,
 ) -> Result<Plot, CheckError> {
     let shown = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)].into_iter();
     let shown = shown.filter_map(|(state, check)| {
@@ -92,9 +94,11 @@ pub(super) fn over_demand(
         (check.demand, check.demand * (std::f64::consts::TAU / check.period).powi(2))
     };
     let ends = shown.iter().map(|(.., check)| place(check)).chain(side.corners.iter().copied());
+    let last = cut.unwrap_or(f64::INFINITY);
+    let ends = ends.filter(|end| end.0 <= last);
     let (right, top) = ends.fold((0.0_f64, 0.0_f64), |(d, a), end| (d.max(end.0), a.max(end.1)));
     // the plateau of a spectrum is far above what the wall takes
-    let (right, top) = (1.1 * right, 1.35 * top);
+    let (right, top) = (cut.unwrap_or(1.1 * right), 1.35 * top);
     let [width, height] = SIZE;
     let scale = [width / right, height / top];
     let (mut series, mut marks) = (Vec::new(), Vec::new());

@@ -64,19 +64,13 @@ impl Grid {
             found.ok_or_else(|| (head, format!("the grid has no column {:?}; it needs {forms}", names_of[0])))
         };
         let place = [column(&["lon", "longitude"])?, column(&["lat", "latitude"])?];
-        let mut periods: Vec<f64> =
-            names.iter().filter_map(|name| name.strip_prefix("ag_")?.parse().ok()).collect();
-        periods.retain(|period| *period > 0.0 && period.is_finite());
-        periods.sort_by(f64::total_cmp);
-        if periods.len() < 2 {
-            let message = "the grid needs columns ag_T, F0_T and TC_T for two return periods T or more";
-            return Err((head, message.into()));
-        }
-        let of_period = |period: &f64| {
+        let written = periods(&names).map_err(|message| (head, message))?;
+        let of_period = |(_, period): &(f64, &str)| {
             let [ag, f0, tc] = ["ag", "f0", "tc"].map(|name| format!("{name}_{period}"));
             Ok::<_, GridFault>([column(&[&ag])?, column(&[&f0])?, column(&[&tc])?])
         };
-        let places = periods.iter().map(of_period).collect::<Result<Vec<_>, _>>()?;
+        let places = written.iter().map(of_period).collect::<Result<Vec<_>, _>>()?;
+        let periods = written.into_iter().map(|(period, _)| period).collect();
         let (mut nodes, mut numbers) = (Vec::<Node>::new(), Numbers::new(&columns));
         let mut seen = std::collections::BTreeSet::new();
         for row in columns.rows() {
@@ -180,10 +174,35 @@ impl SiteHazard {
         Hazard { ag: mean(|one| one.ag), f0: mean(|one| one.f0), tc: mean(|one| one.tc) }
     }
 
+    /// Whether the site is a node.
+    pub(super) fn is_node(&self) -> bool {
+        self.nodes.len() == 1
+    }
+
     /// Returns the first and the last return period of the grid \[years\].
     pub(super) fn periods(&self) -> [f64; 2] {
         [self.periods[0], self.periods[self.periods.len() - 1]]
     }
+}
+
+/// Finds the return periods of the columns `ag_T`, rising, and as they are written \[years\].
+///
+/// # Errors
+/// The reason: fewer than two periods, or a period that is given twice, such as by `ag_30` and `ag_030`.
+fn periods(names: &[String]) -> Result<Vec<(f64, &str)>, String> {
+    let written = names.iter().filter_map(|name| name.strip_prefix("ag_"));
+    let mut periods: Vec<(f64, &str)> =
+        written.filter_map(|written| Some((written.parse().ok()?, written))).collect();
+    periods.retain(|(period, _)| *period > 0.0 && period.is_finite());
+    periods.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some(same) = periods.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        let (a, b) = (same[0].1, same[1].1);
+        return Err(format!("columns ag_{a} and ag_{b} have the same return period; delete one"));
+    }
+    if periods.len() < 2 {
+        return Err("the grid needs columns ag_T, F0_T and TC_T for two return periods T or more".into());
+    }
+    Ok(periods)
 }
 
 /// Says what of the hazard of a node cannot be.
@@ -306,6 +325,7 @@ mod tests {
             (text.replace("lat", "phi"), 1, "no column \"lat\""),
             (text.replace("F0_475", "F0"), 1, "no column \"f0_475\""),
             (text.replace("_475", ""), 1, "two return periods T or more"),
+            (text.replace("_475", "_030"), 1, "columns ag_30 and ag_030 have the same return period"),
             (text.replace("1.9,2.5", "0.9,0"), 2, "must be above 0"),
             (text.replace("1.9", "x"), 2, "a finite number"),
             (text.replace("1.9", "1").clone() + "13,42,0.5,2.4,0.3,1,2.5,0.3\n", 3, "a second node"),
@@ -313,6 +333,9 @@ mod tests {
             let (found, told) = Grid::read(&text, 1.0).unwrap_err();
             assert!(found == line && told.contains(words), "{found} {told}");
         }
-        assert!(Grid::read(text, 0.1).is_ok());
+        let grid = Grid::read(text, 0.1).unwrap();
+        // periods are found as they are written
+        let others = text.replace("_30", "_030").replace("_475", "_475.0");
+        assert_eq!(Grid::read(&others, 0.1), Ok(grid));
     }
 }

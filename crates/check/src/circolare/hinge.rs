@@ -31,17 +31,18 @@ const EQUAL: f64 = 1e-9;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Returns the x of a range at which each of some functions is least; infinite ones are left out. Of a jump
-/// the lower side counts.
+/// the lower side counts. `values` takes an x and which function is asked for, `None` for all; what it gives
+/// for the others has no part.
 ///
 /// # Errors
 /// That of the functions.
 pub(super) fn least<const N: usize, E>(
     Search { points: count, width }: Search,
     [from, to]: [f64; 2],
-    mut values: impl FnMut(f64) -> Result<[f64; N], E>,
+    mut values: impl FnMut(f64, Option<usize>) -> Result<[f64; N], E>,
 ) -> Result<[Option<f64>; N], E> {
     let x = |index: u32| from + (to - from) * (f64::from(index) / f64::from(count - 1));
-    let points = (0..count).map(|index| Ok((x(index), values(x(index))?)));
+    let points = (0..count).map(|index| Ok((x(index), values(x(index), None)?)));
     let points = points.collect::<Result<Vec<_>, E>>()?;
     let mut found = [None; N];
     for (which, found) in found.iter_mut().enumerate() {
@@ -61,7 +62,7 @@ pub(super) fn least<const N: usize, E>(
             }
             let ends = [points[index.saturating_sub(1)].0, points[last.min(index + 1)].0];
             let start = (points[index].0, at(index));
-            let (x, value) = valley(width, ends, start, |x| Ok(values(x)?[which]))?;
+            let (x, value) = valley(width, ends, start, |x| Ok(values(x, Some(which))?[which]))?;
             if best.is_none_or(|(_, least)| value < least * (1.0 - EQUAL)) {
                 best = Some((x, value));
             }
@@ -109,7 +110,7 @@ mod tests {
     /// A smooth valley, a corner, the lower side of a jump, an end, and nothing.
     #[test]
     fn valleys_corners_jumps_and_ends() {
-        let functions = |x: f64| {
+        let functions = |x: f64, _: Option<usize>| {
             Ok::<_, ()>([
                 1.0 + (x - 0.3456).powi(2),
                 1.0 + (x - 0.5432).abs(),
@@ -132,7 +133,7 @@ mod tests {
         assert!(found[4].is_none() && found[2].unwrap() < 0.6172);
         // of equal valleys the first
         let twice =
-            least(FINE, [0.1, 0.9], |x: f64| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap()[0].unwrap();
+            least(FINE, [0.1, 0.9], |x: f64, _| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap()[0].unwrap();
         assert!((twice - std::f64::consts::PI / 25.0).abs() < 1e-7, "{twice}");
     }
 }

@@ -16,7 +16,8 @@
 //! | `demand` | what a limit state demands |
 //! | `checks` | the static checks and what governs |
 //! | `verdict`, `side_verdict` | the outcome |
-//! | `dynamic`, `compatibility` | runs under records, and their spectra |
+//! | `level`, `compatibility` | records at the level of a limit state, and their spectra |
+//! | `dynamic` | runs under records |
 //! | `blocks` | why no tie of a search passes |
 //! | `warnings` | what the engineer should know |
 //! | `rows` | the outcome as the verdict that every code has |
@@ -34,6 +35,7 @@ mod floor;
 mod grid;
 mod ground;
 mod hinge;
+mod level;
 mod report;
 mod rows;
 mod set_back;
@@ -54,7 +56,7 @@ use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
 use crate::find::Sought;
 use crate::rule::Rule;
-use crate::site::Records;
+use crate::site::{Level, Records};
 
 pub use checks::LARGEST_LOSS;
 pub use compatibility::{BAND, Compatibility};
@@ -147,6 +149,10 @@ impl Code for Statement {
 
     fn states_building(&self) -> bool {
         self.table.building.is_some()
+    }
+
+    fn level(&self, subject: Subject<'_>, state: &str) -> Result<Option<Level>, CheckError> {
+        level::level(self, subject, state).map(Some)
     }
 
     fn rule(&self, check: &str, rule: Rule) -> Option<f64> {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use ::report::number;
-use ::report::table::{Cell, Digits, Table, significant};
+use ::report::table::{Cell, Digits, Table};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
@@ -203,12 +203,7 @@ impl Checked<'_> {
                 Some(false) => "not passed",
                 None => "no check is possible",
             };
-            let value = number(varied.value, 4);
-            notes.push(format!(
-                "with {} = {value} zeta_E = {}, {passed}.",
-                varied.parameter,
-                three(varied.zeta)
-            ));
+            notes.push(format!("with {} zeta_E = {}, {passed}.", varied.assigned(), three(varied.zeta)));
         }
         notes
     }
@@ -236,19 +231,19 @@ fn deciding(statement: &Statement) -> String {
         Method::Dynamic => "The runs under records",
     };
     let class_iv = statement.table.use_class == Some(UseClass::IV);
-    format!("{method}{}", if class_iv { ", and SLD in use class IV," } else { "" })
+    format!("{method}{}", if class_iv { " and SLD in use class IV" } else { "" })
 }
 
 /// The dynamic check of a limit state, and its runs.
 fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
     let mut notes = vec![format!(
-        "{state} under {} records in {} runs: {}; d = {} m, threshold over it {:.3}, zeta_E = {:.3}; {} runs \
-         beyond d0, {} at the strength of the tie",
+        "{state} under {} records in {} runs: {}; d = {} mm, threshold over it {:.3}, zeta_E = {:.3}; {} \
+         runs beyond d0, {} at the strength of the tie",
         records.len(),
         check.runs.len(),
         if check.passed { "passed" } else { "not passed" },
-        significant(check.d, 6),
+        number(1e3 * check.d, 4),
         check.ratio,
         check.zeta,
         check.beyond_d0,
@@ -266,11 +261,15 @@ fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
         ));
     }
     notes.extend(check.runs.iter().map(|run| {
-        let [positive, negative] = [run.d[0], -run.d[1]].map(|d| significant(d, 6));
+        let [positive, negative] = [run.d[0], -run.d[1]].map(|d| number(1e3 * d, 4));
         let beyond = if run.beyond_d0 { "  beyond d0" } else { "" };
         let beyond =
             if run.at_strength { beyond.to_owned() + "  tie at its strength" } else { beyond.into() };
-        format!("  {:<30} x {:<8.4} d = {positive} / {negative} m{beyond}", run.record, run.sign * run.factor)
+        format!(
+            "  {:<30} x {:<8.4} d = {positive} / {negative} mm{beyond}",
+            run.record,
+            run.sign * run.factor
+        )
     }));
     notes
 }
@@ -278,7 +277,7 @@ fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
 /// A name, its unit, the number in that unit of a number in SI units, and that number of a side.
 type Line = (&'static str, &'static str, f64, fn(&SideVerdict) -> Option<f64>);
 
-const SIDE: [Line; 32] = [
+const SIDE: [Line; 36] = [
     ("hinge_ratio", "-", 1.0, |side| side.hinge),
     ("least alpha0", "-", 1.0, |side| Some(side.least_alpha0?.alpha0)),
     ("its hinge_ratio", "-", 1.0, |side| Some(side.least_alpha0?.hinge)),
@@ -299,6 +298,8 @@ const SIDE: [Line; 32] = [
     ("tie engaged at u", "mm", 1e3, |side| Some(side.tie?.engaged)),
     ("tie at its strength at u", "mm", 1e3, |side| side.tie?.yields),
     ("tie broken at u", "mm", 1e3, |side| side.tie?.breaks),
+    ("tie strength", "kN", 1e-3, |side| side.tie?.strength),
+    ("strength of one anchor", "kN", 1e-3, |side| of_anchor(side, side.tie?.strength)),
     ("alpha0 with the tie", "-", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.alpha0)),
     ("T0 with the tie", "s", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.t0)),
     ("SLD capacity", "m/s2", 1.0, |side| Some(side.sld?.capacity)),
@@ -306,12 +307,19 @@ const SIDE: [Line; 32] = [
     ("SLD zeta_E", "-", 1.0, |side| Some(side.sld?.ratio)),
     ("SLD a_g", "g", 1.0, |side| Some(side.sld?.ag)),
     ("SLD, tie needs", "kN", 1e-3, |side| side.sld?.required),
+    ("SLD, one anchor needs", "kN", 1e-3, |side| of_anchor(side, side.sld?.required)),
     ("SLV with q, hinge_ratio", "-", 1.0, |side| side.slv_q?.hinge),
     ("SLV with q, demand", "m/s2", 1.0, |side| Some(side.slv_q?.demand)),
     ("SLV with q, zeta_E", "-", 1.0, |side| Some(side.slv_q?.ratio)),
     ("SLV with q, a_g", "g", 1.0, |side| Some(side.slv_q?.ag)),
     ("SLV with q, tie needs", "kN", 1e-3, |side| side.slv_q?.required),
+    ("SLV with q, one anchor needs", "kN", 1e-3, |side| of_anchor(side, side.slv_q?.required)),
 ];
+
+/// The part of a force of the tie that one anchor has, where the bar is known \[N\].
+fn of_anchor(side: &SideVerdict, force: Option<f64>) -> Option<f64> {
+    Some(force? / side.tie?.anchors?)
+}
 
 fn set_back(side: &SideVerdict, depth: f64) -> Option<f64> {
     (side.set_back.base > 0.0).then_some(depth)
@@ -320,7 +328,7 @@ fn set_back(side: &SideVerdict, depth: f64) -> Option<f64> {
 /// The same of a check by displacement.
 type DisplacementLine = (&'static str, &'static str, f64, fn(&DisplacementCheck) -> Option<f64>);
 
-const DISPLACEMENT: [DisplacementLine; 10] = [
+const DISPLACEMENT: [DisplacementLine; 12] = [
     ("hinge_ratio", "-", 1.0, |check| check.hinge),
     ("d", "mm", 1e3, |check| Some(check.d)),
     ("a (with FC)", "m/s2", 1.0, |check| Some(check.a)),
@@ -328,6 +336,10 @@ const DISPLACEMENT: [DisplacementLine; 10] = [
     ("demand S_d", "mm", 1e3, |check| Some(check.demand)),
     ("tie force", "kN", 1e-3, |check| Some(check.tie?.force)),
     ("tie force at the demand", "kN", 1e-3, |check| Some(check.tie?.force_at_demand)),
+    ("force of one anchor", "kN", 1e-3, |check| Some(check.tie?.force / check.tie?.anchors?)),
+    ("force of one anchor at the demand", "kN", 1e-3, |check| {
+        Some(check.tie?.force_at_demand / check.tie?.anchors?)
+    }),
     ("by displacement", "-", 1.0, |check| Some(check.ratio)),
     ("zeta_E", "-", 1.0, |check| Some(check.zeta)),
     ("a_g", "g", 1.0, |check| Some(check.ag)),
@@ -373,6 +385,10 @@ impl Details for Checked<'_> {
         let shown = self.sides().find(|(_, side, _)| *side == governs).or(self.sides().next());
         let Some((name, _, side)) = shown else { return Err(CheckError::wall("the wall has no side")) };
         super::report::capacity::figure(self, name, side)
+    }
+
+    fn overview(&self) -> Vec<(String, String)> {
+        super::report::overview::of(self)
     }
 
     fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {

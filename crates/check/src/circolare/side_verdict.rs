@@ -1,5 +1,6 @@
 //! The outcome of one side: its numbers, and its checks.
 
+use ::report::number;
 use serde::Serialize;
 
 use super::checks::Checks;
@@ -147,6 +148,12 @@ pub struct TieNumbers {
     pub breaks: Option<f64>,
     /// What the curve loses there, over its largest a \[-\].
     pub loss: Option<f64>,
+    /// `N_y` \[N\].
+    #[serde(skip)]
+    pub strength: Option<f64>,
+    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
+    #[serde(skip)]
+    pub anchors: Option<f64>,
 }
 
 /// `ζ_E` of a side without its tie.
@@ -178,6 +185,16 @@ pub struct Sensitivity {
     /// `ζ_E` of SLC \[-\].
     #[serde(rename = "SLC")]
     pub slc: Option<f64>,
+}
+
+impl Sensitivity {
+    /// Returns the parameter and its value for people: E in MPa.
+    pub(super) fn assigned(&self) -> String {
+        match self.parameter {
+            "young_modulus" => format!("E = {} MPa", number(1e-6 * self.value, 4)),
+            name => format!("{name} = {}", number(self.value, 4)),
+        }
+    }
 }
 
 /// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.

@@ -47,8 +47,9 @@ fn searched(
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
-            let places = hinge::least(search, range, |x| {
-                let mut zetas = case.at(sign, Some(x), true)?.1.zetas();
+            let places = hinge::least(search, range, |x, which| {
+                let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
+                let mut zetas = case.of_these(sign, (Some(x), true), wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }
@@ -86,6 +87,8 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         yields: tie.strength_displacement(),
         breaks: tie.fracture_displacement(),
         loss: curve.tie_break().map(|broken| broken.loss),
+        strength: tie.strength,
+        anchors: curve.anchors,
     });
     let untied = curve.tie().is_some().then(|| case.at(sign, hinge, false)).transpose()?;
     let untied = untied.map(|(_, checks)| Untied {
@@ -233,29 +236,26 @@ fn sensitivity(case: &Case<'_>, sign: f64, checks: &Checks, warnings: &mut Vec<S
     let one = |factor: f64| {
         let value = factor * value;
         let found = searched(&case.with(factor), sign, case.rule, hinge::COARSE);
-        let (governs, zeta) = match &found {
-            Ok((_, checks)) => checks.governing(statement),
-            Err(_) => {
-                return Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
-            }
+        let impossible = Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
+        let Ok((_, checks)) = found else { return impossible };
+        let (governs, zeta) = checks.governing(statement);
+        let varied = Sensitivity {
+            zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
+            passed: Some(zeta >= 1.0),
+            slv: checks.slv.map(|check| check.zeta),
+            slc: checks.slc.map(|check| check.zeta),
+            ..impossible
         };
         if (zeta >= 1.0) != (own >= 1.0) {
             warnings.push(format!(
-                "{}: {parameter} turns the verdict: with {parameter} = {value} {} has zeta_E = {zeta:.3}, {}",
+                "{}: {parameter} turns the verdict: with {} {} has zeta_E = {zeta:.3}, {}",
                 case.name(Side::of(sign)),
+                varied.assigned(),
                 governs.name(),
                 passed(zeta)
             ));
         }
-        let checks = found.ok().map(|(_, checks)| checks);
-        Sensitivity {
-            parameter,
-            value,
-            zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
-            passed: Some(zeta >= 1.0),
-            slv: checks.and_then(|checks| Some(checks.slv?.zeta)),
-            slc: checks.and_then(|checks| Some(checks.slc?.zeta)),
-        }
+        varied
     };
     VARIED.map(one).to_vec()
 }

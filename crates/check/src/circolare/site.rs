@@ -60,10 +60,15 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     }
     let [latitude, longitude] = site.coordinates;
     let file_name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+    let place = format!("Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}");
+    let how = if hazard.is_node() {
+        "the numbers of the node that it is"
+    } else {
+        "the mean of its four nodes by the inverse of their distances"
+    };
     notes.push(format!(
-        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}: the mean of its \
-         four nodes by the inverse of their distances, straight over log T_R, as NTC 2008, Annex A, is known \
-         in the field; its text was not seen. Compare the numbers with those of the ministry."
+        "{place}: {how}, straight over log T_R, as NTC 2008, Annex A, is known in the field; its text was \
+         not seen. Compare the numbers with those of the ministry."
     ));
     Ok(Some(FromGrid { file, notes }))
 }

@@ -1,6 +1,6 @@
 //! The tie in the check: its force as the wall is pushed over for the first time, and the bar of its table.
 
-use rocking_wall::wall::{Bar, Tie};
+use rocking_wall::wall::{Bar, Parameters, Tie};
 use serde::Serialize;
 
 use super::table::{BarTable, STEEL};
@@ -63,17 +63,27 @@ pub struct TieAtLimit {
     /// Its state there.
     #[serde(rename = "tie_state_at_demand")]
     pub state_at_demand: TieState,
+    /// How many anchors have these forces, of a tie that is given by its bar \[-\].
+    #[serde(skip)]
+    pub anchors: Option<f64>,
 }
 
 impl TieAtLimit {
-    pub(super) fn new(tie: &Tie, [u, demand]: [f64; 2]) -> Self {
+    pub(super) fn new(tie: &Tie, [u, demand]: [f64; 2], anchors: Option<f64>) -> Self {
         Self {
+            anchors,
             force: force(tie, u),
             state: TieState::at(tie, u),
             force_at_demand: force(tie, demand),
             state_at_demand: TieState::at(tie, demand),
         }
     }
+}
+
+/// How many bars, each with its anchors, hold the width of the wall, of a tie that is given by its bar \[-\].
+pub(super) fn anchors(parameters: &Parameters) -> Option<f64> {
+    let bar = parameters.bar.filter(|_| parameters.weaker_part().is_some())?;
+    Some(bar.spacing.map_or(1.0, |spacing| parameters.width / spacing))
 }
 
 impl BarTable {

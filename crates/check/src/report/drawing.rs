@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::markup::{formula, stated};
+use super::markup::{formula, kilonewtons, millimetres, stated};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
 const SIZE: [f64; 2] = [500.0, 410.0];
@@ -112,7 +112,10 @@ impl Drawing<'_> {
     }
 
     fn text(&mut self, [x, y]: [f64; 2], anchor: &str, text: &str) {
-        let _ = writeln!(self.svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>");
+        // a white edge keeps it apart from lines behind it
+        let edge = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
+        let place = format!("x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\"");
+        let _ = writeln!(self.svg, "<text {place} {edge}>{text}</text>");
     }
 
     /// An arrow that points down to a place.
@@ -204,12 +207,18 @@ impl Drawing<'_> {
                 self.line([far, y - 9.0], [far, y + 9.0], look);
             }
         }
-        let mut texts = vec![format!("K = {} kN/m", stated(1e-3 * tie.stiffness))];
-        texts.extend(tie.strength.map(|strength| format!("N_s = {} kN", stated(1e-3 * strength))));
-        texts.push(format!("g₀ = {} mm", stated(1000.0 * tie.slack)));
+        let mut texts = vec![format!("K = {} kN/m", kilonewtons(tie.stiffness))];
+        texts.extend(tie.strength.map(|strength| format!("N_y = {} kN", kilonewtons(strength))));
+        if tie.slack > 0.0 {
+            texts.push(format!("g₀ = {} mm", millimetres(tie.slack)));
+        }
         let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
         for (index, text) in texts.iter().enumerate() {
-            let text = text.replace("N_s", "Nₛ");
+            // there is no low y
+            let text = text.replace(
+                "N_y",
+                "N<tspan font-size=\"10\" dy=\"3\">y</tspan><tspan dy=\"-3\">&#8203;</tspan>",
+            );
             // one line above the tie, the others below it
             let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
             self.text([x + 4.0, y], "start", &text);

@@ -3,13 +3,34 @@
 use ::report::escaped;
 use fmu_export::VariableId;
 use rocking_wall::scene::{GROUPS, parameter_text};
-use rocking_wall::variables::{IntegerVariable, RealVariable};
-use rocking_wall::wall::{COMPUTABLE, Parameters, Wall, usage};
+use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable};
+use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
-use super::markup::{formula, stated, table};
+use super::markup::{formula, kilonewtons, shown, stated, table};
 use super::{Origin, drawing};
 
+/// Lengths that are read in mm.
+const SMALL: [&str; 2] = ["tie_slack", "tie_ultimate"];
+/// What a bar and its anchor make.
+const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
+
 impl Origin<'_> {
+    /// Returns where a number of the bar of the tie comes from.
+    fn of_bar(&self, number: &BarNumber) -> &'static str {
+        let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(number.usual.name);
+        if self.file.states(&["check", "tie", "bar", number.key]) {
+            "[check] tie"
+        } else if self.set.iter().any(is_set) {
+            "--set"
+        } else if self.file.states(&["tie", "bar", number.key]) {
+            "scene"
+        } else if self.wall.is_some() {
+            "file"
+        } else {
+            "default"
+        }
+    }
+
     /// Returns where a parameter of a group comes from.
     fn of_parameter(&self, group: &str, name: &str) -> &'static str {
         let is_set = |set: &String| set.split_once('=').map_or(set.as_str(), |set| set.0).trim() == name;
@@ -53,7 +74,50 @@ pub(crate) fn the_wall(
         let name = format!("Corners of the force law, {}", formula("u/u_ins, F/F0"));
         rows.push([name, points.join(" "), "scene".into()]);
     }
-    drawing::figure(wall, parameters) + &table(&["parameter", "value", "from"], &rows)
+    rows.extend(bar(parameters, origin));
+    let rows = table(&["parameter", "value", "from"], &rows);
+    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters))
+}
+
+/// The numbers of the bar and anchor that make the tie.
+fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
+    let Some(bar) = parameters.bar.filter(|_| parameters.weaker_part().is_some()) else { return Vec::new() };
+    let numbers = Bar::NUMBERS.iter().enumerate();
+    let row = |(index, number): (usize, &BarNumber)| {
+        let given = bar.get(index)?;
+        let unit = if number.key == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
+        let text = number.text.split("; ").next().unwrap_or_default();
+        let name = format!("{} <small translate=\"no\">{}</small>", escaped(text), number.usual.name);
+        Some([name, value_in(given, unit), origin.of_bar(number).to_owned()])
+    };
+    numbers.filter_map(row).collect()
+}
+
+/// The unit in which people read a number in an SI unit, and the factor to it.
+fn unit_for_people(unit: &str) -> (&str, f64) {
+    match unit {
+        "N" => ("kN", 1e-3),
+        "N/m" => ("kN/m", 1e-3),
+        "Pa" => ("MPa", 1e-6),
+        "m/s2" => ("m/s²", 1.0),
+        "kg/m3" => ("kg/m³", 1.0),
+        "1" => ("", 1.0),
+        unit => (unit, 1.0),
+    }
+}
+
+fn value_in(value: f64, (unit, factor): (&str, f64)) -> String {
+    format!("<span class=\"value\">{} {unit}</span>", stated(factor * value))
+}
+
+/// Mechanism, h, b and O in a table of walls.
+pub(crate) fn overview(wall: &Wall, parameters: &Parameters) -> Vec<(String, String)> {
+    vec![
+        ("mechanism".into(), mechanism(parameters.mechanism).into()),
+        (formula("h") + " [m]", stated(parameters.height)),
+        (formula("b") + " [m]", stated(parameters.thickness)),
+        (formula("O") + " [kN]", kilonewtons(wall.body().overburden)),
+    ]
 }
 
 fn parameter(
@@ -65,20 +129,44 @@ fn parameter(
 ) -> Option<[String; 3]> {
     let real = RealVariable::from_name(name).map(VariableId::variable);
     let variable = real.or(IntegerVariable::from_name(name).map(VariableId::variable))?;
-    let unit = variable.unit.filter(|unit| *unit != "1").unwrap_or_default().replace("m/s2", "m/s²");
     let text = parameter_text(parameters, name)?;
-    let computed = COMPUTABLE.contains(&name) && text == "-1.0";
-    let (value, from) = if computed {
-        (computed_value(wall, parameters, name), "computed".to_owned())
-    } else {
-        let value = text.parse().map_or_else(|_| text.trim_matches('"').replace('_', " "), stated);
-        (value, origin.of_parameter(group, name).to_owned())
+    let number: Option<f64> = text.parse().ok();
+    let unit = match unit_for_people(variable.unit.unwrap_or_default()) {
+        // slack and elongation of a tie
+        ("m", _) if SMALL.contains(&name) && number >= Some(0.0) => ("mm", 1e3),
+        unit => unit,
     };
-    let unit = unit.replace("m3", "m³");
+    let is_of_bar = parameters.weaker_part().is_some() && OF_BAR.contains(&name);
+    let (value, from) = match number {
+        _ if COMPUTABLE.contains(&name) && text == "-1.0" => {
+            let value = computed_value(wall, parameters, name);
+            (format!("<span class=\"value\">{value} {}</span>", unit.0), "computed")
+        }
+        Some(number) if is_of_bar => {
+            (format!("<span class=\"value\">{} {}</span>", shown(unit.1 * number), unit.0), "computed")
+        }
+        Some(number) => (value_in(number, unit), origin.of_parameter(group, name)),
+        None => {
+            let value = if name == "mechanism" {
+                mechanism(parameters.mechanism).to_owned()
+            } else {
+                text.trim_matches('"').replace('_', " ")
+            };
+            (format!("<span class=\"value\">{value}</span>"), origin.of_parameter(group, name))
+        }
+    };
     // the conditions under which it matters hold
     let description = variable.description.split("; where ").next().unwrap_or_default();
-    let value = format!("<span class=\"value\">{value} {unit}</span>");
-    Some([format!("{} <small translate=\"no\">{name}</small>", escaped(description)), value, from])
+    let name = format!("{} <small translate=\"no\">{name}</small>", escaped(description));
+    Some([name, value, from.to_owned()])
+}
+
+/// The mechanism, as codes name it.
+fn mechanism(mechanism: Mechanism) -> &'static str {
+    match mechanism {
+        Mechanism::Parapet => "simple overturning",
+        Mechanism::VerticalSpanning => "vertical bending (strip)",
+    }
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.

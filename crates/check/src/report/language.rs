@@ -9,6 +9,8 @@ use std::borrow::Cow;
 use ::report::escaped;
 use serde::Deserialize;
 
+use super::markup::formula;
+
 /// The language of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -64,6 +66,45 @@ pub(crate) fn translated(page: String, language: Language) -> String {
         });
     });
     text.replacen("<html lang=\"en\"", &format!("<html lang=\"{}\"", language.name()), 1)
+}
+
+/// Returns a page with the symbols of its sentences as formulas: `a_g`, `zeta_E`, `alpha0`. Pictures keep
+/// theirs.
+pub(crate) fn with_symbols(page: &str) -> String {
+    let mut text = String::with_capacity(page.len() * 9 / 8);
+    let mut is_picture = false;
+    walk(page, |part| match part {
+        Part::Markup(markup) => {
+            is_picture = !markup.starts_with("</svg") && (is_picture || markup.starts_with("<svg"));
+            text.push_str(markup);
+        }
+        Part::Text(fragment) if is_picture => text.push_str(fragment),
+        Part::Text(fragment) => symbols(fragment, &mut text),
+    });
+    text
+}
+
+/// Adds a text with its symbols as formulas.
+fn symbols(fragment: &str, text: &mut String) {
+    let belongs = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == ',';
+    let mut rest = fragment;
+    while let Some(from) = rest.find(|letter: char| letter.is_alphanumeric() || letter == '_') {
+        text.push_str(&rest[..from]);
+        rest = &rest[from..];
+        let word = &rest[..rest.find(|letter| !belongs(letter)).unwrap_or(rest.len())];
+        let word = word.trim_end_matches(',');
+        rest = &rest[word.len()..];
+        let is_symbol = word.split_once('_').is_some_and(|(letter, index)| {
+            letter.chars().count() == 1 && !index.is_empty() && !index.contains('_')
+        });
+        match word {
+            "zeta_E" => *text += &formula("ζ_E"),
+            "alpha0" | "α0" => *text += &formula("α0"),
+            _ if is_symbol => *text += &formula(word),
+            _ => text.push_str(word),
+        }
+    }
+    text.push_str(rest);
 }
 
 /// A part of a page.
@@ -222,7 +263,7 @@ fn held<'a>(pieces: &[String], text: &'a str) -> Option<Vec<&'a str>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Language, TABLE, pairs, translated};
+    use super::{Language, TABLE, pairs, translated, with_symbols};
 
     #[test]
     fn gaps_are_translated_and_what_users_write_is_not() {
@@ -236,6 +277,16 @@ mod tests {
                        <style>tie {}</style>";
         assert_eq!(translated(page.to_owned(), Language::It), italian);
         assert_eq!(translated(page.to_owned(), Language::En), page);
+    }
+
+    #[test]
+    fn symbols_of_sentences_are_formulas() {
+        let page = "<p>zeta_E of a_g,SLD, and T_C* of alpha0 by tie_strength</p><svg><text>S_e</text></svg>\
+                    <small translate=\"no\">a_1</small><b>d_0</b>";
+        let marked = "<p><i>ζ</i><sub>E</sub> of <i>a</i><sub>g,SLD</sub>, and <i>T</i><sub>C</sub>* of \
+                      <i>α</i><sub>0</sub> by tie_strength</p><svg><text>S_e</text></svg>\
+                      <small translate=\"no\">a_1</small><b><i>d</i><sub>0</sub></b>";
+        assert_eq!(with_symbols(page), marked);
     }
 
     /// A phrase has one translation, with as many gaps.

@@ -28,6 +28,16 @@ pub(crate) fn shown(value: f64) -> String {
     number(value, 4)
 }
 
+/// A force with four digits in kN; `force` in N.
+pub(crate) fn kilonewtons(force: f64) -> String {
+    shown(1e-3 * force)
+}
+
+/// A length with four digits in mm; `length` in m.
+pub(crate) fn millimetres(length: f64) -> String {
+    shown(1e3 * length)
+}
+
 /// A number that the engineer states, as it was written.
 pub(crate) fn stated(value: f64) -> String {
     number(value, 6)

@@ -20,9 +20,9 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
 
-pub(crate) use inputs::the_wall;
-use language::translated;
+pub(crate) use inputs::{overview, the_wall};
 pub use language::{Language, terms};
+use language::{translated, with_symbols};
 use markup::{formula, list, table};
 use project::as_written;
 pub(crate) use project::{EXCEEDED, return_period};
@@ -82,10 +82,12 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
-    let page = sheet(page, verdict, origin)?.section("Document", &document(origin)?).text(SIGNED);
+    // a signature does not stand alone on its page
+    let page = sheet(page, verdict, origin)?.text("<div class=\"together\">");
+    let page = page.section("Document", &document(origin)?).text(SIGNED).text("</div>");
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(translated(page, origin.report.language))
+    Ok(with_symbols(&translated(page, origin.report.language)))
 }
 
 /// Adds the sections about a wall: verdict, those of the code, warnings.
@@ -114,7 +116,10 @@ impl Origin<'_> {
     /// The code and the date as markup.
     fn source(&self, verdict: &Verdict<'_>) -> String {
         let (source, date) = (escaped(verdict.code.source), self.date());
-        format!("<p class=\"subtitle\">{source}</p>\n<p class=\"subtitle\">{date}</p>")
+        format!(
+            "<p class=\"kind\">Calculation report</p>\n<p class=\"subtitle\">{source}</p>\n\
+             <p class=\"subtitle\">{date}</p>"
+        )
     }
 
     /// The date as markup, as the user gives it.

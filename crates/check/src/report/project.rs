@@ -3,6 +3,7 @@
 use ::report::escaped;
 use rocking_wall::scene::{Described, Schema};
 use rocking_wall::{choices, tables};
+use serde::Deserialize;
 
 use super::language::Language;
 use super::markup::{number, table};
@@ -73,7 +74,48 @@ pub(crate) fn as_written(text: &str) -> String {
     format!("<span translate=\"no\">{}</span>", escaped(text))
 }
 
+/// What the site on a grid of the hazard, `[check.site]`, has of the project, too.
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct SiteOfProject {
+    coordinates: Option<[f64; 2]>,
+    nominal_life: Option<f64>,
+    use_coefficient: Option<f64>,
+}
+
 impl ReportTable {
+    /// What is known of the project without a table.
+    pub(crate) fn of_site(site: &SiteOfProject) -> Self {
+        let SiteOfProject { coordinates, nominal_life, use_coefficient } = *site;
+        Self { coordinates, nominal_life, use_coefficient, ..Self::default() }
+    }
+
+    /// Takes from the site what is not given here.
+    ///
+    /// # Errors
+    /// The key that both have with different values, and why that cannot be.
+    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (&'static str, String)> {
+        let same = |key, own: String, of_site: String| {
+            let message = format!(
+                "{key} = {own} differs from {of_site} of [check.site]; leave it out here, or make both equal"
+            );
+            if own == of_site { Ok(()) } else { Err((key, message)) }
+        };
+        for (key, own, of_site) in [
+            ("nominal_life", &mut self.nominal_life, site.nominal_life),
+            ("use_coefficient", &mut self.use_coefficient, site.use_coefficient),
+        ] {
+            if let Some((own, of_site)) = own.zip(of_site) {
+                same(key, own.to_string(), of_site.to_string())?;
+            }
+            *own = own.or(of_site);
+        }
+        if let Some((own, of_site)) = self.coordinates.zip(site.coordinates) {
+            same("coordinates", format!("{own:?}"), format!("{of_site:?}"))?;
+        }
+        self.coordinates = self.coordinates.or(site.coordinates);
+        Ok(())
+    }
+
     /// Says which key has a number that cannot be, and why.
     pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
         if let Some([latitude, longitude]) = self.coordinates

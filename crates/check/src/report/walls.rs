@@ -6,9 +6,11 @@ use ::report::escaped;
 use ::report::page::Page;
 use run::walls::NamedWall;
 
-use super::language::translated;
+use super::language::{translated, with_symbols};
+use super::markup::table;
 use super::project::as_written;
 use super::{Origin, SIGNED, document, head, sheet};
+use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
 
@@ -37,19 +39,16 @@ pub fn page_of_walls(
         // writing to a String cannot fail
         let _ = write!(cover, "<p class=\"fails\">{refused} of {all} walls could not be checked</p>");
     }
-    let mut rows = verdicts.table().html_with(|index| match &verdicts.walls[index].1 {
+    let rows = verdicts.table().html_with(|index| match &verdicts.walls[index].1 {
         Ok(verdict) if verdict.passed => "",
         _ => "fails",
     });
-    for (name, _) in &verdicts.walls {
-        let cell = |name: &str| format!("<td>{name}</td>");
-        rows = rows.replacen(&cell(&escaped(name)), &cell(&as_written(name)), 1);
-    }
     let _ = write!(
         cover,
-        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>",
+        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>{}",
         as_written(governing),
-        head(worst)
+        head(worst),
+        data(checked())
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
     let mut page = Page::new(title).styled(include_str!("page.css")).text(&origin.source(worst));
@@ -69,5 +68,20 @@ pub fn page_of_walls(
     let page = page.section("Document", &document(origin)?);
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
-    Ok(translated(page, origin.report.language))
+    Ok(with_symbols(&translated(page, origin.report.language)))
+}
+
+/// The data of the walls and the numbers of their governing sides: a row a wall.
+fn data<'a>(walls: impl Iterator<Item = (&'a str, &'a Verdict<'a>)>) -> String {
+    let mut heads = vec!["wall".to_owned()];
+    let mut rows = Vec::new();
+    for (name, verdict) in walls {
+        let (own, cells): (Vec<_>, Vec<_>) = verdict.details.overview().into_iter().unzip();
+        if rows.is_empty() {
+            heads.extend(own);
+        }
+        rows.push([as_written(name), cells.join("</td><td>")]);
+    }
+    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+    format!("<div class=\"data\">{}</div>", table(&heads, &rows))
 }

@@ -51,10 +51,14 @@ fn limit_states_take_their_numbers_from_the_grid() {
     for words in [
         "SLV: T_R = 474.6 years: a_g = 0.1989 g, F0 = 2.459, T_C* = 0.3255 s.",
         "latitude 42.02°, longitude 13.03° on the grid of grid.csv",
+        "the mean of its four nodes",
         "its text was not seen",
     ] {
         assert!(told.contains(words), "{told}");
     }
+    let node = SITE.replace("42.02, 13.03", "42.05, 13.0");
+    let (_, notes) = checked("site_node", &format!("{node}\nSLV = {{}}")).unwrap();
+    assert!(notes.join("\n").contains("of grid.csv: the numbers of the node that it is,"), "{notes:?}");
     // a limit state with its own numbers keeps them; one year is below the grid
     let short = SITE.replace("nominal_life = 50", "nominal_life = 1");
     let (_, notes) = checked("site_own", &format!("{short}\n{stated}\nSLC = {{}}")).unwrap();
@@ -64,6 +68,31 @@ fn limit_states_take_their_numbers_from_the_grid() {
         "{told}"
     );
     assert!(!told.contains("SLV: T_R"), "{told}");
+}
+
+/// A report has coordinates, V_N and C_U of the site, and none that differ from them.
+#[test]
+fn a_report_is_about_the_site_of_the_check() {
+    let report = |given: &str| {
+        let text = format!("[check]\ncode = \"circolare-2019\"\n{SITE}\nSLV = {{}}\n{given}");
+        CheckFile::parse("scene.toml", &text).unwrap().report().map_err(|error| error.to_string())
+    };
+    for given in ["", "[report]\nproject = \"x\"", "[report]\nnominal_life = 50"] {
+        let table = report(given).unwrap();
+        let found = (table.coordinates, table.nominal_life, table.use_coefficient);
+        assert_eq!(found, (Some([42.02, 13.03]), Some(50.0), Some(1.0)));
+    }
+    for (given, words) in [
+        (
+            "nominal_life = 100",
+            "line 6: [report] nominal_life = 100 differs from 50 of [check.site]; leave it",
+        ),
+        ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1 of [check.site]"),
+        ("coordinates = [42.1, 13.03]", "coordinates = [42.1, 13.03] differs from [42.02, 13.03] of"),
+    ] {
+        let told = report(&format!("[report]\n{given}")).unwrap_err();
+        assert!(told.contains(words), "{told}");
+    }
 }
 
 #[test]

@@ -21,6 +21,8 @@ pub struct Column {
     pub factor: f64,
     /// Whether it holds words, which start at the left.
     pub is_text: bool,
+    /// Whether the words are the user's own, which no language of a page replaces.
+    pub is_of_user: bool,
 }
 
 /// How numbers are shown to people; files get every digit.
@@ -67,7 +69,20 @@ impl Column {
         heading: impl Into<Cow<'static, str>>,
         digits: Digits,
     ) -> Self {
-        Self { name: name.into(), heading: heading.into(), digits, factor: 1.0, is_text: false }
+        Self {
+            name: name.into(),
+            heading: heading.into(),
+            digits,
+            factor: 1.0,
+            is_text: false,
+            is_of_user: false,
+        }
+    }
+
+    /// Marks the words of the column as the user's own, which no language of a page replaces.
+    #[must_use]
+    pub fn of_user(self) -> Self {
+        Self { is_of_user: true, ..self }
     }
 
     /// A column of counts.

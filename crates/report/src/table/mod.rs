@@ -223,7 +223,11 @@ impl Table {
             let _ =
                 if class.is_empty() { write!(text, "<tr>") } else { write!(text, "<tr class=\"{class}\">") };
             for (k, column) in self.shown() {
-                let _ = write!(text, "<td{}>{}</td>", class_of(column), escaped(&column.words(&row[k])));
+                let mut words = escaped(&column.words(&row[k]));
+                if column.is_of_user {
+                    words = format!("<span translate=\"no\">{words}</span>");
+                }
+                let _ = write!(text, "<td{}>{words}</td>", class_of(column));
             }
             text += "</tr>\n";
         }
@@ -280,6 +284,14 @@ mod tests {
         assert!(
             table.markdown().starts_with("| record | PGA [g] | runs | change [%] |\n|---|---:|---:|---:|\n")
         );
+    }
+
+    #[test]
+    fn words_of_the_user_are_marked() {
+        let mut table = Table::new([Column::text("name", "wall").of_user(), Column::text("side", "side")]);
+        table.row(["a < b".into(), "a < b".into()]);
+        let cells = "<td><span translate=\"no\">a &lt; b</span></td><td>a &lt; b</td>";
+        assert!(table.html().contains(cells) && table.csv().ends_with("a < b,a < b\n"));
     }
 
     #[test]

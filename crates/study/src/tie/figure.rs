@@ -3,37 +3,37 @@
 use crate::tie::{Outcome, Row, TieStudy};
 
 use report::palette::{BLUE, GREEN, Mark, RED};
-use report::plot::{Axis, Look, Picture, Plot, Series};
+use report::plot::{Axis, Look, Picture, Plot, Scale, Series};
 
-/// Draws medians (lines) and largest values (marks) of force and displacement over what is varied; where a
-/// tie may yield, of its plastic elongation, too. What a logarithmic axis cannot show, and a tie that stays
-/// elastic beside others, is left out.
+/// Draws medians (lines), 84 % fractiles (dashed) and largest values (marks) of force and displacement over
+/// what is varied; where a tie may yield, of its plastic elongation, too. What a logarithmic axis cannot show,
+/// and a tie that stays elastic beside others, is left out.
 pub fn picture(study: &TieStudy, rows: &[Row]) -> Picture {
     let varied = study.varied();
-    let (place, name): (fn(f64) -> f64, String) = if varied.is_logarithmic {
-        (f64::log10, format!("log10 of the {}", varied.label))
-    } else {
-        (|value| value, varied.label.to_owned())
-    };
     let is_shown = |row: &&Row| row.value > 0.0 || (row.value == 0.0 && !varied.is_logarithmic);
     let shown: Vec<&Row> = rows.iter().filter(is_shown).collect();
     let panel = |label: &str, color, pick: fn(&Outcome) -> f64, scale: f64| {
         let points = |part: usize| -> Vec<(f64, f64)> {
-            shown.iter().map(|row| (place(row.value), scale * row.of(pick)[part])).collect()
+            shown.iter().map(|row| (varied.factor * row.value, scale * row.of(pick)[part])).collect()
         };
-        let largest = points(1);
+        let largest = points(2);
         let top = 1.08 * largest.iter().map(|point| point.1).fold(0.0, f64::max);
-        let ends = [largest.first(), largest.last()].map(|point| point.map_or(0.0, |point| point.0));
-        let margin = if varied.is_logarithmic { 0.1 } else { 0.02 * (ends[1] - ends[0]) };
-        let x = [ends[0] - margin, ends[1] + margin];
+        let ends = [largest.first(), largest.last()].map(|point| point.map_or(1.0, |point| point.0));
+        let (x, scale) = if varied.is_logarithmic {
+            ([0.8 * ends[0], 1.25 * ends[1]], Scale::LogarithmicAcross)
+        } else {
+            let margin = 0.02 * (ends[1] - ends[0]).max(1e-9);
+            ([ends[0] - margin, ends[1] + margin], Scale::Linear)
+        };
         let marks = Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 3.0, largest) };
-        let series = vec![Series::stroke(color, 1.6, points(0)), marks];
-        let axes = [Axis::over(&name, x), Axis::over(label, [-0.02 * top, top])];
-        Plot::new([820.0, 320.0], axes, series)
+        let upper = Series { look: Look::Dashed, ..Series::stroke(color, 1.3, points(1)) };
+        let series = vec![Series::stroke(color, 1.6, points(0)), upper, marks];
+        let axes = [Axis::over(varied.label, x), Axis::over(label, [-0.02 * top, top])];
+        Plot { scale, ..Plot::new([820.0, 320.0], axes, series) }
     };
     let mut panels = vec![
         Plot {
-            title: "Line: median of the motions; dots: largest".to_owned(),
+            title: "Line: median of the motions; dashed: 84 % fractile; dots: largest".to_owned(),
             ..panel("force of the tie (kN)", RED, |outcome| outcome.force, 1e-3)
         },
         panel("largest |u|/u_ins", BLUE, |outcome| outcome.u_ratio, 1.0),

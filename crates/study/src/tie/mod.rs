@@ -28,9 +28,12 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use run::parallel;
 use run::polarity::Polarities;
-use run::sample::sample_median;
+use run::sample::{fractile, sample_median};
 
 pub use table::table;
+
+/// The upper fractile of tables and figures: the mean and one standard deviation of a normal sample \[-\].
+const UPPER: f64 = 0.84;
 
 /// Why a tie cannot be studied.
 #[derive(Debug, thiserror::Error)]
@@ -63,7 +66,7 @@ pub enum TieError {
 }
 
 /// A parameter of the tie that a study varies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Varied {
     /// Name of the parameter, as scenes have it.
     pub parameter: &'static str,
@@ -71,7 +74,9 @@ pub struct Varied {
     column: &'static str,
     /// Heading with its unit, for people.
     heading: &'static str,
-    /// Label of the axis.
+    /// Factor from the unit of the column to that of the heading and the label.
+    factor: f64,
+    /// Label of the axis, with its unit for people.
     label: &'static str,
     /// Whether the axis is logarithmic.
     is_logarithmic: bool,
@@ -81,24 +86,27 @@ pub struct Varied {
 pub const STIFFNESS: Varied = Varied {
     parameter: "tie_stiffness",
     column: "stiffness_n_m",
-    heading: "K [N/m]",
-    label: "stiffness (N/m)",
+    heading: "K [kN/m]",
+    factor: 1e-3,
+    label: "stiffness (kN/m)",
     is_logarithmic: true,
 };
 /// The force `N_y` that the tie resists.
 pub const STRENGTH: Varied = Varied {
     parameter: "tie_strength",
     column: "strength_n",
-    heading: "N_y [N]",
-    label: "strength (N)",
+    heading: "N_y [kN]",
+    factor: 1e-3,
+    label: "strength (kN)",
     is_logarithmic: true,
 };
 /// The slack g₀.
 pub const SLACK: Varied = Varied {
     parameter: "tie_slack",
     column: "slack_m",
-    heading: "slack [m]",
-    label: "slack (m)",
+    heading: "slack [mm]",
+    factor: 1e3,
+    label: "slack (mm)",
     is_logarithmic: false,
 };
 /// The height above the base.
@@ -106,6 +114,7 @@ pub const HEIGHT: Varied = Varied {
     parameter: "tie_height",
     column: "height_m",
     heading: "height [m]",
+    factor: 1.0,
     label: "height of the tie (m)",
     is_logarithmic: false,
 };
@@ -113,16 +122,18 @@ pub const HEIGHT: Varied = Varied {
 pub const ULTIMATE: Varied = Varied {
     parameter: "tie_ultimate",
     column: "ultimate_m",
-    heading: "p_u [m]",
-    label: "ultimate elongation (m)",
+    heading: "p_u [mm]",
+    factor: 1e3,
+    label: "ultimate elongation (mm)",
     is_logarithmic: false,
 };
 /// The diameter of its bar, from which stiffness, strength and ultimate elongation follow.
 pub const BAR_DIAMETER: Varied = Varied {
     parameter: "bar_diameter",
     column: "bar_diameter_m",
-    heading: "bar [m]",
-    label: "diameter of the bar (m)",
+    heading: "bar [mm]",
+    factor: 1e3,
+    label: "diameter of the bar (mm)",
     is_logarithmic: false,
 };
 /// All that can be varied.
@@ -316,10 +327,11 @@ fn outcome(scene: &Scene) -> Result<Outcome, TieError> {
 }
 
 impl Row {
-    /// Returns median and largest of a quantity.
-    pub fn of(&self, pick: fn(&Outcome) -> f64) -> [f64; 2] {
+    /// Returns median, 84 % fractile and largest of a quantity.
+    pub fn of(&self, pick: fn(&Outcome) -> f64) -> [f64; 3] {
         let mut values: Vec<f64> = self.outcomes.iter().map(pick).collect();
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        [sample_median(&mut values), largest]
+        values.sort_by(f64::total_cmp);
+        let [upper, largest] = [UPPER, 1.0].map(|part| fractile(&values, part).unwrap_or(f64::NAN));
+        [sample_median(&mut values), upper, largest]
     }
 }

@@ -236,4 +236,8 @@ fn samples_are_walls_and_classes() {
     let received = LoadedStudy::received(loaded.sent()).unwrap();
     assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
     assert_eq!(received.report, loaded.report);
+    // the height is stated by its distribution, a1 by nobody
+    let assumed = |loaded: &LoadedStudy| loaded.study.walls()[3].assumed.clone();
+    assert!(assumed(&loaded).contains(&"a1") && !assumed(&loaded).contains(&"height"));
+    assert_eq!(assumed(&received), assumed(&loaded));
 }

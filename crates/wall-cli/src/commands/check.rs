@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
 }
 
 /// Largest file that is looked into for its tables.
-const MAX_FILE_BYTES: u64 = 4 << 20;
+pub(crate) const MAX_FILE_BYTES: u64 = 4 << 20;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Some(path) = &arguments.scene.scene else {

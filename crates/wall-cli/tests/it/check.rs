@@ -199,6 +199,45 @@ fn ties_of_several_stiffnesses() {
     refused(&folder, &["study", "tie", scene], &["tie_height"]);
 }
 
+/// At the level of a limit state the records have the peak a_g S of the check, and the wall has its tie.
+#[test]
+fn ties_at_the_level_of_a_check() {
+    let folder = folder("ties_at_level");
+    let scene = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\nwidth = 2\n[force_law]\na1 = 0.05\n\
+        [tie]\ntie_height = 3\ntie_side = \"both\"\n\
+        [check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n\
+        SLV = { ag = 0.3, F0 = 2.45, TC = 0.32 }\n\
+        tie.bar = { diameter = 0.01, length = 4, yield_stress = 200e6, ultimate_strain = 0.02, spacing = 1 }\n\
+        records = { synthetic = { count = 3, duration = 10, step = 0.02 } }\n";
+    std::fs::write(folder.join("scene.toml"), scene).unwrap();
+    let study = ["study", "tie", "scene.toml", "--strength", "1e4,4e4", "--both-polarities"];
+    let at = |more: &[&str]| json(&folder, &[&study[..], &["--level", "SLV", "--json"], more].concat());
+    let found = at(&[]);
+    assert_eq!((&found["level"], found["motions"].as_u64()), (&"SLV".into(), Some(3)), "{found}");
+    let row = &found["rows"][1];
+    let [n, of_metre] = ["force_84_n", "force_84_n_m"].map(|name| row[name].as_f64().unwrap());
+    // the wall is 2 m wide
+    assert!(n > 0.0 && (n / of_metre / 2.0 - 1.0).abs() < 1e-12, "{row}");
+    // records that are given take the place of those of the check: S = 1.4 − 0.4 F0 a_g = 1.106 of soil B
+    let names = [("1.csv", 1.0), ("2.csv", 2.0), ("3.csv", 4.0)];
+    for (name, peak) in names {
+        let row = |k: i32| format!("{},{}\n", 0.02 * f64::from(k), if k == 100 { peak } else { 0.0 });
+        let rows: String = (0..500).map(row).collect();
+        std::fs::write(folder.join(name), format!("time [s],acc [m/s2]\n{rows}")).unwrap();
+    }
+    let found = at(&["--records", "1.csv", "2.csv", "3.csv"]);
+    for (factor, (_, peak)) in found["factors"].as_array().unwrap().iter().zip(names) {
+        assert!((factor.as_f64().unwrap() * peak / (0.3 * 9.81 * 1.106) - 1.0).abs() < 1e-12, "{factor}");
+    }
+    let text = printed(&folder, &[&study[..], &["--level", "SLV"]].concat());
+    assert_has(&text, &["3 motions at SLV (factors", "N 84 %", "[kN/m]", "N_y [kN]"]);
+    let words = ["scene.toml, line", "SLC is not stated; give its ag, F0 and TC"];
+    refused(&folder, &[&study[..], &["--level", "SLC"]].concat(), &words);
+    std::fs::write(folder.join("bare.toml"), scene.split("records").next().unwrap()).unwrap();
+    let bare = ["study", "tie", "bare.toml", "--strength", "1e4", "--level", "SLV"];
+    refused(&folder, &bare, &["there are no records; give --records, or [check.records]"]);
+}
+
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.
 const TIED: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n[force_law]\na1 = 0.03\n\
     [tie]\ntie_stiffness = 200e3\ntie_height = 3\ntie_slack = 0.03\ntie_strength = 5e3\n\
@@ -269,7 +308,8 @@ fn the_smallest_wall_that_passes_is_found() {
         let names: Vec<_> = checks.iter().map(|check| check["check"].as_str().unwrap()).collect();
         assert_eq!(names, ["SLV with q", "SLV"]);
         assert_eq!(checks[1]["curve"].as_array().unwrap().len(), 241);
-        assert!(content(&folder, "find.svg").contains("ζ_E"));
+        let chart = content(&folder, "find.svg");
+        assert!(chart.contains("ζ_E") && chart.contains(&format!("{sought} (")), "{sought}");
     }
     let words = ["tie_strength is sought, but the wall has no tie"];
     refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);

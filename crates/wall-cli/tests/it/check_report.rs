@@ -86,6 +86,7 @@ fn the_report_has_every_number_of_the_worked_example() {
             "Site and building",
             "Spectra",
             "Capacity curve",
+            "The tie",
             "SLD: activation C8.7.1.2.1.5",
             "SLV with q C8.7.1.2.1.7",
             "SLV by displacement C8.7.1.2.1.8",
@@ -99,18 +100,21 @@ fn the_report_has_every_number_of_the_worked_example() {
         ("Verdict", "0.7275 0.7908 0.9131 0.07061 0.1846"),
         ("Statements", "1.35 LC1 C8.7.1.2.1.3"),
         ("Site", "1.2 1.382 0.1474 0.4421 2.2 1.766 1.286 5.59 4.632 4.919 3.051 2.84"),
-        ("Capacity", "28250 2825 0.1 2880 0.981 0.2 0.4989 0.006 0.9516 0.03667 0.7647"),
+        ("Capacity", "28.25 2.825 0.1 2.88 0.981 200 0.4989 6 0.9516"),
+        ("The tie", "36.67 0.7647"),
         ("SLD", "0.7049 9.982 0.07061 0.01059 [C8.7.1.9] [C7.2.5]"),
         ("SLV with q", "1.41 7.637 0.1846"),
-        ("SLV by", "0.03667 2.522 0.6363 4.914 0.0504 0.03898 0.7275 0.1091 2.261 0.7908"),
-        ("SLC by", "0.12 0.2907 3.149 0.5232 0.1314 0.03629 0.9131 0.137 [C8.7.1.11]"),
-        ("Warnings", "a_g does not rise from SLD to SLV"),
+        ("SLV by", "36.67 2.522 0.6363 4.914 50.4 38.98 0.7275 0.1091 2.261 0.7908"),
+        ("SLC by", "120 0.2907 3.149 0.5232 131.4 36.29 0.9131 0.137 [C8.7.1.11]"),
+        ("Warnings", "ag does not rise from SLD to SLV"),
     ] {
         assert_has(&section(&page, title), &numbers.split(' ').collect::<Vec<_>>());
     }
     // the wall, two spectra and the curves of both sides; these with a form for phones
     assert_eq!(page.matches("<svg").count(), 1 + 2 * 4);
-    assert!(page.contains("K = 200 kN/m") && page.contains("Nₛ = 5 kN"));
+    assert!(
+        page.contains("K = 200 kN/m") && page.contains("y</tspan><tspan dy=\"-3\">&#8203;</tspan> = 5 kN")
+    );
     let readings = section(&page, "Readings");
     assert_has(&readings, &["A tie:", "Units of ξk"]);
     assert!(!readings.contains("several modes") && !readings.contains("Runs under records"), "{readings}");
@@ -158,7 +162,7 @@ fn runs_under_records_stand_in_the_report() {
         ("Statements", "Not checked, for want of a site: SLD, SLC"),
         ("Readings", "Runs under records"),
         // both terms of an eccentric overburden
-        ("Capacity", "[(14130 + 3000) · 0.4 − 2 · 3000 · (-0.05)]/2"),
+        ("Capacity", "[(14.13 + 3) · 0.4 − 2 · 3 · (-0.05)]/2"),
     ] {
         assert_has(&section(&page, title), &[words]);
     }
@@ -213,8 +217,8 @@ fn every_kind_of_wall_and_demand_has_its_report() {
     check_whole(&page);
     for (title, words) in [
         ("Statements", "a uniform beam with E = 750 MPa"),
-        ("Capacity", "2/1.8 · (13240 + 10000) · 0.25 + 10000 · (0.25 + 2 · (0))/1.2"),
-        ("Capacity", "2.2 · (3/0.25) · 3 · √(1800/750000000)"),
+        ("Capacity", "2/1.8 · (13.24 + 10) · 0.25 + 10 · (0.25 + 2 · (0))/1.2"),
+        ("Capacity", "2.2 · (3/0.25) · 3 · √(1800/(750 · 10⁶))"),
         ("Site", "the wall stands on the ground"),
         ("SLV by", "[3.2.10]"),
     ] {
@@ -265,4 +269,103 @@ fn the_project_and_the_language_are_stated() {
     }
     std::fs::write(folder.join("scene.toml"), TIED).unwrap();
     refused(&folder, &["check", "scene.toml", "--report", "r.pdf"], &["no output is a PDF", "browser"]);
+}
+
+/// A façade on a building, held by a bar or by a brittle tie, examples 13 and 11 of the check: what the bar
+/// makes, and the forces of the tie and of one anchor.
+#[test]
+fn a_tie_has_its_own_section() {
+    let folder = folder("report_tie");
+    let facade = "[geometry]\nheight = 7\nthickness = 0.5\ndensity = 1900\noverburden = 12e3\n\
+        overburden_eccentricity = 0.1\n[tie]\ntie_height = 6.8\ntie_side = \"positive\"\n";
+    let check = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\noverburden_mass = 1\n\
+        rocking = \"one_sided_positive\"\nsoil = \"B\"\n\
+        building = { storeys = 3, period = 0.32, height_ratio = 0.37 }\n\
+        SLD = { ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }\n\
+        SLV = { ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.1 }\n\
+        SLC = { ag = 0.334, F0 = 2.4, TC = 0.364, building_damping = 0.15 }\n";
+    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, \
+               yield_stress = 235e6, ultimate_strain = 0.02, anchor_capacity = 60e3, spacing = 3 } }\n";
+    let page = report(&folder, &format!("{facade}{check}{bar}"), &[]);
+    check_whole(&page);
+    let tie = section(&page, "The tie");
+    for numbers in [
+        // K, N_y, e_p, u_r, α0, a, N of the tie and of one anchor
+        "2346 kN/m",
+        "= 47.25 kN",
+        "= 15.75 kN",
+        "= 113.3 mm",
+        "= 61.76 mm",
+        "= 0.4009",
+        "71.3615.7515.7547.25at its strength",
+        "140.7000broken",
+        // what the activation needs, of one anchor three times as much
+        "SLD5.9645.96417.89",
+        "SLV with q6.6686.66820.01",
+        "ζE = 0.4849",
+    ] {
+        assert_has(&tie, &[numbers]);
+    }
+    assert_has(
+        &section(&page, "The wall"),
+        &["bar_diameter16 mm[check] tie", "tie_stiffness2346 kN/mcomputed"],
+    );
+    assert_has(
+        &section(&page, "SLD"),
+        &["with the tie at its strength, with FC", "a/FC = 3.933/1.35 = 2.913"],
+    );
+    // a_Z of SLV is below that of the ground
+    assert_has(&section(&page, "SLV with q"), &["the ground governs", "ag S = 2.56 · 1.153 = 2.953"]);
+    // the tie fills a quarter of the curve, which needs no second figure
+    assert!(!page.contains("The beginning of the curve"));
+    let brittle = facade.to_owned() + "tie_stiffness = 5e6\ntie_strength = 10e3\n" + check;
+    let page = report(&folder, &brittle, &[]);
+    check_whole(&page);
+    assert_has(&plain(&page), &["The beginning of the curve, u > 0, up to d = 2.379 mm"]);
+    assert!(!section(&page, "The tie").contains("one anchor"));
+    assert_has(&section(&page, "Statements"), &["The tie does not count at the activation"]);
+}
+
+/// A strip whose hinge is searched and set back, examples 6 and 7 of the check: what each rule gives, and the
+/// force of the side with its own hinge.
+#[test]
+fn hinges_have_their_own_section() {
+    let folder = folder("report_hinges");
+    let scene = |hinge: &str, ratio: &str| {
+        format!(
+            "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3.4\nthickness = 0.4\ndensity = 1900\n\
+             overburden = 60e3\noverburden_eccentricity = 0.05\n{ratio}\n[force_law]\na1 = 0.03\n\
+             [check]\ncode = \"circolare-2019\"\nhinge = {hinge:?}\nbefore_activation = \"law\"\n\
+             soil = \"B\"\nmasonry_strength = 1.5e6\nconfidence_factor = 1.2\n\
+             building = {{ storeys = 3, period = 0.32, height_ratio = 0.83 }}\n\
+             SLD = {{ ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }}\n\
+             SLV = {{ ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.1 }}\n\
+             SLC = {{ ag = 0.334, F0 = 2.4, TC = 0.364, building_damping = 0.15 }}\n"
+        )
+    };
+    let page = report(&folder, &scene("worst", ""), &[]);
+    check_whole(&page);
+    let hinges = section(&page, "Hinges");
+    assert_has(
+        &hinges,
+        &[
+            "least_alpha00.659",
+            "worst0.80440.8003yes",
+            "min α0 = 1.465",
+            "SLV with q0.63182.202",
+            "SLV0.62740.8159",
+        ],
+    );
+    let curve = section(&page, "Capacity");
+    // of each side its own hinge
+    assert_eq!(curve.matches("(2/h1) (W + O) b + O (b + 2 c)/h2 = 2/").count(), 2, "{curve}");
+    assert_has(&curve, &["h1 = 2.735 m", "= 52.03 kN", "= 42.1 kN"]);
+    let page = report(&folder, &scene("given", "hinge_ratio = 0.5"), &[]);
+    let hinges = section(&page, "Hinges");
+    assert_has(
+        &hinges,
+        &["fd = fm/(γ FC) = 1.5/(1 · 1.2) = 1.25 MPa", "= 40.16 mm", "= 34.2 mm", "= 28.24 mm"],
+    );
+    assert_has(&hinges, &["given0.5"]);
+    assert_has(&section(&page, "Capacity"), &["α0 = Fact/W = 47.93/25.35 = 1.891"]);
 }

@@ -185,6 +185,12 @@ fn italian_reports_have_no_english() {
     let beam =
         STRIP.replace("\"law\"", "\"beam\"\nyoung_modulus = 1e9").replace("\"worst\"", "\"least_alpha0\"");
     let anchor = TIED.replace("60e3", "30e3");
+    let (before, after) = TIED.split_once("[tie.bar]").unwrap();
+    let check = after.split_once("[check]").unwrap().1.replace("yield", "none");
+    let brittle =
+        format!("{before}tie_stiffness = 5e6\ntie_strength = 10e3\ntie_slack = 0.001\n[check]{check}");
+    let given =
+        STRIP.replace("\"worst\"", "\"given\"").replace("[force_law]", "hinge_ratio = 0.6\n[force_law]");
     for (name, scene) in [
         ("strip", STRIP),
         ("beam", &beam),
@@ -193,6 +199,8 @@ fn italian_reports_have_no_english() {
         ("site", SITE),
         ("tied", TIED),
         ("anchor", &anchor),
+        ("brittle", &brittle),
+        ("given", &given),
         ("fractions", FRACTIONS),
     ] {
         fs::write(folder.join("scene.toml"), scene).unwrap();
@@ -232,6 +240,8 @@ fn a_report_of_walls_has_a_cover_and_sheets() {
             "<p>Governing wall: <span translate=\"no\">tie &amp; co</span></p>",
             "<td><span translate=\"no\">low</span></td>",
             "Stamp and signature",
+            // the data of each wall, beside its numbers
+            "<td>simple overturning</td><td>2.5</td><td>0.3</td><td>0</td>",
         ],
     );
     // the worst first, each with its own numbers and where they come from
@@ -251,7 +261,13 @@ fn a_report_of_walls_has_a_cover_and_sheets() {
     let italian = content(&folder, "muri.html");
     assert_has(
         &italian,
-        &["tie &amp; co", "Parete determinante:", "<html lang=\"it\"", "Riepilogo delle pareti"],
+        &[
+            "tie &amp; co",
+            "Parete determinante:",
+            "Pareti che soddisfano la verifica: ",
+            "<html lang=\"it\"",
+            "Riepilogo delle pareti",
+        ],
     );
 
     // a wall that cannot be checked stands on the cover; the report is written all the same

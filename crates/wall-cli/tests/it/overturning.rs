@@ -120,5 +120,6 @@ fn a_tie_that_holds_a_wall_beyond_u_ins() {
     assert!(falls[0] > 0.0 && back[1] > 0.0, "{told}");
     assert!(falls.is_sorted_by(|a, b| a >= b), "a stiffer tie lets fewer walls fall: {told}");
     let force = column("force_max_n")[1] / 1000.0;
-    assert!(told.contains(&format!("{force:.4}")[..5]), "{force} kN: {told}");
+    // four digits
+    assert!(told.contains(&format!("{force:.3}")) && force < 10.0, "{force} kN: {told}");
 }

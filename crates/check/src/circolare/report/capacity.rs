@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
-use crate::circolare::{Activation, Checked, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::circolare::{Activation, Checked, LimitState, Side, SideVerdict};
 use crate::error::CheckError;
 use crate::report::Figure;
 use ::report::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
+use rocking_wall::wall::{Body, Parameters};
 
-use crate::report::markup::{Calculation, formula, shown as n, side_head};
+use super::hinges::body_of;
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head};
 
 pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut text = String::new();
@@ -22,6 +24,9 @@ pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     for (name, _, side) in case.sides() {
         if side.slv.is_some() || side.slc.is_some() {
             text += &figure(case, name, side)?.html();
+            if let Some(d) = cut(side) {
+                text += &detail(case, name, side, d)?.html();
+            }
         }
     }
     Ok(text)
@@ -54,7 +59,29 @@ pub(in crate::circolare) fn figure(
          the triangle of the same colour. <span class=\"key\">{key}</span>",
         ::report::escaped(name)
     );
-    Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands)? })
+    Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands, None)? })
+}
+
+/// The share of the axis below which what a tie does cannot be read \[-\].
+const HIDDEN: f64 = 0.3;
+
+/// Where to cut the axis of d so that the tie can be read: at twice `u_r`, or `u_y` of a tie that lasts;
+/// `None` where the whole curve shows it \[m\].
+fn cut(side: &SideVerdict) -> Option<f64> {
+    let tie = side.tie?;
+    let d = 2.0 * side.d_per_u * tie.breaks.filter(|breaks| side.d_per_u * breaks < side.d0).or(tie.yields)?;
+    (d > 0.0 && d < HIDDEN * side.d0).then_some(d)
+}
+
+/// The beginning of the curve, up to d = `cut`.
+fn detail(case: &Checked<'_>, name: &str, side: &SideVerdict, cut: f64) -> Result<Figure, CheckError> {
+    let caption = format!(
+        "The beginning of the curve, {}, up to {} = {} mm: where the tie pulls and gives way.",
+        ::report::escaped(name),
+        formula("d"),
+        millimetres(cut)
+    );
+    Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands, Some(cut))? })
 }
 
 /// The numbers of one side, from the force to the curve.
@@ -65,34 +92,28 @@ fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
     let o = body.overburden;
     let SideVerdict { alpha0, mass, a0, d0, d_per_u, acting_force, pushed_weight, .. } = *verdict;
     let mut lines = Calculation::default();
+    let specific = 1e-3 * parameters.density * parameters.gravity;
     let [rho, h, b, l, g] =
         [parameters.density, parameters.height, parameters.thickness, parameters.width, parameters.gravity]
             .map(n);
-    lines.line(
-        ["Weight", ""],
-        ["W = ρ h b l g", &format!("{rho} · {h} · {b} · {l} · {g}")],
-        (body.weight, "N"),
-    );
-    let (left, put) = force(case, side, acting_force);
-    let has_plateau = parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear;
-    let words = if has_plateau {
-        "Largest force of the law"
-    } else {
-        "Force at u = 0 of the line that falls to its zero"
-    };
-    lines.line([words, ""], [left, &put], (acting_force, "N"));
+    lines.line(["Specific weight", ""], ["γ = ρ g", &format!("{rho} · {g} · 10⁻³")], (specific, "kN/m³"));
+    let put = format!("{} · {h} · {b} · {l}", n(specific));
+    lines.line(["Weight", ""], ["W = γ h b l", &put], (1e-3 * body.weight, "kN"));
+    force(case, side, verdict, &mut lines);
     let is_parapet = body.mechanism == Mechanism::Parapet;
     let loaded = is_parapet && o > 0.0;
     let divisor = if loaded { "α0 = F_act/(W + 2 r O)" } else { "α0 = F_act/W" };
-    let put = format!("{}/{}", n(acting_force), n(pushed_weight));
-    lines.line(["Multiplier of activation", "[C8.7.1.1]"], [divisor, &put], (alpha0, ""));
+    let put = format!("{}/{}", kilonewtons(acting_force), kilonewtons(pushed_weight));
+    let words = "Multiplier of activation, without FC";
+    lines.line([words, "[C8.7.1.1]"], [divisor, &put], (alpha0, ""));
     lines.line(["One resultant on each body", "[C8.7.1.5]"], ["e*", ""], (verdict.e_star, ""));
     let (formula_of, put) = if loaded {
-        ("M* = e* (W + r O)/g", format!("1 · ({} + {} · {})/{g}", n(body.weight), n(r), n(o)))
+        let put = format!("1 · ({} + {} · {})/{g}", kilonewtons(body.weight), n(r), kilonewtons(o));
+        ("M* = e* (W + r O)/g", put)
     } else {
-        ("M* = e* W/g", format!("1 · {}/{g}", n(body.weight)))
+        ("M* = e* W/g", format!("1 · {}/{g}", kilonewtons(body.weight)))
     };
-    lines.line(["Participating mass", ""], [formula_of, &put], (mass, "kg"));
+    lines.line(["Participating mass", ""], [formula_of, &put], (1e-3 * mass, "t"));
     let put = format!("{} · {g}/1", n(alpha0));
     lines.line(["Acceleration of activation, without FC", ""], ["a_0 = α0 g/e*", &put], (a0, "m/s²"));
     let ratio = match (is_parapet, loaded) {
@@ -101,39 +122,80 @@ fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
         (false, _) => "d/u = 1/2 · W/W",
     };
     lines.line(["Displacement of the code over that of the model", "[C8.7.1.4]"], [ratio, ""], (d_per_u, ""));
-    let put = format!("{} · {}", n(d_per_u), n(d0 / d_per_u));
+    let put = format!("{} · {}", n(d_per_u), millimetres(d0 / d_per_u));
     let words = "Zero of the curve of the wall without a tie";
-    lines.line([words, "C8.7.1.2.1.6"], ["d_0 = (d/u) u_0", &put], (d0, "m"));
+    lines.line([words, "C8.7.1.2.1.6"], ["d_0 = (d/u) u_0", &put], (1e3 * d0, "mm"));
     elastic(case, verdict, &mut lines);
-    if let Some(broken) = &verdict.tie_break {
-        tie(case, verdict, broken, &mut lines);
-    }
     lines.table()
 }
 
-/// The formula of `F_act` and the numbers put in, where it is F0 of Eq. (1).
-fn force(case: &Checked<'_>, side: Side, acting: f64) -> (&'static str, String) {
+/// Adds F0 of Eq. (1) with the hinges at the edges, where the side has them, and `F_act`.
+fn force(case: &Checked<'_>, side: Side, verdict: &SideVerdict, lines: &mut Calculation) {
     let parameters = &case.parameters;
-    let body = case.wall.body();
-    let sign = if side == Side::Negative { -1.0 } else { 1.0 };
-    let strength = body.strength.of(sign);
-    if (acting - strength).abs() > 1e-9 * strength {
-        return ("F_act", String::new());
+    let acting = verdict.acting_force;
+    let body = body_of(case, verdict);
+    let strength = body.strength.of(if side == Side::Negative { -1.0 } else { 1.0 });
+    if parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear {
+        lines.line(["Largest force of the law", ""], ["F_act", ""], (1e-3 * acting, "kN"));
+        return;
     }
     let follows = parameters.eccentricity_mode == EccentricityMode::FollowsPivot;
-    let c = if follows { 1.0 } else { sign } * parameters.overburden_eccentricity;
-    let [w, o, b, h, c] = [body.weight, body.overburden, parameters.thickness, body.height, c + 0.0].map(n);
-    match body.mechanism {
-        Mechanism::Parapet if body.overburden == 0.0 => ("F_act = F0 = W b/h", format!("{w} · {b}/{h}")),
-        Mechanism::Parapet => {
-            ("F_act = F0 = [(W + O) b − 2 O c]/h", format!("[({w} + {o}) · {b} − 2 · {o} · ({c})]/{h}"))
-        }
+    let sign = if side == Side::Negative && !follows { -1.0 } else { 1.0 };
+    let c = n(sign * parameters.overburden_eccentricity + 0.0);
+    let [w, o] = [body.weight, body.overburden].map(kilonewtons);
+    let [b, h] = [parameters.thickness, body.height].map(n);
+    let (left, put) = match body.mechanism {
+        Mechanism::Parapet if body.overburden == 0.0 => ("W b/h", format!("{w} · {b}/{h}")),
+        Mechanism::Parapet => ("[(W + O) b − 2 O c]/h", format!("[({w} + {o}) · {b} − 2 · {o} · ({c})]/{h}")),
         Mechanism::VerticalSpanning => {
             let [h1, h2] = [body.hinge_height, body.height - body.hinge_height].map(n);
+            lines.line(["Height of the hinge", ""], ["h_1", ""], (body.hinge_height, "m"));
             let put = format!("2/{h1} · ({w} + {o}) · {b} + {o} · ({b} + 2 · ({c}))/{h2}");
-            ("F_act = F0 = (2/h_1) (W + O) b + O (b + 2 c)/h_2", put)
+            ("(2/h_1) (W + O) b + O (b + 2 c)/h_2", put)
         }
+    };
+    let value = (1e-3 * strength, "kN");
+    if (acting - strength).abs() <= 1e-9 * strength {
+        let words = "Force at u = 0 of the line that falls to its zero";
+        lines.line([words, ""], [&format!("F_act = F0 = {left}"), &put], value);
+        return;
     }
+    let words = "Force at u = 0 with the hinges at the edges";
+    lines.line([words, ""], [&format!("F0 = {left}"), &put], value);
+    let words = "Force at u = 0 of the line that falls to its zero";
+    let (left, put) = if case.statement.masonry.is_some() {
+        set_back(&body, parameters, sign * parameters.overburden_eccentricity, verdict)
+    } else {
+        ("F_act".to_owned(), String::new())
+    };
+    lines.line([words, ""], [&left, &put], (1e-3 * acting, "kN"));
+}
+
+/// F0' of hinges that are set back: the formula and the numbers put in; c is that of the side.
+fn set_back(body: &Body, parameters: &Parameters, c: f64, verdict: &SideVerdict) -> (String, String) {
+    let strength = kilonewtons(verdict.acting_force / verdict.a3);
+    let [all, o, h] =
+        [kilonewtons(body.weight + body.overburden), kilonewtons(body.overburden), n(body.height)];
+    let [t_b, t_m, t_t] =
+        [verdict.set_back.base, verdict.set_back.middle, verdict.set_back.top].map(millimetres);
+    if body.mechanism == Mechanism::Parapet {
+        let put = format!("{strength} − 2/{h} · {all} · {t_b} · 10⁻³");
+        return ("F_act = F0 − (2/h) (W + O) t_b".to_owned(), put);
+    }
+    let h2 = body.height - body.hinge_height;
+    let above = kilonewtons(body.weight * h2 / body.height + body.overburden);
+    let [h1, h2] = [body.hinge_height, h2].map(n);
+    let mut left = "F_act = F0 − (2/h_1) (W + O) t_b − 2 (W_2 + O) t_m h/(h_1 h_2)".to_owned();
+    let mut put = format!(
+        "{strength} − 2/{h1} · {all} · {t_b} · 10⁻³ − 2 · {above} · {t_m} · 10⁻³ · {h}/({h1} · {h2})"
+    );
+    // the overburden passes no nearer to the edge than the set-back of the top
+    if c > 0.5 * parameters.thickness - verdict.set_back.top {
+        left += " − (2/h_2) O [c − (b/2 − t_t)]";
+        let [c, b] = [c, parameters.thickness].map(n);
+        put += &format!(" − 2/{h2} · {o} · [{c} − ({b}/2 − {t_t} · 10⁻³)]");
+    }
+    (left, put)
 }
 
 /// Adds T0, `d_y` and `a_y`.
@@ -146,55 +208,27 @@ fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
         }
         Some(Activation::Law) => {
             let at_end = dy * (TAU / t0).powi(2);
-            let put = format!("2π √({}/{})", n(dy), n(at_end));
+            let put = format!("2π √({} · 10⁻³/{})", millimetres(dy), n(at_end));
             let words =
                 format!("Period of the elastic branch of the force law, to its end {}", formula("d_1, a_1"));
             lines.line([&words, "[C8.7.1.6]"], ["T0 = 2π √(d_1/a_1)", &put], (t0, "s"));
-            lines.line(["End of the elastic branch", ""], ["d_y = d_1", ""], (dy, "m"));
+            lines.line(["End of the elastic branch", ""], ["d_y = d_1", ""], (1e3 * dy, "mm"));
             lines.line(["Largest acceleration, without FC", ""], ["a_y", ""], (ay, "m/s²"));
         }
         Some(Activation::Beam) => {
             let parapet = parameters.mechanism == Mechanism::Parapet;
             let factor = if parapet { "6.2" } else { "2.2" };
             let [h, b, rho] = [parameters.height, parameters.thickness, parameters.density].map(n);
-            let e = n(case.statement.table.young_modulus.unwrap_or(f64::NAN));
-            let put = format!("{factor} · ({h}/{b}) · {h} · √({rho}/{e})");
+            let e = n(1e-6 * case.statement.table.young_modulus.unwrap_or(f64::NAN));
+            let put = format!("{factor} · ({h}/{b}) · {h} · √({rho}/({e} · 10⁶))");
             let words = "Period of a uniform beam";
             lines.line([words, "[C8.7.1.7]"], ["T0 = κ λ L √(W_s/(E g))", &put], (t0, "s"));
             let k = (TAU / t0).powi(2);
-            let put = format!("{}/({} + {}/{})", n(a0), n(k), n(a0), n(d0));
+            let put = format!("{}/({} + {}/({} · 10⁻³)) · 10³", n(a0), n(k), n(a0), millimetres(d0));
             let words = "End of the elastic branch";
-            lines.line([words, "[C8.7.1.6]"], ["d_y = a_0/(4π²/T0² + a_0/d_0)", &put], (dy, "m"));
-            let put = format!("{} · {}", n(k), n(dy));
+            lines.line([words, "[C8.7.1.6]"], ["d_y = a_0/(4π²/T0² + a_0/d_0)", &put], (1e3 * dy, "mm"));
+            let put = format!("{} · {} · 10⁻³", n(k), millimetres(dy));
             lines.line(["Acceleration there, without FC", ""], ["a_y = (4π²/T0²) d_y", &put], (ay, "m/s²"));
         }
     }
-}
-
-/// Adds where the tie breaks, and what the curve loses there.
-fn tie(case: &Checked<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
-    let parameters = &case.parameters;
-    let [n_s, k, g0, h, y] = [
-        parameters.tie_strength,
-        parameters.tie_stiffness,
-        parameters.tie_slack,
-        parameters.height,
-        parameters.tie_height,
-    ]
-    .map(n);
-    let TieBreak { u, before, after, largest, loss } = *broken;
-    let e_p = n(parameters.tie_ultimate);
-    let put = format!("({n_s}/{k} + {g0} + {e_p}) · {h}/(2 · {y})");
-    lines.line(["The tie breaks at", ""], ["u_r = (N_y/K + g_0 + e_p) h/(2 y)", &put], (u, "m"));
-    let [before, after, most] = [before, after, largest].map(n);
-    let put = format!("({before} − {after})/{most}");
-    let words = "What the curve loses there for good, over its largest a";
-    lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
-    let early = verdict.slv.is_some_and(|check| check.limited_by_tie);
-    let decides = if early {
-        format!("more than {LARGEST_LOSS}, before 0.40 {}: {} is there", formula("d_0"), formula("d_SLV"))
-    } else {
-        format!("{} stays at 0.40 {}", formula("d_SLV"), formula("d_0"))
-    };
-    lines.say("Consequence", &decides);
 }

@@ -4,7 +4,10 @@ use crate::circolare::{
     Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Method, RecordScale, Source,
 };
 use crate::report::Origin;
+use ::report::escaped;
 use rocking_wall::variables::Mechanism;
+
+use crate::circolare::table::{AtActivation, Rocks};
 
 use crate::report::markup::{formula, stated, table};
 
@@ -19,6 +22,21 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     state(activation(case), &["before_activation"]);
     if case.parameters.overburden > 0.0 {
         state(overburden(case), &["overburden_mass"]);
+    }
+    if let Some(rocks) = statement.table.rocking {
+        let said = match rocks {
+            Rocks::TwoSided => "The wall rocks to both sides.",
+            Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only.",
+            Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only.",
+        };
+        state(escaped(said), &["rocking"]);
+    }
+    if case.wall.tie().is_some() {
+        let said = match statement.at_activation() {
+            AtActivation::Yield => "The tie pulls with its strength at the activation.",
+            AtActivation::None => "The tie does not count at the activation (SLD, SLV with q).",
+        };
+        state(said.into(), &["tie"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
     let compression = if statement.table.compression_considered || statement.masonry.is_some() {
@@ -73,7 +91,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
             "[check]".to_owned(),
         ]);
     }
-    table(&["statement", "from"], &rows)
+    format!("<div class=\"from\">{}</div>", table(&["statement", "from"], &rows))
 }
 
 fn scale(scale: RecordScale) -> String {

@@ -6,7 +6,7 @@ use crate::circolare::{
     StateStatement, Statement,
 };
 
-use crate::report::markup::{Calculation, formula, result, shown as n, side_head};
+use crate::report::markup::{Calculation, formula, millimetres, result, shown as n, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;
@@ -17,10 +17,10 @@ pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
     let q = case.statement.behaviour_factor;
     let checks: [(&str, LimitState, &Check<'_>); 4] = [
         ("SLD: activation C8.7.1.2.1.5", LimitState::Sld, &|side, given, demand| {
-            Some(activation(case, (given, demand, xi), side.sld?, 1.0))
+            Some(activation((case, side), (given, demand, xi), side.sld?, 1.0))
         }),
         ("SLV with q C8.7.1.2.1.7", LimitState::Slv, &|side, given, demand| {
-            Some(activation(case, (given, demand, xi), side.slv_q?, q))
+            Some(activation((case, side), (given, demand, xi), side.slv_q?, q))
         }),
         ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
             Some(displacement(side, (given, demand, case.statement), side.slv?))
@@ -53,7 +53,7 @@ fn one(case: &Checked<'_>, state: LimitState, check: &Check<'_>) -> String {
 
 /// A check of accelerations, with a factor q.
 fn activation(
-    case: &Checked<'_>,
+    (case, side): (&Checked<'_>, &SideVerdict),
     (given, demand, xi): (&StateStatement, &Demand, f64),
     check: ActivationCheck,
     q: f64,
@@ -61,14 +61,23 @@ fn activation(
     let held = check.t0 == 0.0;
     let mut lines = Calculation::default();
     let factor = n(case.statement.confidence_factor);
-    let (symbol, source) = if held { ("a_0", "[C8.7.1.8]") } else { ("a_y", "[C8.7.1.9]") };
+    let own = if held { side.a0 } else { side.ay };
+    // with its tie at the strength the side has more than by itself
+    let is_tied = check.acceleration > own * (1.0 + 1e-9);
+    let (symbol, source) = match (is_tied, held) {
+        (true, true) => ("a", "[C8.7.1.8]"),
+        (true, false) => ("a", "[C8.7.1.9]"),
+        (false, true) => ("a_0", "[C8.7.1.8]"),
+        (false, false) => ("a_y", "[C8.7.1.9]"),
+    };
+    let words = if is_tied { "Capacity with the tie at its strength, with FC" } else { "Capacity, with FC" };
     let value = n(check.acceleration);
     let (left, put) = if q == 1.0 {
         (format!("{symbol}/FC"), format!("{value}/{factor}"))
     } else {
         (format!("q {symbol}/FC"), format!("{} · {value}/{factor}", n(q)))
     };
-    lines.line(["Capacity", source], [&left, &put], (check.capacity, "m/s²"));
+    lines.line([words, source], [&left, &put], (check.capacity, "m/s²"));
     let at_t0 =
         || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(check.t0), formula("ξ"), n(100.0 * xi));
     let (words, source, left, put) = match demand {
@@ -77,6 +86,15 @@ fn activation(
             ("Demand".to_owned(), "[3.2.2], T = 0", "a_g S", put)
         }
         Demand::Ground(_) => (at_t0(), "[3.2.2]", "S_e(T0, ξ)", String::new()),
+        Demand::Floor(floor) if check.demand == floor.ground().acceleration(0.0, 0.05) => {
+            let ground = floor.ground();
+            let put = format!("{} · {}", n(ground.a_g), n(ground.s));
+            let words = format!(
+                "Demand: the ground governs, above the {} of the height",
+                if held { formula("a_Z") } else { formula("S_eZ") }
+            );
+            (words, "[3.2.2]", "a_g S", put)
+        }
         Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),
         Demand::Floor(_) => (at_t0(), "[C7.2.5]", "S_eZ(T0, ξ, z)", String::new()),
         Demand::Points(..) => (at_t0(), "the spectrum given", "S_e(T0, ξ)", String::new()),
@@ -109,7 +127,7 @@ fn displacement(
     let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
     let of_curve = share * check.d0;
     let of_u = |u: &str| {
-        let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
+        let put = format!("{} · {}", n(side.d_per_u), millimetres(check.d / side.d_per_u));
         (format!("{d} = (d/u) {u}"), put)
     };
     let (words, (left, put)) = if check.limited_by_tie {
@@ -117,15 +135,15 @@ fn displacement(
     } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
         ("Capacity, at the local instability stated", of_u("u"))
     } else {
-        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", n(check.d0))))
+        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", millimetres(check.d0))))
     };
-    lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (check.d, "m"));
+    lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (1e3 * check.d, "mm"));
     lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&a, ""], (check.a, "m/s²"));
-    let put = format!("{factor} π √({}/{})", n(check.d), n(check.a));
+    let put = format!("{factor} π √({} · 10⁻³/{})", millimetres(check.d), n(check.a));
     let left = format!("{t} = {factor} π √({d}/a)");
     lines.line(["Period", source], [&left, &put], (check.period, "s"));
     demanded(&mut lines, given, demand, &check);
-    let put = format!("{}/{}", n(check.d), n(check.demand));
+    let put = format!("{}/{}", millimetres(check.d), millimetres(check.demand));
     lines.line(["Capacity over demand", ""], [&format!("{d}/S_d"), &put], (check.ratio, ""));
     if check.raised {
         let left = format!("ζ_E = a_g,SLD/a_g,{state}");
@@ -154,7 +172,7 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
         Demand::Records(_) => ("S_e", "envelope of the records"),
     };
     lines.line([&words, source], [&format!("{symbol}({t}, ξ)"), ""], (check.acceleration, "m/s²"));
-    let put = format!("{} · {period}²/(4π²)", n(check.acceleration));
+    let put = format!("{} · {period}²/(4π²) · 10³", n(check.acceleration));
     let (words, source, left, put) = match (demand, check.demand_terms) {
         (Demand::Points(..) | Demand::Records(_), _) => {
             let words = format!("Demand: the largest from {} to {}", formula("T0"), formula(&t));
@@ -162,12 +180,12 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
         }
         (Demand::Floor(floor), [Some(first), Some(second)]) => {
             let left = format!("S_eZ({t}) {t}²/(4π²)");
-            lines.line(["Demand, first term", "[C8.7.1.12]"], [&left, &put], (first, "m"));
+            lines.line(["Demand, first term", "[C8.7.1.12]"], [&left, &put], (1e3 * first, "mm"));
             let t1 = floor.first_period();
             let at_first = floor.acceleration(t1, given.damping);
-            let put = format!("{} · {BEYOND}² · {}²/(4π²)", n(at_first), n(t1));
+            let put = format!("{} · {BEYOND}² · {}²/(4π²) · 10³", n(at_first), n(t1));
             let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
-            lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (second, "m"));
+            lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (1e3 * second, "mm"));
             ("Demand, the larger".to_owned(), "", "S_d".to_owned(), String::new())
         }
         (Demand::Floor(_), _) => {
@@ -181,5 +199,5 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
             ("Demand".to_owned(), "[3.2.10]", format!("S_d = S_e({t}) {t}²/(4π²)"), put)
         }
     };
-    lines.line([&words, source], [&left, &put], (check.demand, "m"));
+    lines.line([&words, source], [&left, &put], (1e3 * check.demand, "mm"));
 }

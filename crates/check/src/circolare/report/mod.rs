@@ -1,13 +1,16 @@
 //! The sections of the report: every statement, number and check, with its clause and equations.
 
 pub(super) mod capacity;
+mod hinges;
 mod inputs;
 mod limit_states;
+pub(super) mod overview;
 mod readings;
 mod runs;
 mod site;
+mod ties;
 
-use super::table::Activation;
+use super::table::{Activation, Hinge};
 use super::verdict::Checked;
 use crate::error::CheckError;
 use crate::report::{Origin, the_wall};
@@ -22,7 +25,11 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(S
     let is_law = case.statement.table.before_activation == Some(Activation::Law);
     let is_used = |group: &str, name: &str| {
         // a wall that is rigid or a beam before it rocks has no elastic branch of its law
-        let replaced = name == "a1" && !is_dynamic && !is_law;
+        let is_left_out = case.parameters.a3 == 1.0 && matches!(name, "force_law" | "a3" | "softening");
+        let replaced = (name == "a1" || is_left_out) && !is_dynamic && !is_law;
+        // a hinge that is searched has a section of its own
+        let replaced =
+            replaced || name == "hinge_ratio" && case.rule.is_some_and(|rule| rule != Hinge::Given);
         (STATIC.contains(&group) || is_dynamic && DYNAMIC.contains(&group)) && !replaced
     };
     let one = |heading: &str, markup: String| (heading.to_owned(), markup);
@@ -31,8 +38,10 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(S
         one("The wall", the_wall(&case.wall, &case.parameters, origin, &is_used)),
         one("Site and building", site::values(case)),
         one("Spectra", site::figures(case)?),
-        one("Capacity curve", capacity::section(case)?),
     ];
+    sections.extend(hinges::section(case).map(|markup| one("Hinges", markup)));
+    sections.push(one("Capacity curve", capacity::section(case)?));
+    sections.extend(ties::section(case).map(|markup| one("The tie", markup)));
     sections.extend(limit_states::sections(case));
     sections.extend(runs::section(case).map(|markup| one("Runs under records C8.7.1.2.1.9", markup)));
     sections.push(one("Readings of the code", readings::section(case)));

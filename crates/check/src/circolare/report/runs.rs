@@ -3,7 +3,7 @@
 use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
 use ::report::escaped;
 
-use crate::report::markup::{Calculation, formula, result, shown, table};
+use crate::report::markup::{Calculation, formula, millimetres, result, shown, table};
 use crate::report::project::as_written;
 
 /// The section of the dynamic check, if there is one.
@@ -36,20 +36,20 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         thresholds.push(check.d);
         let words = format!("Threshold and zero of the curve, {}", escaped(side));
         let said = format!(
-            "{} = <b>{}</b> m, {} = <b>{}</b> m",
+            "{} = <b>{}</b> mm, {} = <b>{}</b> mm",
             formula(&format!("d_{name}")),
-            shown(check.d),
+            millimetres(check.d),
             formula("d_0"),
-            shown(verdict.d0)
+            millimetres(verdict.d0)
         );
         lines.say(&words, &said);
     }
     let few = case.statement.records.named.len() < MEAN_COUNTS_FROM;
     let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };
-    lines.line([words, "NTC 7.3.5"], ["d", ""], (state.d, "m"));
+    lines.line([words, "NTC 7.3.5"], ["d", ""], (1e3 * state.d, "mm"));
     // with sides of different thresholds the ratio is no quotient of these numbers
     let put = match thresholds[..] {
-        [threshold] => format!("{}/{}", shown(threshold), shown(state.d)),
+        [threshold] => format!("{}/{}", millimetres(threshold), millimetres(state.d)),
         _ => String::new(),
     };
     lines.line(

@@ -3,19 +3,23 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result, bail};
+use check::{CheckFile, Level, Subject, read};
 use clap::Args;
 use ground_motion::{GroundMotion, RecordOptions, Unit};
-use report::counted;
+use report::{counted, number};
+use rocking_wall::scene::{Scene, read_text};
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use run::parallel;
 use run::polarity::Polarities;
+use run::records::NamedRecord;
 use serde_json::json;
 use study::tie::figure::picture;
 use study::tie::{BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
 
-use crate::args::{SceneArguments, read_record};
+use crate::args::{SceneArguments, read_record, short_name};
+use crate::commands::check::MAX_FILE_BYTES;
 use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
@@ -34,6 +38,10 @@ pub(crate) struct Arguments {
     /// Factor on the records
     #[arg(long, requires = "records", value_name = "FACTOR", default_value_t = 1.0)]
     scale: f64,
+    /// Bring the records to the level of a limit state of the table [check], as its dynamic check does: SLD,
+    /// SLV or SLC; without --records those of [check.records]
+    #[arg(long, value_name = "LIMIT_STATE", requires = "scene", conflicts_with = "scale")]
+    level: Option<String>,
     /// Stiffnesses in N/m, separated by commas, from 0 for no tie [default: 0, and 1e-2 to 1e3 of
     /// 2 W/h at the tie]
     #[arg(long, value_name = "N_PER_M", value_delimiter = ',', group = "varied")]
@@ -72,7 +80,11 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
-    let records = records(console, arguments)?;
+    let named = records(console, arguments)?;
+    let (records, factors) = match &arguments.level {
+        Some(state) => at_level(arguments, &mut scene, named, state)?,
+        None => (named.into_iter().map(|record| record.motion).collect(), Vec::new()),
+    };
     let study = TieStudy::new(scene, varied(arguments), records, arguments.both_polarities);
     let study = arguments.scene.named(study)?;
     let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
@@ -87,6 +99,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
             "tie_height": (*study.varied() != HEIGHT).then_some(tie_height),
             "tie_side": tie_side.name(),
             "motions": study.motions(),
+            "level": arguments.level,
+            "factors": factors,
             "alike_on_both_sides": study.polarities() == Polarities::Alike,
             "rows": table.json(),
         }));
@@ -100,7 +114,38 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
     let place = if *study.varied() == HEIGHT { String::new() } else { format!(" at {tie_height} m") };
     let table = table.text();
-    console.print(&format!("{title}, tie{place} against {side}, {motions}\n\n{table}{note}{written}"))
+    let level = arguments.level.as_ref().map_or_else(String::new, |state| {
+        let [least, largest] = [f64::min, f64::max].map(|of| factors.iter().copied().reduce(of));
+        let ends = [least, largest].map(|end| number(end.unwrap_or(f64::NAN), 3));
+        format!(" at {state} (factors {} to {})", ends[0], ends[1])
+    });
+    console.print(&format!("{title}, tie{place} against {side}, {motions}{level}\n\n{table}{note}{written}"))
+}
+
+/// The records at the level of a limit state of the check, and their factors; gives the wall the tie and the
+/// building that the check has there.
+fn at_level(
+    arguments: &Arguments,
+    scene: &mut Scene,
+    named: Vec<NamedRecord>,
+    state: &str,
+) -> Result<(Vec<GroundMotion>, Vec<f64>)> {
+    let path = arguments.scene.scene.as_ref().context("--level needs a scene with a table [check]")?;
+    let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
+    let file = CheckFile::parse(&name, &text)?.with_records(named);
+    let located = |error| file.located(error);
+    let code = read(&file).map_err(located)?;
+    let assumed = file.assumed(&arguments.scene.set);
+    let subject = Subject { assumed: &assumed, ..(&*scene).into() };
+    let Some(Level { factors, floors }) = code.level(subject, state).map_err(located)? else {
+        bail!("{name}: --level: code = {:?} has no limit states with runs", code.entry().name);
+    };
+    let motions = code.records().named.iter().zip(&factors);
+    let motions = motions.map(|(record, factor)| record.motion.checked_scaled(*factor));
+    let motions = motions.collect::<Result<_, _>>()?;
+    scene.parameters = code.prepared(&scene.parameters).map_err(located)?;
+    scene.floors = floors;
+    Ok((motions, factors))
 }
 
 /// What is varied, and its values.
@@ -117,7 +162,7 @@ fn varied(arguments: &Arguments) -> (&'static Varied, &[f64]) {
 }
 
 /// The records asked for, scaled.
-fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<GroundMotion>> {
+fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<NamedRecord>> {
     let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
     let options = RecordOptions { unit, ..RecordOptions::default() };
     let mut motions = Vec::new();
@@ -127,7 +172,7 @@ fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<GroundMot
         if let Some(warning) = motion.warning().filter(|_| arguments.scale.abs() > 1.0) {
             console.warn(&format!("{}: {warning}", path.display()));
         }
-        motions.push(motion);
+        motions.push(NamedRecord { name: short_name(path), motion });
     }
     Ok(motions)
 }

@@ -1,10 +1,10 @@
 //! The smallest thickness or tie, or the largest height, with which a wall passes each of its checks.
 
+mod figure;
+
 use std::fmt::Write;
 
 use report::number;
-use report::palette::{BLUE, DARK_GREY, GREEN, RED};
-use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
 use serde_json::{Value, json};
@@ -20,8 +20,6 @@ const TRIED_UNDER_RECORDS: u32 = 31;
 const HALVINGS: u32 = 30;
 /// Force of a tie over W + O above which it is said to be large \[-\].
 const LARGE: f64 = 0.5;
-/// Colours of the lines of checks.
-const COLORS: [&str; 4] = [BLUE, RED, GREEN, DARK_GREY];
 
 /// What is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,43 +201,7 @@ impl Found {
             "checks": self.checks.iter().map(one).collect::<Vec<_>>(),
         })
     }
-
-    /// Draws capacity over demand of each check over the values that were tried, up to three times the one
-    /// found; the limit 1, and that value.
-    pub fn plot(&self) -> Plot {
-        let (name, unit) = (self.sought.name(), self.sought.unit());
-        let symbol = self.symbol.replace("zeta", "ζ");
-        let [left, right] = self.range;
-        let right = self.value.map_or(right, |value| right.min(3.0 * value));
-        let shown = |found: &FoundCheck| -> Vec<(f64, f64)> {
-            let shown = found.curve.iter().copied();
-            shown.filter(|point| point.1.is_finite() && point.0 <= right).collect()
-        };
-        let lines: Vec<_> = self.checks.iter().map(|found| (found.check, shown(found))).collect();
-        // far beyond the demand nothing is to be seen
-        let top =
-            lines.iter().flat_map(|(_, points)| points).map(|point| point.1).fold(1.2, f64::max).min(3.0);
-        let line = |(index, (check, points)): (usize, (&'static str, Points))| {
-            let inside = points.into_iter().filter(|point| point.1 <= top).collect();
-            let stroke = Series::stroke(COLORS[index % COLORS.len()], 2.0, inside);
-            Series { name: format!("{symbol}, {check}"), ..stroke }
-        };
-        let mut series: Vec<_> = lines.into_iter().enumerate().map(line).collect();
-        if let Some(value) = self.value {
-            let line = Series::stroke(DARK_GREY, 1.3, vec![(value, 0.0), (value, top)]);
-            let name = format!("{name} = {value:.4} {unit}");
-            series.push(Series { look: Look::Dashed, name, ..line });
-        }
-        let axes = [
-            Axis::over(&format!("{name} ({unit})"), [left.min(right), right]),
-            Axis::over(&symbol, [0.0, 1.05 * top]),
-        ];
-        Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
-    }
 }
-
-/// Points (value, capacity over demand) of a line.
-type Points = Vec<(f64, f64)>;
 
 /// Name, capacity over demand, whether it passes, and whether it decides.
 type Outcome = (&'static str, f64, bool, bool);

@@ -1,0 +1,77 @@
+//! Records at the level of shaking of a limit state.
+
+use super::case::Case;
+use super::compatibility::{Compatibility, Ratios};
+use super::statement::Statement;
+use super::states::{Source, StateStatement};
+use super::table::RecordScale;
+use super::{G, LimitState};
+use crate::code::Subject;
+use crate::error::CheckError;
+use crate::site::Level;
+
+/// Shortest period at which records are held against the spectrum \[s\].
+const SHORTEST: f64 = 0.15;
+
+/// The factors and the building of a limit state.
+pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> Result<Level, CheckError> {
+    let given = statement.states.iter().flatten().find(|given| given.state.key() == name);
+    let Some(given) = given else {
+        let message = format!("{name} is not stated; give its ag, F0 and TC, or another limit state");
+        return Err(CheckError::value(&[name], message));
+    };
+    if statement.records.named.is_empty() {
+        return Err(CheckError::value(
+            &["records"],
+            "there are no records; give --records, or [check.records]",
+        ));
+    }
+    let case = Case::new(statement, subject)?;
+    let mut longest = 0.0_f64;
+    // only a scale by the spectrum asks how far it counts
+    if statement.table.record_scale == RecordScale::Spectrum {
+        for sign in case.sides() {
+            let (side, _) = super::sides::side(&case, sign)?;
+            let check = if given.state == LimitState::Slc { side.slc } else { side.slv };
+            longest = longest.max(check.map_or(0.0, |check| check.period));
+        }
+    }
+    let (factors, _) = scaled(&case, given, longest)?;
+    let floors = subject.floors.map(|floors| floors.in_state(given.building_damping, given.building_period));
+    Ok(Level { factors, floors: floors.transpose()? })
+}
+
+/// The factors of the records, and their mean spectrum beside that of the ground; `longest` is `T_SLV` or
+/// `T_SLC` \[s\].
+pub(super) fn scaled(
+    case: &Case<'_>,
+    given: &StateStatement,
+    longest: f64,
+) -> Result<(Vec<f64>, Option<Compatibility>), CheckError> {
+    let statement = case.statement;
+    let (records, scale) = (&statement.records, statement.table.record_scale);
+    let Source::Code(ground) = &given.source else {
+        if scale == RecordScale::None {
+            return Ok((vec![1.0; records.named.len()], None));
+        }
+        let name = if scale == RecordScale::Ag { "ag" } else { "spectrum" };
+        let message =
+            format!("record_scale = {name:?} needs S of F0 and TC; give them, or record_scale = \"none\"");
+        return Err(CheckError::value(&["record_scale"], message));
+    };
+    let first = case.floors.map(|floors| given.building_period.unwrap_or(floors.storeys().periods()[0]));
+    let range = statement.table.record_range;
+    let range = range
+        .unwrap_or([SHORTEST, [2.0, 2.0 * first.unwrap_or(0.0), longest].into_iter().fold(0.0, f64::max)]);
+    let ratios = Ratios::new(records, ground, range)?;
+    let factors: Vec<f64> = match scale {
+        RecordScale::None => vec![1.0; records.named.len()],
+        RecordScale::Ag => {
+            let peak = given.ag * G * ground.s;
+            records.named.iter().map(|record| peak / record.motion.peak()).collect()
+        }
+        RecordScale::Spectrum => ratios.factors(),
+    };
+    let compatibility = ratios.judged(&factors);
+    Ok((factors, Some(compatibility)))
+}

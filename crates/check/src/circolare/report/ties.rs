@@ -1,0 +1,214 @@
+//! The tie: what its bar makes of it, where it yields and breaks, and the forces of its anchors.
+
+use std::f64::consts::{PI, TAU};
+
+use rocking_wall::wall::{Bar, TiePart};
+
+use crate::circolare::tie::{TieState, anchors};
+use crate::circolare::{ActivationCheck, Checked, LARGEST_LOSS, SideVerdict, TieBreak};
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head, table};
+
+/// The section, if the wall has a tie on a side to which it rocks.
+pub(super) fn section(case: &Checked<'_>) -> Option<String> {
+    let mut text = bar(case);
+    let is_held = case.sides().any(|(_, _, side)| side.tie.is_some());
+    for (name, _, side) in case.sides() {
+        if side.tie.is_none() {
+            continue;
+        }
+        if !case.outcome.alike {
+            text += &side_head(name);
+        }
+        text += &displacements(case, side);
+        text += &forces(case, side);
+        text += &required(case, side);
+    }
+    text +=
+        "<p>The plate, the masonry around it and the connections are verified apart for these forces.</p>\n";
+    is_held.then_some(text)
+}
+
+/// What the bar and its anchor make of the tie, for the width of the wall.
+fn bar(case: &Checked<'_>) -> String {
+    let parameters = &case.parameters;
+    let Some((bar, weaker)) = parameters.bar.zip(parameters.weaker_part()) else { return String::new() };
+    let Bar { diameter, length, young_modulus, yield_stress, ultimate_strain, anchor_capacity, spacing } =
+        bar;
+    let area = PI * diameter * diameter / 4.0;
+    let (l, e, f) = (n(1e3 * length), n(1e-6 * young_modulus), n(1e-6 * yield_stress));
+    let mut lines = Calculation::default();
+    lines.line(
+        ["Section of the bar", ""],
+        ["A_s = π φ²/4", &format!("π · {}²/4", n(1e3 * diameter))],
+        (1e6 * area, "mm²"),
+    );
+    let of_width = |formula: &str, put: String| match spacing {
+        Some(spacing) => {
+            (format!("{formula} l/i"), format!("{put} · {}/{}", n(parameters.width), n(spacing)))
+        }
+        None => (formula.to_owned(), put),
+    };
+    let (left, put) = of_width("K = (E A_s/L)", format!("{e} · {}/{l}", n(1e6 * area)));
+    let words = "Axial stiffness, for the width l";
+    lines.line([words, ""], [&left, &put], (1e-3 * parameters.tie_stiffness, "kN/m"));
+    let yields = area * yield_stress;
+    let put = format!("{} · {f} · 10⁻³", n(1e6 * area));
+    lines.line(["Yield force of one bar", ""], ["N_s = A_s f_y", &put], (1e-3 * yields, "kN"));
+    if let Some(capacity) = anchor_capacity {
+        lines.line(["Capacity of one anchor", ""], ["N_a", ""], (1e-3 * capacity, "kN"));
+    }
+    let own = anchor_capacity.map_or(yields, |capacity| capacity.min(yields));
+    let least = if anchor_capacity.is_some() { "N_y = min(N_s, N_a)" } else { "N_y = N_s" };
+    let (left, put) = of_width(least, kilonewtons(own));
+    let words = "Strength of the tie, for the width l";
+    lines.line([words, ""], [&left, &put], (1e-3 * parameters.tie_strength, "kN"));
+    let words = "Plastic elongation at which the tie breaks";
+    let ultimate = (1e3 * parameters.tie_ultimate, "mm");
+    match ultimate_strain.filter(|_| weaker == TiePart::Bar) {
+        Some(strain) => {
+            let [strength, stiffness] =
+                [parameters.tie_strength, parameters.tie_stiffness].map(|value| n(1e-3 * value));
+            let put = format!("{} · {l} − {strength}/{stiffness} · 10³", n(strain));
+            lines.line([words, ""], ["e_p = ε_u L − N_y/K", &put], ultimate);
+        }
+        None => lines.line([words, ""], ["e_p", ""], ultimate),
+    }
+    let first = if weaker == TiePart::Anchor { "the anchor (brittle)" } else { "the bar" };
+    lines.say("Part that gives way first", first);
+    lines.table()
+}
+
+/// Where the tie pulls, yields and breaks, what it does at the activation, and what its rupture takes.
+fn displacements(case: &Checked<'_>, side: &SideVerdict) -> String {
+    let Some(tie) = side.tie else { return String::new() };
+    let parameters = &case.parameters;
+    let mut lines = Calculation::default();
+    let [n_y, k] = [parameters.tie_strength, parameters.tie_stiffness].map(|value| n(1e-3 * value));
+    let [g0, e_p] = [parameters.tie_slack, parameters.tie_ultimate].map(millimetres);
+    let [h, y] = [parameters.height, parameters.tie_height].map(n);
+    if tie.engaged > 0.0 {
+        let put = format!("{g0} · {h}/(2 · {y})");
+        lines.line(["The tie begins to pull at", ""], ["u_g = g_0 h/(2 y)", &put], (1e3 * tie.engaged, "mm"));
+    }
+    if let Some(yields) = tie.yields {
+        let put = format!("({n_y}/{k} · 10³ + {g0}) · {h}/(2 · {y})");
+        let left = "u_y = (N_y/K + g_0) h/(2 y)";
+        lines.line(["The tie reaches its strength at", ""], [left, &put], (1e3 * yields, "mm"));
+    }
+    if let Some(breaks) = tie.breaks {
+        let put = format!("({n_y}/{k} · 10³ + {g0} + {e_p}) · {h}/(2 · {y})");
+        let left = "u_r = (N_y/K + g_0 + e_p) h/(2 y)";
+        lines.line(["The tie breaks at", ""], [left, &put], (1e3 * breaks, "mm"));
+    }
+    if side.activation.force > 0.0 {
+        activation(case, side, &mut lines);
+    }
+    if let Some(broken) = &side.tie_break {
+        rupture(side, broken, &mut lines);
+    }
+    lines.table()
+}
+
+/// The wall at its activation with the tie at its strength.
+fn activation(case: &Checked<'_>, side: &SideVerdict, lines: &mut Calculation) {
+    let parameters = &case.parameters;
+    let [h, y] = [parameters.height, parameters.tie_height].map(n);
+    let pull = kilonewtons(side.activation.force);
+    let lever = 2.0 * parameters.tie_height / parameters.height;
+    let pushed = kilonewtons(side.pushed_weight);
+    let put = format!("({} + 2 · {y}/{h} · {pull})/{pushed}", kilonewtons(side.acting_force));
+    lines.line(
+        ["Multiplier of activation with the tie at its strength, without FC", "[C8.7.1.1]"],
+        ["α0 = [F_act + (2 y/h) N_y]/(W + 2 r O)", &put],
+        (side.activation.alpha0, ""),
+    );
+    let g = parameters.gravity;
+    let own = if side.t0 > 0.0 { ("a_y", side.ay) } else { ("a_0", side.a0) };
+    let put = format!("{} + 2 · {y}/{h} · {pull} · {}/{pushed}", n(own.1), n(g));
+    lines.line(
+        ["Acceleration of activation with the tie at its strength, without FC", ""],
+        [&format!("a = {} + (2 y/h) N_y g/[(W + 2 r O) e*]", own.0), &put],
+        (side.activation.acceleration, "m/s²"),
+    );
+    if side.t0 > 0.0 {
+        let stiffness = lever * lever * parameters.tie_stiffness * g / (side.pushed_weight * side.d_per_u);
+        let put = format!("2π/√({} + {})", n((TAU / side.t0).powi(2)), n(stiffness));
+        lines.line(
+            ["Period of wall and tie", "[C8.7.1.6]"],
+            ["T_0t = 2π/√[4π²/T0² + (2 y/h)² K g/((W + 2 r O) e* d/u)]", &put],
+            (side.activation.t0, "s"),
+        );
+    }
+}
+
+/// What the curve loses where the tie breaks.
+fn rupture(side: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
+    let TieBreak { before, after, largest, loss, .. } = *broken;
+    let put = format!("({} − {})/{}", n(before), n(after), n(largest));
+    let words = "What the curve, with FC, loses there for good, over its largest a";
+    lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
+    let early = side.slv.is_some_and(|check| check.limited_by_tie);
+    let decides = if early {
+        format!("more than {LARGEST_LOSS}, before 0.40 {}: {} is there", formula("d_0"), formula("d_SLV"))
+    } else {
+        format!("{} stays at 0.40 {}", formula("d_SLV"), formula("d_0"))
+    };
+    lines.say("Consequence", &decides);
+}
+
+/// Headings of forces.
+const FORCES: [&str; 3] = ["N [kN]", "N/l [kN/m]", "one anchor [kN]"];
+
+/// A force of the tie in all and per metre, and of each anchor where the bar is known: cells of a row.
+fn cells(case: &Checked<'_>, force: f64) -> String {
+    let anchor = anchors(&case.parameters).map(|anchors| kilonewtons(force / anchors));
+    let all = [kilonewtons(force), kilonewtons(force / case.parameters.width)];
+    all.into_iter().chain(anchor).collect::<Vec<_>>().join("</td><td>")
+}
+
+/// The headings of those cells between others.
+fn heads(case: &Checked<'_>, before: &[&'static str], after: &[&'static str]) -> Vec<&'static str> {
+    let count = if anchors(&case.parameters).is_some() { 3 } else { 2 };
+    [before, &FORCES[..count], after].concat()
+}
+
+/// The forces of the tie at the activation, the limit states and their demands.
+fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
+    let mut rows = Vec::new();
+    let mut row = |place: String, d: Option<f64>, force: f64, state: &str| {
+        let d = d.map_or_else(|| "–".to_owned(), millimetres);
+        rows.push([place, d, cells(case, force), state.to_owned()]);
+    };
+    if side.activation.force > 0.0 {
+        row("Activation".to_owned(), None, side.activation.force, TieState::AtStrength.name());
+    }
+    for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
+        let Some((check, tie)) = check.and_then(|check| Some((check, check.tie?))) else { continue };
+        row(formula(&format!("d_{state}")), Some(check.d), tie.force, tie.state.name());
+        let demand = format!("Demand of {state}, {}", formula("S_d"));
+        row(demand, Some(check.demand), tie.force_at_demand, tie.state_at_demand.name());
+    }
+    if case.parameters.tie_strength > 0.0 {
+        row("Strength of the tie".to_owned(), None, case.parameters.tie_strength, "");
+    }
+    table(&heads(case, &["force of the tie, of anchor and bar", "d [mm]"], &["state"]), &rows)
+}
+
+/// The strength that brings `ζ_E` of the checks at the activation to 1, and `ζ_E` without the tie.
+fn required(case: &Checked<'_>, side: &SideVerdict) -> String {
+    let checks: [(&str, Option<ActivationCheck>); 2] = [("SLD", side.sld), ("SLV with q", side.slv_q)];
+    let needed = checks.into_iter().filter_map(|(name, check)| Some((name, check?.required?)));
+    let rows: Vec<_> = needed.map(|(name, force)| [name.to_owned(), cells(case, force)]).collect();
+    let mut text = String::new();
+    if !rows.is_empty() {
+        text += &table(&heads(case, &["required force, at the activation"], &[]), &rows);
+    }
+    let Some(untied) = side.untied else { return text };
+    let mut lines = Calculation::default();
+    for (state, zeta) in [("SLV", untied.slv), ("SLC", untied.slc)] {
+        if let Some(zeta) = zeta {
+            lines.line([&format!("Without the tie, {state}"), ""], ["ζ_E", ""], (zeta, ""));
+        }
+    }
+    text + &lines.table()
+}

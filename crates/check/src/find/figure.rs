@@ -1,0 +1,57 @@
+//! Capacity over demand of each check over what is sought.
+
+use report::number;
+use report::palette::{BLUE, DARK_GREY, GREEN, RED};
+use report::plot::{Axis, Look, Plot, Scale, Series};
+
+use super::{Found, FoundCheck, Sought};
+
+/// Colours of the lines of checks.
+const COLORS: [&str; 4] = [BLUE, RED, GREEN, DARK_GREY];
+
+/// Height of the axis over that of the lines: above them is the legend.
+const ROOM: f64 = 1.35;
+/// Points (value, capacity over demand) of a line.
+type Points = Vec<(f64, f64)>;
+
+impl Found {
+    /// Draws capacity over demand of each check over the values that were tried; the limit 1, and the value
+    /// found. Sizes are drawn up to three times that value, strengths and stiffnesses over all their decades.
+    pub fn plot(&self) -> Plot {
+        let name = self.sought.name();
+        let (unit, factor, scale) = match self.sought {
+            Sought::TieStrength => ("kN", 1e-3, Scale::LogarithmicAcross),
+            Sought::TieStiffness => ("kN/m", 1e-3, Scale::LogarithmicAcross),
+            Sought::BarDiameter => ("mm", 1e3, Scale::Linear),
+            Sought::Thickness | Sought::Height => ("m", 1.0, Scale::Linear),
+        };
+        let symbol = self.symbol.replace("zeta", "ζ");
+        let [left, right] = self.range.map(|end| factor * end);
+        let value = self.value.map(|value| factor * value);
+        let near = value.filter(|_| scale == Scale::Linear);
+        let right = near.map_or(right, |value| right.min(3.0 * value));
+        let shown = |found: &FoundCheck| -> Vec<(f64, f64)> {
+            let shown = found.curve.iter().map(|(value, zeta)| (factor * value, *zeta));
+            shown.filter(|point| point.1.is_finite() && point.0 <= right).collect()
+        };
+        let lines: Vec<_> = self.checks.iter().map(|found| (found, shown(found))).collect();
+        // far beyond the demand nothing is to be seen
+        let top =
+            lines.iter().flat_map(|(_, points)| points).map(|point| point.1).fold(1.2, f64::max).min(3.0);
+        let line = |(index, (found, points)): (usize, (&FoundCheck, Points))| {
+            let stroke = Series::stroke(COLORS[index % COLORS.len()], 2.0, points);
+            let look = if found.decides { Look::Solid } else { Look::Dotted };
+            let informs = if found.decides { "" } else { " (for information)" };
+            Series { name: format!("{symbol}, {}{informs}", found.check), look, ..stroke }
+        };
+        let mut series: Vec<_> = lines.into_iter().enumerate().map(line).collect();
+        if let Some(value) = value {
+            let line = Series::stroke(DARK_GREY, 1.3, vec![(value, 0.0), (value, ROOM * top)]);
+            let name = format!("{name} = {} {unit}", number(value, 4));
+            series.push(Series { look: Look::Dashed, name, ..line });
+        }
+        let axes =
+            [Axis::over(&format!("{name} ({unit})"), [left, right]), Axis::over(&symbol, [0.0, ROOM * top])];
+        Plot { limits: vec![(1.0, DARK_GREY)], scale, ..Plot::new([820.0, 460.0], axes, series) }
+    }
+}
