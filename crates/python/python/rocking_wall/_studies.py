@@ -323,12 +323,14 @@ def read(record: object) -> object:
 def write_study(
     path: Path,
     text: str,
-    walls: Sequence[tuple[str, str]],
+    walls: Sequence[tuple[str, str, Sequence[str]]],
     records: Sequence[tuple[str, float, NDArray[np.float64]]],
 ) -> None:
-    """Writes a study file with its walls, and its records beside it."""
+    """Writes a study file with its walls, without what nobody stated of them, and its records beside it."""
     tables = []
-    for name, wall in walls:
+    for name, whole, assumed in walls:
+        lines = whole.splitlines(keepends=True)
+        wall = "".join(line for line in lines if line.partition(" =")[0] not in assumed)
         if "[storeys" in wall or "[supports" in wall:
             raise ValueError(f"wall {name!r} stands on storeys, which this file would need for all walls")
         groups = wall.replace("\n[", "\n[walls.").replace("[", "[walls.", 1)
