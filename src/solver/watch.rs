@@ -4,6 +4,8 @@
 //! |g̈|, so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed
 //! the extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
 
+use std::cell::OnceCell;
+
 use oscillator::KinematicState;
 
 use crate::wall::{Ends, Support, TieAction, Wall};
@@ -52,10 +54,10 @@ pub(super) struct Followed<'a, P> {
 
 /// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
 /// terms. The bound is the sum of a number and of a share of the bound on that of ü.
-struct Quantity<F> {
+struct Quantity<F, S> {
     value: F,
     curvature: [f64; 2],
-    size: f64,
+    size: S,
 }
 
 impl Watch<'_> {
@@ -85,7 +87,7 @@ impl Watch<'_> {
             (&mut demands.acceleration, a, [0.0, 1.0]),
         ] {
             let value = |_: f64, motion: &KinematicState| pick(motion);
-            search.raise(extremes, &Quantity { value, curvature, size: search.largest(pick) })?;
+            search.raise(extremes, &Quantity { value, curvature, size: || search.largest(pick) })?;
         }
         self.forces(&search)?;
         self.cross(followed)?;
@@ -97,7 +99,6 @@ impl Watch<'_> {
         let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
-        let [most_u, most_a] = [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
         // ∂R/∂ü and ∂R/∂u
         let [by_a, by_u] =
             [[1.0, 0.0], [0.0, 1.0]].map(|[a, u]| body.reactions(Support::default(), a, u, drift));
@@ -110,7 +111,11 @@ impl Watch<'_> {
             };
             let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
             let curvature = [slope_u * search.bounds.0, slope_a];
-            let size = slope_a * (most_a + given) + slope_u * most_u;
+            let size = || {
+                let [most_u, most_a] =
+                    [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
+                slope_a * (most_a + given) + slope_u * most_u
+            };
             search.raise(extremes, &Quantity { value, curvature, size })?;
         }
         Ok(())
@@ -147,7 +152,7 @@ impl Watch<'_> {
         let search = ExtremeSearch::new(piece, length, [self.time, from]);
         let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
         let slope = self.wall.tie_slope(branch);
-        let size = slope * search.largest(|m| m.displacement);
+        let size = || slope * search.largest(|m| m.displacement);
         let quantity = Quantity { value, curvature: [slope * search.bounds.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
         *force = largest;
@@ -221,7 +226,7 @@ impl Watch<'_> {
     }
 }
 
-/// Number of instants of a piece that are evaluated first, to find the size of the quantities on it.
+/// Number of instants of a piece that a search begins with, to find the size of the quantities on it.
 const FIRST: usize = 5;
 
 /// A piece to search up to a length; it starts `from` after the `time` of its segment.
@@ -229,7 +234,9 @@ struct ExtremeSearch<'a, P> {
     piece: &'a P,
     time: f64,
     from: f64,
-    seen: [(f64, KinematicState); FIRST],
+    length: f64,
+    ends: [KinematicState; 2],
+    seen: OnceCell<[(f64, KinematicState); FIRST]>,
     /// Bounds on |ü|, on the jerk, and on the second derivative of ü \[m/s², m/s³, m/s⁴\].
     bounds: (f64, f64),
     snap: f64,
@@ -243,29 +250,42 @@ struct Node {
 
 impl<'a, P: Piece> ExtremeSearch<'a, P> {
     fn new(piece: &'a P, length: f64, [time, from]: [f64; 2]) -> Self {
-        let seen = std::array::from_fn(|index| match index {
-            0 => (0.0, piece.start()),
-            _ if index + 1 == FIRST => (length, piece.balanced(length)),
-            _ => {
-                let offset = length * (index as f64 / (FIRST - 1) as f64);
-                (offset, piece.balanced(offset))
-            }
-        });
-        let bounds = piece.bounds(piece.start(), length);
+        let ends = [piece.start(), piece.balanced(length)];
+        let bounds = piece.bounds(ends[0], length);
         let snap = piece.snap([0.0, length], bounds);
-        Self { piece, time, from, seen, bounds, snap }
+        Self { piece, time, from, length, ends, seen: OnceCell::new(), bounds, snap }
+    }
+
+    /// The instants that a search begins with. Most pieces need none: their ends show that they raise nothing.
+    fn seen(&self) -> &[(f64, KinematicState); FIRST] {
+        self.seen.get_or_init(|| {
+            std::array::from_fn(|index| match index {
+                0 => (0.0, self.ends[0]),
+                _ if index + 1 == FIRST => (self.length, self.ends[1]),
+                _ => {
+                    let offset = self.length * (index as f64 / (FIRST - 1) as f64);
+                    (offset, self.piece.balanced(offset))
+                }
+            })
+        })
     }
 
     fn largest(&self, pick: fn(&KinematicState) -> f64) -> f64 {
-        self.seen.iter().map(|(_, motion)| pick(motion).abs()).fold(0.0, f64::max)
+        self.seen().iter().map(|(_, motion)| pick(motion).abs()).fold(0.0, f64::max)
     }
 
     /// Raises the extremes to those of a quantity.
-    fn raise<F: Fn(f64, &KinematicState) -> f64>(
+    fn raise<F: Fn(f64, &KinematicState) -> f64, S: Fn() -> f64>(
         &self,
         extremes: &mut Extremes,
-        quantity: &Quantity<F>,
+        quantity: &Quantity<F, S>,
     ) -> Result<(), SearchExhausted> {
+        let [start, end] = [(0.0, &self.ends[0]), (self.length, &self.ends[1])]
+            .map(|(t, motion)| (quantity.value)(t, motion));
+        let most = self.above(quantity.curvature, self.length, self.snap);
+        if start.max(end) + most <= extremes.highest.value && start.min(end) - most >= extremes.lowest.value {
+            return Ok(());
+        }
         if let Some(instant) = self.highest(1.0, extremes.highest.value, quantity)? {
             extremes.highest = instant;
         }
@@ -275,25 +295,31 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         Ok(())
     }
 
+    /// Returns by how much a quantity may exceed its values at the ends of an interval.
+    fn above(&self, [number, share]: [f64; 2], width: f64, snap: f64) -> f64 {
+        0.125 * width * width * (number + share * snap)
+    }
+
     /// Returns the highest value of `sign` times a quantity, if it exceeds `best`.
-    fn highest<F: Fn(f64, &KinematicState) -> f64>(
+    fn highest<F: Fn(f64, &KinematicState) -> f64, S: Fn() -> f64>(
         &self,
         sign: f64,
         best: f64,
-        quantity: &Quantity<F>,
+        quantity: &Quantity<F, S>,
     ) -> Result<Option<Instant>, SearchExhausted> {
-        let [number, share] = quantity.curvature;
-        let above = |width: f64, snap: f64| 0.125 * width * width * (number + share * snap);
+        let [_, share] = quantity.curvature;
+        let above = |width: f64, snap: f64| self.above(quantity.curvature, width, snap);
         let node = |offset: f64, motion: &KinematicState| Node {
             offset,
             value: sign * (quantity.value)(offset, motion),
         };
-        let first = self.seen.map(|(offset, motion)| node(offset, &motion));
+        let first = self.seen().map(|(offset, motion)| node(offset, &motion));
         let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
         let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
         if highest + above(longest, self.snap) <= best {
             return Ok(None);
         }
+        let size = (quantity.size)();
         let mut found = Node { offset: f64::NAN, value: best };
         for node in first {
             if node.value > found.value {
@@ -316,7 +342,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             let higher = left.value.max(right.value);
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
-            let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
+            let tolerance = patience * ACCURACY * size.max(found.value.abs());
             let within = |snap: f64| higher + above(width, snap) <= found.value + tolerance;
             // the bound between two instants is smaller than that over the whole piece, which is known
             let between = || self.piece.snap([left.offset, right.offset], self.bounds);
