@@ -275,7 +275,7 @@ impl Study {
             tie: TieDemand::of(motion.wall(), &outcome.state),
         };
         let outcomes = match self.collapse {
-            Collapse::Exceeds => shaking.runs([0.0, 0.0], &factors)?,
+            Collapse::Exceeds => shaking.peaks([0.0, 0.0], &factors)?,
             Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], &factors)?,
         };
         Ok(levels.iter().zip(outcomes).map(run).collect())
