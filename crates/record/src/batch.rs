@@ -172,7 +172,21 @@ impl Batch<'_> {
     /// # Errors
     /// [`SolverError`] of the first start that could not be followed, as of [`RecordSolver::run`].
     pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
-        let lanes = Lanes::new(self.solver, &self.record, starts, until_overturning, NoObserver);
+        self.follow(Lanes::new(self.solver, &self.record, starts, until_overturning, NoObserver))
+    }
+
+    /// Moves walls as [`run`](Self::run) does up to overturning, and no further than to where the rest of the
+    /// record cannot raise the peaks. These have the same bits as if the run went on; the state is that where
+    /// it ends.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_to_the_peaks(&self, starts: &[RunStart]) -> Result<Vec<Outcome>, SolverError> {
+        let lanes = Lanes::new(self.solver, &self.record, starts, true, NoObserver);
+        self.follow(Lanes { ends_at_peaks: true, ..lanes })
+    }
+
+    fn follow(&self, lanes: Lanes<'_, NoObserver>) -> Result<Vec<Outcome>, SolverError> {
         match &self.side_by_side {
             #[cfg(target_arch = "x86_64")]
             Some((Vectors::Avx2(simd), steps)) => in_lanes(*simd, steps, lanes),

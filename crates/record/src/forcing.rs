@@ -59,6 +59,12 @@ impl Forcing<'_> {
         }
         columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()))
     }
+
+    /// Returns the sum of |p| over a range of samples.
+    fn sum(&self, range: Range<usize>) -> f64 {
+        let Self::Samples(samples) = self else { return 0.0 };
+        samples[range].iter().map(|sample| sample.abs()).sum()
+    }
 }
 
 /// A forcing and its bounds, block by block.
@@ -67,19 +73,32 @@ pub(crate) struct Blocks<'a> {
     pub(crate) forcing: Forcing<'a>,
     /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
     largest: Vec<f64>,
+    /// Sum of |p| from the start of each block to the end of the record \[m/s²\].
+    rest: Vec<f64>,
 }
 
 impl<'a> Blocks<'a> {
     pub(crate) fn new(forcing: Forcing<'a>) -> Self {
         let last = forcing.count().saturating_sub(1);
         let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + MOST_AT_ONCE - 1).min(last) + 1;
-        let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
-        Self { forcing, largest }
+        let largest: Vec<f64> = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
+        let (mut rest, mut sum, mut end) = (vec![0.0; largest.len()], 0.0, forcing.count());
+        for (block, rest) in rest.iter_mut().enumerate().rev() {
+            sum += forcing.sum(block * BLOCK..end);
+            (*rest, end) = (sum, block * BLOCK);
+        }
+        Self { forcing, largest, rest }
     }
 
     /// Returns the bound on |p| in the block of a sample \[m/s²\].
     pub(crate) fn largest(&self, index: usize) -> f64 {
         self.largest.get(index / BLOCK).copied().unwrap_or(0.0)
+    }
+
+    /// Returns the sum of |p| from the start of the block of a sample on \[m/s²\]. Times the step it bounds
+    /// the integral of |p| from the sample on, since p is linear between samples.
+    pub(crate) fn rest(&self, index: usize) -> f64 {
+        self.rest.get(index / BLOCK).copied().unwrap_or(0.0)
     }
 }
 
@@ -87,7 +106,8 @@ impl<'a> Blocks<'a> {
 mod tests {
     use super::*;
 
-    /// The bound of a block is the largest |p| of its samples, and of those that its last plain steps reach.
+    /// The bound of a block is the largest |p| of its samples, and of those that its last plain steps reach;
+    /// its rest is the sum from its first sample to the last of the record.
     #[test]
     fn bounds_of_blocks_are_the_largest_of_their_samples() {
         for count in [2, 17, BLOCK, BLOCK + 1, BLOCK + 3, 3 * BLOCK + 100] {
@@ -100,6 +120,7 @@ mod tests {
                 let reached = &samples[first..(first + BLOCK + MOST_AT_ONCE).min(count)];
                 let wanted = reached.iter().map(|p| p.abs()).fold(0.0, f64::max);
                 assert_eq!(blocks.largest(first), wanted, "{first} of {count}");
+                assert_eq!(blocks.rest(first), samples[first..].iter().map(|p| p.abs()).sum::<f64>());
                 assert_eq!(blocks.largest((first + BLOCK).min(count - 1) - 1), wanted, "{first} of {count}");
             }
         }

@@ -10,6 +10,9 @@ use crate::table::Stepping;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
 const ROOM: f64 = 4.0;
+/// Share of the energy at its peaks up to which the rest of a record may bring a run that ends before it.
+/// What is left is far more than the errors of steps.
+const SAFE: f64 = 0.999;
 
 /// A block that a run has entered, and the extremes at the ends of its steps.
 #[derive(Clone, Copy)]
@@ -115,6 +118,8 @@ pub(crate) struct Lanes<'a, O> {
     pub(crate) rows: Rows,
     pub(crate) observer: O,
     pub(crate) pass: Pass,
+    /// Whether a run ends where the rest of the record cannot raise its peaks.
+    pub(crate) ends_at_peaks: bool,
     /// The steps that lanes take side by side.
     pub(crate) together: Option<Stepping>,
     /// The run of each lane that has had one.
@@ -156,6 +161,7 @@ impl<'a, O: Observer> Lanes<'a, O> {
             rows: Rows::default(),
             observer,
             pass: Pass::Motion { until_overturning },
+            ends_at_peaks: false,
             together: None,
             runs: Vec::new(),
             starts,
@@ -275,12 +281,35 @@ impl<O: Observer> Lanes<'_, O> {
             return true;
         }
         self.close_block(lane);
+        if self.ends_at_peaks && self.pass != Pass::Extremes && self.peaks_are_final(lane) {
+            self.runs[lane].last = self.sample(lane);
+        }
         if self.sample(lane) < self.runs[lane].last {
             self.enter_block(lane);
             return true;
         }
         self.finish(lane);
         false
+    }
+
+    /// Returns whether the rest of the record cannot raise the peaks of the run in a lane: |p| adds to √(2E)
+    /// at most its integral (docs/record-path.md, §5). Runs of walls with a tie, and those with steps that
+    /// are not prepared, go on.
+    fn peaks_are_final(&self, lane: usize) -> bool {
+        let (wall, run) = (self.solver.motion.wall(), &self.runs[lane]);
+        let is_prepared = !self.solver.table.steppings.contains(&Stepping::General);
+        if !is_prepared || wall.tie().is_some() {
+            return false;
+        }
+        let push = self.record.rest(self.sample(lane)) * self.rows.factor[lane].abs() * self.solver.step;
+        let speed = (2.0 * wall.energy(self.rows.u[lane], self.rows.v[lane])).sqrt() + push;
+        // a wall that rocks to one side only has no peak on the other
+        let mut sides =
+            [1.0, -1.0].into_iter().filter(|sign| wall.free_side().is_none_or(|free| free == *sign));
+        sides.all(|sign| {
+            let peak = run.peaks.of(sign);
+            peak < wall.force_end().of(sign) && 0.5 * speed * speed <= SAFE * wall.energy(sign * peak, 0.0)
+        })
     }
 
     /// Shows the observer u and u̇ at a sample.

@@ -13,6 +13,7 @@ use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
 use crate::solver::{NoObserver, Outcome, RecordSolver, RunStart};
 
 mod passages;
+mod peaks;
 mod work;
 
 /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.

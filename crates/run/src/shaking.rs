@@ -52,7 +52,16 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn runs(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        self.shaken(start, factors, true)
+        self.shaken(start, factors, |starts| self.batch.run(starts, true), true)
+    }
+
+    /// Runs as [`runs`](Self::runs) does, for the peaks and the time of overturning alone, which have the
+    /// same bits: a run also stops where the rest of the record cannot raise its peaks.
+    ///
+    /// # Errors
+    /// As [`runs`](Self::runs).
+    pub fn peaks(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
+        self.shaken(start, factors, |starts| self.batch.run_to_the_peaks(starts), true)
     }
 
     /// Runs as [`runs`](Self::runs) does, but to the end of the tail: a wall that is back within `u_ins`
@@ -66,13 +75,15 @@ impl<'a> Shaking<'a> {
             let u = outcome.state.displacement;
             Outcome { overturning: outcome.overturning.filter(|_| u.abs() >= u_ins.of(u)), ..outcome }
         };
-        Ok(self.shaken(start, factors, false)?.into_iter().map(fate).collect())
+        let outcomes = self.shaken(start, factors, |starts| self.batch.run(starts, false), false)?;
+        Ok(outcomes.into_iter().map(fate).collect())
     }
 
     fn shaken(
         &self,
         [u, v]: [f64; 2],
         factors: &[f64],
+        run: impl FnOnce(&[RunStart]) -> Result<Vec<Outcome>, SolverError>,
         until_overturning: bool,
     ) -> Result<Vec<Outcome>, SolverError> {
         // p = −λ a_g
@@ -82,7 +93,7 @@ impl<'a> Shaking<'a> {
             RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
         };
         let starts: Vec<_> = factors.iter().map(start).collect();
-        let outcomes = self.batch.run(&starts, until_overturning)?.into_iter();
+        let outcomes = run(&starts)?.into_iter();
         outcomes.map(|outcome| self.free_vibration(outcome, until_overturning)).collect()
     }
 

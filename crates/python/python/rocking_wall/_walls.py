@@ -307,9 +307,7 @@ class Wall(Given):
 
     def pulse_spectrum(
         self,
-        form: Literal[
-            "ricker", "sine_cycle", "half_sine", "rectangle", "triangle", "falling_triangle"
-        ],
+        form: Literal["ricker", "sine_cycle", "half_sine", "rectangle", "triangle", "falling_triangle"],
         *,
         frequency_ratios: ArrayLike | None = None,
         amplitude_ratios: ArrayLike | None = None,

@@ -316,7 +316,7 @@ impl Study {
         };
         let of = |factors: &[f64]| {
             let outcomes = match self.collapse {
-                Collapse::Exceeds => shaking.runs([0.0, 0.0], factors)?,
+                Collapse::Exceeds => shaking.peaks([0.0, 0.0], factors)?,
                 Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], factors)?,
             };
             Ok::<Vec<Run>, SolverError>(levels.iter().zip(outcomes).map(run).collect())
