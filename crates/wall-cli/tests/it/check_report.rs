@@ -155,6 +155,7 @@ fn runs_under_records_stand_in_the_report() {
     check_whole(&page);
     let runs = section(&page, "Runs under records");
     assert_has(&runs, &["synthetic 1", "synthetic 2", "synthetic 3", "Largest of the maxima", "0/6"]);
+    assert!(!section(&page, "Verdict").contains("synthetic 1"));
     for (title, words) in [
         ("Statements", "r = 0.5 of the overburden"),
         ("Statements", "FC = 1.35 (level of knowledge LC1)"),
