@@ -361,6 +361,9 @@ fn hinges_have_their_own_section() {
     // of each side its own hinge
     assert_eq!(curve.matches("(2/h1) (W + O) b + O (b + 2 c)/h2 = 2/").count(), 2, "{curve}");
     assert_has(&curve, &["h1 = 2.735 m", "= 52.03 kN", "= 42.1 kN"]);
+    let own = section(&page, "SLV by");
+    assert_has(&own, &["Hinge of this check, with its own curveh1/h = 0.6274"]);
+    assert!(!section(&page, "SLC by").split("Side u < 0").nth(1).unwrap().contains("own curve"));
     let page = report(&folder, &scene("given", "hinge_ratio = 0.5"), &[]);
     let hinges = section(&page, "Hinges");
     assert_has(
