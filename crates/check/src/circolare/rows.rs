@@ -239,7 +239,7 @@ fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
     let mut notes = vec![format!(
         "{state} under {} records in {} runs: {}; d = {} mm, threshold over it {:.3}, zeta_E = {:.3}; {} \
-         runs beyond d0, {} at the strength of the tie",
+         runs beyond d_0, {} at the strength of the tie",
         records.len(),
         check.runs.len(),
         if check.passed { "passed" } else { "not passed" },

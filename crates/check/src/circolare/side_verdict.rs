@@ -188,7 +188,7 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Returns the parameter and its value for people: E in MPa.
+    /// Returns the parameter and its value for people: E in `MPa`.
     pub(super) fn assigned(&self) -> String {
         match self.parameter {
             "young_modulus" => format!("E = {} MPa", number(1e-6 * self.value, 4)),

@@ -92,7 +92,9 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
 
 /// Adds the sections about a wall: verdict, those of the code, warnings.
 fn sheet(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<Page, CheckError> {
-    let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&verdict.notes));
+    // the lines of single runs, which are indented, have a table of their own
+    let notes: Vec<_> = verdict.notes.iter().filter(|note| !note.starts_with("  ")).cloned().collect();
+    let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&notes));
     let mut page = page.section("Verdict", &checks);
     for (heading, markup) in verdict.details.sections(origin)? {
         page = page.section(&heading, &markup);

@@ -6,8 +6,8 @@ use report::palette::{BLUE, GREEN, Mark, RED};
 use report::plot::{Axis, Look, Picture, Plot, Scale, Series};
 
 /// Draws medians (lines), 84 % fractiles (dashed) and largest values (marks) of force and displacement over
-/// what is varied; where a tie may yield, of its plastic elongation, too. What a logarithmic axis cannot show,
-/// and a tie that stays elastic beside others, is left out.
+/// what is varied; where a tie may yield, of its plastic elongation, too. What a logarithmic axis cannot
+/// show, and a tie that stays elastic beside others, is left out.
 pub fn picture(study: &TieStudy, rows: &[Row]) -> Picture {
     let varied = study.varied();
     let is_shown = |row: &&Row| row.value > 0.0 || (row.value == 0.0 && !varied.is_logarithmic);

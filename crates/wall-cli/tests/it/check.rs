@@ -207,8 +207,8 @@ fn ties_at_the_level_of_a_check() {
         [tie]\ntie_height = 3\ntie_side = \"both\"\n\
         [check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n\
         SLV = { ag = 0.3, F0 = 2.45, TC = 0.32 }\n\
-        tie.bar = { diameter = 0.01, length = 4, yield_stress = 200e6, ultimate_strain = 0.02, spacing = 1 }\n\
-        records = { synthetic = { count = 3, duration = 10, step = 0.02 } }\n";
+        tie.bar = { diameter = 0.01, length = 4, yield_stress = 200e6, ultimate_strain = 0.02, \
+        spacing = 1 }\nrecords = { synthetic = { count = 3, duration = 10, step = 0.02 } }\n";
     std::fs::write(folder.join("scene.toml"), scene).unwrap();
     let study = ["study", "tie", "scene.toml", "--strength", "1e4,4e4", "--both-polarities"];
     let at = |more: &[&str]| json(&folder, &[&study[..], &["--level", "SLV", "--json"], more].concat());

@@ -155,6 +155,7 @@ fn runs_under_records_stand_in_the_report() {
     check_whole(&page);
     let runs = section(&page, "Runs under records");
     assert_has(&runs, &["synthetic 1", "synthetic 2", "synthetic 3", "Largest of the maxima", "0/6"]);
+    assert!(!section(&page, "Verdict").contains("synthetic 1"));
     for (title, words) in [
         ("Statements", "r = 0.5 of the overburden"),
         ("Statements", "FC = 1.35 (level of knowledge LC1)"),
@@ -360,6 +361,9 @@ fn hinges_have_their_own_section() {
     // of each side its own hinge
     assert_eq!(curve.matches("(2/h1) (W + O) b + O (b + 2 c)/h2 = 2/").count(), 2, "{curve}");
     assert_has(&curve, &["h1 = 2.735 m", "= 52.03 kN", "= 42.1 kN"]);
+    let own = section(&page, "SLV by");
+    assert_has(&own, &["Hinge of this check, with its own curveh1/h = 0.6274"]);
+    assert!(!section(&page, "SLC by").split("Side u < 0").nth(1).unwrap().contains("own curve"));
     let page = report(&folder, &scene("given", "hinge_ratio = 0.5"), &[]);
     let hinges = section(&page, "Hinges");
     assert_has(

@@ -191,6 +191,11 @@ fn italian_reports_have_no_english() {
         format!("{before}tie_stiffness = 5e6\ntie_strength = 10e3\ntie_slack = 0.001\n[check]{check}");
     let given =
         STRIP.replace("\"worst\"", "\"given\"").replace("[force_law]", "hinge_ratio = 0.6\n[force_law]");
+    let seven = SITE.replace("count = 3", "count = 7").replace("\"none\"", "\"spectrum\"");
+    // a hinge at the end of its range, beside a squat body, with an overburden in another unit
+    let squat = STRIP.replace("overburden = 20000", "overburden = 0.02\nhinge_ratio = 0.95");
+    let squat = squat.replace("\"worst\"", "\"worst\"\nhinge_range = [0.9, 0.96]");
+    let squat = squat.replace(", displacement = 0.1 }", " }");
     for (name, scene) in [
         ("strip", STRIP),
         ("beam", &beam),
@@ -201,6 +206,8 @@ fn italian_reports_have_no_english() {
         ("anchor", &anchor),
         ("brittle", &brittle),
         ("given", &given),
+        ("seven", &seven),
+        ("squat", &squat),
         ("fractions", FRACTIONS),
     ] {
         fs::write(folder.join("scene.toml"), scene).unwrap();

@@ -193,7 +193,7 @@ fn set_back(body: &Body, parameters: &Parameters, c: f64, verdict: &SideVerdict)
     if c > 0.5 * parameters.thickness - verdict.set_back.top {
         left += " − (2/h_2) O [c − (b/2 − t_t)]";
         let [c, b] = [c, parameters.thickness].map(n);
-        put += &format!(" − 2/{h2} · {o} · [{c} − ({b}/2 − {t_t} · 10⁻³)]");
+        put = format!("{put} − 2/{h2} · {o} · [{c} − ({b}/2 − {t_t} · 10⁻³)]");
     }
     (left, put)
 }

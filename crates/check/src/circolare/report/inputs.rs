@@ -1,7 +1,7 @@
 //! The statements of the engineer, with where they come from.
 
 use crate::circolare::{
-    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Method, RecordScale, Source,
+    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Method, RecordScale, Source, Statement,
 };
 use crate::report::Origin;
 use ::report::escaped;
@@ -24,27 +24,13 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         state(overburden(case), &["overburden_mass"]);
     }
     if let Some(rocks) = statement.table.rocking {
-        let said = match rocks {
-            Rocks::TwoSided => "The wall rocks to both sides.",
-            Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only.",
-            Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only.",
-        };
-        state(escaped(said), &["rocking"]);
+        state(escaped(sides(rocks)), &["rocking"]);
     }
     if case.wall.tie().is_some() {
-        let said = match statement.at_activation() {
-            AtActivation::Yield => "The tie pulls with its strength at the activation.",
-            AtActivation::None => "The tie does not count at the activation (SLD, SLV with q).",
-        };
-        state(said.into(), &["tie"]);
+        state(tie(statement.at_activation()).into(), &["tie"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
-    let compression = if statement.table.compression_considered || statement.masonry.is_some() {
-        "The hinges are set back for the compressive strength of the masonry."
-    } else {
-        "The limited compressive strength of the masonry is neglected: hinges are at the edges."
-    };
-    state(compression.into(), &["compression_considered", "masonry_strength"]);
+    state(compression(statement).into(), &["compression_considered", "masonry_strength"]);
     state(
         format!("Behaviour factor {} = {}.", formula("q"), stated(statement.behaviour_factor)),
         &["behaviour_factor"],
@@ -92,6 +78,29 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         ]);
     }
     format!("<div class=\"from\">{}</div>", table(&["statement", "from"], &rows))
+}
+
+fn compression(statement: &Statement) -> &'static str {
+    if statement.table.compression_considered || statement.masonry.is_some() {
+        "The hinges are set back for the compressive strength of the masonry."
+    } else {
+        "The limited compressive strength of the masonry is neglected: hinges are at the edges."
+    }
+}
+
+fn sides(rocks: Rocks) -> &'static str {
+    match rocks {
+        Rocks::TwoSided => "The wall rocks to both sides.",
+        Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only.",
+        Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only.",
+    }
+}
+
+fn tie(at_activation: AtActivation) -> &'static str {
+    match at_activation {
+        AtActivation::Yield => "The tie pulls with its strength at the activation.",
+        AtActivation::None => "The tie does not count at the activation (SLD, SLV with q).",
+    }
 }
 
 fn scale(scale: RecordScale) -> String {

@@ -60,10 +60,9 @@ fn activation(
 ) -> String {
     let held = check.t0 == 0.0;
     let mut lines = Calculation::default();
+    own_hinge(&mut lines, side, check.hinge);
     let factor = n(case.statement.confidence_factor);
-    let own = if held { side.a0 } else { side.ay };
-    // with its tie at the strength the side has more than by itself
-    let is_tied = check.acceleration > own * (1.0 + 1e-9);
+    let is_tied = side.activation.force > 0.0;
     let (symbol, source) = match (is_tied, held) {
         (true, true) => ("a", "[C8.7.1.8]"),
         (true, false) => ("a", "[C8.7.1.9]"),
@@ -107,6 +106,13 @@ fn activation(
     lines.table()
 }
 
+/// Says where the hinge of a check is that is not that of its side: its numbers are of that hinge.
+fn own_hinge(lines: &mut Calculation, side: &SideVerdict, hinge: Option<f64>) {
+    if let Some(hinge) = hinge.filter(|_| hinge != side.hinge) {
+        lines.line(["Hinge of this check, with its own curve", ""], ["h_1/h", ""], (hinge, ""));
+    }
+}
+
 /// The last lines of a check: `a_g` and the result.
 fn end(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
     let put = format!("{} · {}", n(zeta), n(given.ag));
@@ -121,6 +127,7 @@ fn displacement(
     check: DisplacementCheck,
 ) -> String {
     let mut lines = Calculation::default();
+    own_hinge(&mut lines, side, check.hinge);
     let state = given.state;
     let source = if state == LimitState::Slc { "[C8.7.1.11]" } else { "[C8.7.1.10]" };
     let Displacements { fraction: share, period_factor: factor } = statement.rules(state);
