@@ -10,6 +10,7 @@ use crate::ida::{Crossing, Curve, Exceedance, Polarity};
 #[derive(Clone, Debug)]
 pub struct Fitting {
     records: usize,
+    signs: usize,
     models: usize,
     reference: usize,
     fractions: Vec<f64>,
@@ -50,6 +51,7 @@ impl Fitting {
     pub fn new(records: usize, models: &[&str], grid: Option<Vec<f64>>, report: &ReportOptions) -> Self {
         Self {
             records,
+            signs: 1,
             models: models.len(),
             reference: models.iter().position(|name| *name == report.reference).unwrap_or(0),
             fractions: report.fractions.clone(),
@@ -71,7 +73,13 @@ impl Fitting {
     /// Takes records of both signs as pairs, which the bootstrap draws together.
     #[must_use]
     pub fn with_polarity(self, polarity: Polarity) -> Self {
-        Self { bootstrap: self.bootstrap.in_groups(polarity.signs()), ..self }
+        let signs = polarity.signs();
+        Self { signs, bootstrap: self.bootstrap.in_groups(signs), ..self }
+    }
+
+    /// Returns how many of the records follow each other as signs of one.
+    pub fn signs(&self) -> usize {
+        self.signs
     }
 
     /// Fits the fragilities of a wall. `curves` has models outermost, records innermost.

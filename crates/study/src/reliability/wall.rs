@@ -113,7 +113,7 @@ impl WallReliability {
             check,
             fraction,
             fragilities,
-            dynamic: (0..models).map(|model| dynamic(of_model(model), fraction)).collect(),
+            dynamic: (0..models).map(|model| dynamic(of_model(model), fitting.signs(), fraction)).collect(),
             exceedances: (0..models)
                 .map(|model| {
                     let exceeds = |curve: &Curve| curve.exceedance(fraction, Crossing::First, false);
@@ -208,13 +208,14 @@ fn limits(verdict: &Verdict<'_>, wall: &Wall) -> Vec<(Option<&'static str>, f64)
 }
 
 /// Returns the lowest intensity at which a wall fails under its records, NTC 7.3.5: the mean of the demands
-/// of 7 and more, or the largest of fewer, reaches `fraction`, or one record overturns it.
-fn dynamic(curves: &[Curve], fraction: f64) -> f64 {
+/// of 7 and more, or the largest of fewer, reaches `fraction`, or one record overturns it. The curves of a
+/// record that is run with several `signs` follow each other; its demand is the largest of them.
+fn dynamic(curves: &[Curve], signs: usize, fraction: f64) -> f64 {
     let lowest = |fraction: f64| {
         let first = |curve: &Curve| curve.exceedance(fraction, Crossing::First, false).or_infinity();
         curves.iter().map(first).fold(f64::INFINITY, f64::min)
     };
-    if curves.len() < MEAN_COUNTS_FROM || fraction >= 1.0 {
+    if curves.len() / signs < MEAN_COUNTS_FROM || fraction >= 1.0 {
         return lowest(fraction);
     }
     let falls = lowest(1.0);
@@ -225,6 +226,8 @@ fn dynamic(curves: &[Curve], fraction: f64) -> f64 {
     for level in levels.into_iter().take_while(|level| *level < falls) {
         let demands: Option<Vec<f64>> = curves.iter().map(|curve| curve.demand(level)).collect();
         let Some(demands) = demands else { break };
+        let largest = |of_record: &[f64]| of_record.iter().copied().fold(0.0, f64::max);
+        let demands: Vec<f64> = demands.chunks(signs).map(largest).collect();
         let mean = demands.iter().sum::<f64>() / demands.len() as f64;
         if mean >= fraction && mean.is_finite() {
             return before[0] + (level - before[0]) * (fraction - before[1]) / (mean - before[1]);

@@ -283,3 +283,31 @@ fn annual_rates_are_those_of_a_power_law() {
     }
     assert_eq!(rows.len(), 54);
 }
+
+/// Of a wall that is alike on both sides both signs of a record tell the same: as pairs they change no number
+/// by more than the fits' 1e-9, and ζ by the records counts each record once. The worst changes no byte.
+#[test]
+fn signs_of_records_count_once() {
+    let of = |polarity: &str| {
+        let text = format!("polarity = \"{polarity}\"\n{}", text(MEASURE));
+        let name = format!("signs_{polarity}");
+        run(&name, &load(&name, &text).unwrap())
+    };
+    let [plain, both, worst] = ["as_recorded", "both", "worst"].map(of);
+    let table = "reliability.csv";
+    assert_eq!(fs::read(plain.join(table)).unwrap(), fs::read(worst.join(table)).unwrap());
+    let mut compared = 0;
+    for (one, other) in rows(&plain.join(table)).iter().zip(rows(&both.join(table))) {
+        for (name, cell) in one {
+            match (cell.parse::<f64>(), other[name].parse::<f64>()) {
+                (Ok(one), Ok(other)) if one.is_finite() => {
+                    let times = if name == "records" { 2.0 } else { 1.0 };
+                    assert!((times * one - other).abs() <= 1e-9 * one.abs(), "{name}: {one}, {other}");
+                    compared += usize::from(name == "dynamic_zeta" || name == "theta_g");
+                }
+                _ => assert_eq!(*cell, other[name], "{name}"),
+            }
+        }
+    }
+    assert!(compared > 4, "{compared}");
+}
