@@ -365,6 +365,8 @@ def test_a_building(program, tmp_path, record, scale):
         ours = found.walls[wall["name"]]
         told_of_fall = (wall["u_max"], wall["overturn_time"], wall["falls"])
         assert (ours.u_max, ours.overturn_time, ours.falls) == told_of_fall
+        told_of_tie = (wall["tie_elongation"] or 0.0, wall["tie_break_time"])
+        assert (ours.tie_elongation, ours.tie_break_time) == told_of_tie
         for name in ("u_ratio", "reaction_bottom", "reaction_top"):
             assert getattr(ours, f"{name}_peak") == wall[name], name
     histories = columns(out)

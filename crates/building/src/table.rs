@@ -31,7 +31,7 @@ pub fn walls(building: &Building, parts: &Parts, run: &Coupled) -> Table {
     let rows = building.walls.iter().zip(&run.walls).zip(&parts.walls);
     let rows =
         rows.map(|((wall, history), own)| (wall, history, yields(own), history.reported(own, &run.times)));
-    let has_yielding_ties = parts.walls.iter().any(|wall| yields(wall));
+    let has_yielding_ties = parts.walls.iter().any(yields);
     let table = Table::over(rows)
         .text("", "wall", |(wall, ..)| wall.name.clone())
         .number("", "u [mm]", any, |(.., (peak, _))| at(*peak, 1000.0, 1))
