@@ -2,8 +2,8 @@
 
 The Rust tests run every case. Two show here what an importer adds: the slopes of both supports' motions, and
 the flag that is set in the step of overturning. Those of ties that yield run in Model Exchange too: CVODE at
-1e-10 stays within 1e-6 u_ins, or 100 times its tolerance times the sensitivity where that is more. On Windows all of them run
-(test_platforms.py).
+1e-10 stays within 1e-6 u_ins, or 100 times its tolerance times the sensitivity where that is more. On Windows
+all of them run (test_platforms.py).
 
 A case passes if |error|/u_ins stays within max(1e-9, 100 eps sensitivity, 100 error_in_double) up to its
 horizon, as in the Rust tests.

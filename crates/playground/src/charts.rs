@@ -13,8 +13,8 @@ const AFTER_FALL: f64 = 0.15;
 /// Limits of the width of a chart \[px\].
 const WIDTHS: [f64; 2] = [280.0, 1200.0];
 
-/// The history, the motion and the restoring force of a run, and those of its tie, by the names of their places
-/// on the page.
+/// The history, the motion and the restoring force of a run, and those of its tie, by the names of their
+/// places on the page.
 pub(crate) type Charts = Vec<(&'static str, Plot)>;
 
 /// Draws a run at a width \[px\].
