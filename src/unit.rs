@@ -118,10 +118,14 @@ impl Unit {
     /// Makes one communication step, through the samples of the scene's own motion. A step that may end early
     /// ends just after overturning; the time of its end is then returned. On an error the unit is as it was.
     fn advance(&mut self, mut step: CommunicationStep, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
-        let before = *self.simulation.progress();
+        // a step in one segment that fails leaves the wall as it was, and needs no copy
+        let may_go_back = step.may_end_early || self.excitation.is_some();
+        let before = may_go_back.then(|| *self.simulation.progress());
         let mut done = self.move_wall(step);
         let mut event = None;
-        if let (true, Some(duration)) = (step.may_end_early, self.duration_to_overturning(before, step)) {
+        if let Some(before) = before.filter(|_| step.may_end_early)
+            && let Some(duration) = self.duration_to_overturning(before, step)
+        {
             self.simulation.restore(before);
             let early = self.move_wall(CommunicationStep { duration, ..step });
             if early.as_ref().is_ok_and(|done| done.overturned) {
@@ -132,7 +136,10 @@ impl Unit {
                 done = self.move_wall(step);
             }
         }
-        let done = done.inspect_err(|_| self.simulation.restore(before))?;
+        if let (Err(_), Some(before)) = (&done, before) {
+            self.simulation.restore(before);
+        }
+        let done = done?;
         self.impulses = done.impulses;
         let end = step.from + step.duration;
         self.simulation.set_time(end);

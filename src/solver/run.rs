@@ -57,6 +57,7 @@ impl<'a> Run<'a> {
     }
 
     /// Moves to the end of the segment, or to where a tie becomes another than that of the motion.
+    #[inline(never)]
     pub(super) fn finish(&mut self) -> Result<(), SolverError> {
         while self.report.work.pieces < self.motion.most_pieces() {
             if self.time >= self.duration || self.state.tie != *self.motion.wall.tie_memory() {
@@ -166,10 +167,13 @@ impl<'a> Run<'a> {
         let branch = &self.motion.wall.branches()[self.state.branch];
         let (from, is_newmark) =
             (self.state.displacement, matches!(self.motion.method, Method::Newmark { .. }));
-        let yielding = branch.yielding_side();
-        let ending = match yielding {
-            Some(side) if !is_newmark => event::find_turn(piece, places, &mut peaks, side),
-            _ => event::find_ending(piece, places, &mut peaks),
+        // 0 where no tie yields, not an option: compiled code multiplies before it branches, and what stands
+        // in place of a missing number may be subnormal, which takes a hundred cycles
+        let outwards = branch.yielding_side().unwrap_or(0.0);
+        let ending = if outwards != 0.0 && !is_newmark {
+            event::find_turn(piece, places, &mut peaks, outwards)
+        } else {
+            event::find_ending(piece, places, &mut peaks)
         };
         self.state.peaks = peaks;
         let ending = ending.map_err(|_| self.exhausted())?;
@@ -205,10 +209,10 @@ impl<'a> Run<'a> {
             if is_newmark {
                 self.state.branch = self.motion.wall.branch_of(displacement, velocity);
             }
-            if let Some(side) = yielding.filter(|side| is_turn || side * velocity < 0.0) {
+            if is_turn || outwards * velocity < 0.0 {
                 // of Newmark's steps only the ends count
-                let reach =
-                    if is_newmark { side * (side * from).max(side * displacement) } else { displacement };
+                let is_farther = outwards * from > outwards * displacement;
+                let reach = if is_newmark && is_farther { from } else { displacement };
                 self.unload(reach);
             }
         }

@@ -259,6 +259,16 @@ mod tests {
         }
     }
 
+    /// A wall that starts where it has left its supports has lost its tie, too.
+    #[test]
+    fn a_start_beyond_departure_has_lost_its_tie() {
+        let parameters = Parameters { tie_height: 3.0, tie_stiffness: 1e5, ..Parameters::default() };
+        let motion = Motion::of(&parameters, 1e-8).unwrap();
+        let departure = motion.wall.body().departure.positive;
+        let lost = |share: f64| motion.start_under(share * departure, 0.0, 0.0).tie.lost;
+        assert!(lost(1.01) && !lost(0.99));
+    }
+
     /// A wall that is stopped goes on only where the forcing leaves the band of rest.
     #[test]
     fn a_stopped_wall_rests_within_the_band() {

@@ -256,7 +256,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         Self { piece, time, from, length, ends, seen: OnceCell::new(), bounds, snap }
     }
 
-    /// The instants that a search begins with. Most pieces need none: their ends show that they raise nothing.
+    /// The instants that a search begins with. Most pieces need none: their ends show that none is higher.
     fn seen(&self) -> &[(f64, KinematicState); FIRST] {
         self.seen.get_or_init(|| {
             std::array::from_fn(|index| match index {

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Solver, TieSide};
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::wall::{Parameters, Support, Tie, Wall, Warning};
 
 use crate::configuration::mostly;
 use crate::properties::{COMPARED, Run, apart, motions, onset, solvers_agree, splits};
@@ -298,6 +298,54 @@ fn the_example_by_hand_overturns_where_its_tie_is_brittle() {
     assert!((progress.tie_breaks[0].unwrap() - YIELDS[0]).abs() < 1e-10, "{progress:?}");
     assert!((progress.overturn_time.unwrap() - 0.384_624_854_6).abs() < 1e-10, "{progress:?}");
     assert_eq!(simulation.outputs(Support::default()).tie_elongation.positive, 0.0);
+}
+
+/// A tie that is just reached at the start has broken: one that is brittle at its first yield, too.
+#[test]
+fn a_tie_that_is_just_reached_has_broken() {
+    for ultimate in [0.0, 0.05] {
+        let wall = Wall::new(&by_hand(ultimate)).unwrap();
+        let breaks = wall.tie().and_then(Tie::fracture_displacement).unwrap();
+        for (u_start, time) in [(breaks, Some(0.0)), (breaks.next_down(), None)] {
+            let simulation = start(&Parameters { u_start, ..by_hand(ultimate) });
+            assert_eq!(simulation.progress().tie_break_time(), time, "{ultimate}");
+        }
+    }
+}
+
+/// At first loading N grows with K to `N_y` and stays there. It is 0 on the other side, and from the fracture
+/// or the departure on.
+#[test]
+fn a_tie_that_is_loaded_for_the_first_time_has_its_force() {
+    let wall = |ultimate| Wall::new(&by_hand(ultimate)).unwrap();
+    let (yielding, elastic) = (wall(0.05), wall(-1.0));
+    let [yields, elastic] = [&yielding, &elastic].map(|wall| wall.tie().unwrap());
+    let [u_y, u_f] = [yields.strength_displacement(), yields.fracture_displacement()].map(Option::unwrap);
+    let departure = yielding.body().departure.positive;
+    let middle = 0.5 * (yields.onset() + u_y);
+    for (u, force) in [(0.9 * yields.onset(), 0.0), (middle, 1.5e3), (1.5 * u_y, 3e3), (-1.5 * u_y, 0.0)] {
+        // a rounding of N_y
+        assert!((yields.force(u) - force).abs() < 1e-12 * 3e3, "{} at {u} m", yields.force(u));
+    }
+    assert_eq!([u_f.next_down(), u_f, 1.1 * u_f].map(|u| yields.force(u)), [3e3, 0.0, 0.0]);
+    assert!(elastic.force(departure.next_down()) > 3e3 && elastic.force(departure) == 0.0);
+    // nor does the wall feel it there
+    let alone = Wall::new(&Parameters { tie_stiffness: 0.0, ..by_hand(-1.0) }).unwrap();
+    let [tied, alone] =
+        [&wall(-1.0), &alone].map(|wall| wall.restoring(wall.branch_of(departure, 1.0), 1.1 * departure));
+    assert_eq!(tied, alone);
+}
+
+/// A tie that yields holds the wall beyond `u_ins` if ℓ `N_y` exceeds the force that tips the wall at its
+/// departure, k₀ u − F₀ = 6357 N, and if it has not broken before.
+#[test]
+fn a_tie_that_yields_is_warned_of_where_it_holds_beyond_u_ins() {
+    let warns = |tie_strength: f64, ultimate: f64| {
+        let wall = Wall::new(&Parameters { tie_strength, ..by_hand(ultimate) }).unwrap();
+        wall.warnings().iter().any(|warning| matches!(warning, Warning::TieHolds { .. }))
+    };
+    let limit = (10594.8 * 0.75 - 1589.22) * 3.0 / 5.2;
+    assert!(warns(1.001 * limit, 10.0) && !warns(0.999 * limit, 10.0) && !warns(1.001 * limit, 0.5));
 }
 
 /// Newmark does not locate the corners of a tie, and its U is that of its steps. It converges.

@@ -2,8 +2,8 @@
 
 The Rust tests run every case. Two show here what an importer adds: the slopes of both supports' motions, and
 the flag that is set in the step of overturning. Those of ties that yield run in Model Exchange too: CVODE at
-1e-10 stays within 1e-6 u_ins, or 100 times its tolerance times the sensitivity. On Windows all of them run
-(test_platforms.py).
+1e-10 stays within 1e-6 u_ins, or 100 times its tolerance times the sensitivity where that is more. On Windows
+all of them run (test_platforms.py).
 
 A case passes if |error|/u_ins stays within max(1e-9, 100 eps sensitivity, 100 error_in_double) up to its
 horizon, as in the Rust tests.
@@ -19,6 +19,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+
+from exchange import Exchange
+from unit import Unit
 
 CASES = Path(__file__).parents[1] / "data/cases"
 NAMES = sorted(path.stem for path in CASES.glob("*.json"))
@@ -145,3 +148,22 @@ def test_ties_that_yield_in_model_exchange(name, version, request, wall, tmp_pat
     sensitivity = np.maximum.accumulate([row["sensitivity"] for row in table])
     worst = (errors / np.maximum(1e-6, 100 * TOLERANCE * sensitivity)).max()
     assert worst <= 1, f"{errors.max():.1e} u_ins, {worst:.1f} of the bound"
+
+
+def test_ties_that_yield_by_another_solver(wall, fmu, tmp_path):
+    """SciPy's DOP853 keeps the most sensitive case within 1e-6 u_ins at the tolerance of CVODE.
+
+    What CVODE errs there, 5e-6 u_ins, is its own: it starts anew at each of 450 samples with steps of first
+    order, errs by about ten tolerances in all, and the motion amplifies that 5000 times.
+    """
+    name, path = "y09_harmonic_ratchet_cdr", tmp_path / "case.fmu"
+    u_ins = json.loads((CASES / f"{name}.json").read_text())["u_ins"]
+    command = [wall, "package", CASES / f"{name}.toml", "-o", path]
+    subprocess.run([*command, "--base", fmu], check=True, capture_output=True)
+    table = rows(name)
+    with Unit.unpack(path) as unpacked, Exchange(unpacked) as exchange:
+        exchange.run()
+        for row in table[1:]:
+            exchange.integrate(row["t"], TOLERANCE)
+            assert exchange.get("u") == pytest.approx(row["u"], rel=0, abs=1e-6 * u_ins), row["t"]
+    assert len(table) > 100 and max(row["sensitivity"] for row in table) > 5000

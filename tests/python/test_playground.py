@@ -134,16 +134,35 @@ def test_the_numbers_are_those_of_the_command_line(browser, wall, page, tmp_path
 def test_ties_and_transverse_walls_are_drawn(browser, page):
     """A tie follows the wall; a wall against transverse walls has restitution at once."""
     visit(browser, page, "tie_stiffness=50000&tie_height=3.5&pga=4")
-    tie = browser.find_element(By.CSS_SELECTOR, "#wall .tie")
-    before = float(tie.get_attribute("x2"))
+
+    def end_of_tie():
+        path = browser.find_element(By.CSS_SELECTOR, "#wall .tie").get_attribute("d")
+        return float(path.split()[-2])
+
+    before = end_of_tie()
     browser.execute_script("pose(0)")
-    assert abs(before) > 0.01 and abs(float(tie.get_attribute("x2"))) < 0.01
+    assert abs(before) > 0.01 and abs(end_of_tie()) < 0.01
     supports = len(browser.find_elements(By.CSS_SELECTOR, "#wall .support"))
     browser.execute_script("set('tie_stiffness', '0'); set('rocking', 'one_sided_positive')")
     shown = answered(browser)
     assert 'impact = "restitution"' in shown["toml"]
     assert len(browser.find_elements(By.CSS_SELECTOR, "#wall .support")) == supports + 1
     assert not browser.find_elements(By.CSS_SELECTOR, "#wall .tie")
+
+
+def test_a_tie_shows_what_it_does(browser, page):
+    """Slack, pulling, yielding and broken, in words and in the picture; its charts come and go with it."""
+    tie = "tie_stiffness=200000&tie_height=3&tie_slack=0.01&tie_strength=1000&tie_ultimate=0.02&pga=4"
+    visit(browser, page, tie)
+    states = browser.execute_script("return playground.shown().frames.tie.sides[0].state")
+    for state, name in enumerate(["slack", "pulls", "yields", "broken"]):
+        browser.execute_script("pose(arguments[0])", states.index(state))
+        assert f"tie: {name}, " in text_of(browser, "tie_now")
+        assert browser.find_element(By.CSS_SELECTOR, "#wall .tie").get_attribute("class") == f"tie {name}"
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#ties .plot svg")) == 2
+    browser.execute_script("set('tie_stiffness', '0')")
+    answered(browser)
+    assert not browser.find_elements(By.CSS_SELECTOR, "#ties .plot") and text_of(browser, "tie_now") == ""
 
 
 def test_a_record_of_the_user_gives_the_numbers_of_the_command_line(browser, wall, page, tmp_path):

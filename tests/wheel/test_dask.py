@@ -34,9 +34,10 @@ table = "walls.csv"
 
 @pytest.fixture
 def study(tmp_path):
-    """A study of 13 walls with a record from a file, and its path."""
-    rows = "".join(f"wall {k},{2 + 0.2 * k},0.25\n" for k in range(12))
-    (tmp_path / "walls.csv").write_text("name,height,thickness\n" + rows, encoding="utf-8")
+    """A study of 13 walls with a record from a file, and its path; twelve walls have ties that may yield."""
+    tie = "name,height,thickness,tie_height,tie_stiffness,tie_slack,tie_strength,tie_ultimate\n"
+    rows = (f"wall {k},{2 + 0.2 * k},0.25,2,2e5,{0.001 * k},{500 + 100 * k},0.03\n" for k in range(12))
+    (tmp_path / "walls.csv").write_text(tie + "".join(rows), encoding="utf-8")
     samples = "".join(f"{0.01 * k:.2f},{0.2 * ((k % 40) - 20) / 20:.4f}\n" for k in range(800))
     (tmp_path / "beat.csv").write_text("time,a_g\n" + samples, encoding="utf-8")
     path = tmp_path / "study.toml"
@@ -82,6 +83,9 @@ def test_two_workers_one_killed(study, program, tmp_path):
     parts = len(list(out.rglob("*.parquet")))
     assert 0 < killed[0] < parts, "the worker was killed before or after the run"
     assert files(out) == files(tmp_path / "alone")
+    ties = rw.read_results(out).ties
+    assert set(ties["wall"]) == {f"wall {k}" for k in range(12)}
+    assert ties["yielded"].all() and ties["broken"].any()
 
 
 def test_a_folder_goes_on_and_is_read(study, tmp_path):

@@ -67,6 +67,7 @@ def test_results_have_every_table_of_the_program(study, tmp_path):
             told = [name for name, column in table.items() if column.dtype.kind in "fib"]
             assert_table({name: table[name] for name in told}, given / f"{path}.csv", told)
         assert set(one.curves["wall"]) == {"1", "2", "both"} == set(one.rates["wall"])
+        assert set(one.ties["wall"]) == {"2"} and one.ties["yielded"].any() and one.ties["broken"].any()
         assert one.nrml == (given / "fragilities.xml").read_text(encoding="utf-8")
     # without a folder the same, and nothing is kept
     with pytest.warns(UserWarning):

@@ -333,18 +333,45 @@ def test_a_tie(program, tmp_path, both):
     np.testing.assert_array_equal(alone.u_ratio_max, found.u_ratio_max)
 
 
+YIELDING = TIED | {"tie_stiffness": 1e6, "tie_ultimate": 0.01}
+BARRED = {"height": 3.0, "thickness": 0.25, "tie_height": 2.5, "bar_diameter": 6e-3, "bar_length": 6.0}
+BARRED |= {"bar_yield_stress": 2e8, "bar_ultimate_strain": 0.02}
+
+
 def test_a_tie_that_yields(program, tmp_path):
     paths, out = records(program, tmp_path, 3), tmp_path / "tie.csv"
-    tied = TIED | {"tie_stiffness": 1e6, "tie_ultimate": 0.01}
-    arguments = [word for name, value in tied.items() for word in ("--set", f"{name}={value}")]
+    arguments = [word for name, value in YIELDING.items() for word in ("--set", f"{name}={value}")]
     arguments += ["--unit", "m/s2", "--ultimate", "0,0.01,1"]
     program("study", "tie", *arguments, "--records", *paths, "--csv", out)
     motions = [rw.read_record(path, unit="m/s2") for path in paths]
-    found = rw.Wall(**tied).tie(motions, ultimate=[1, 0, 0.01])
+    found = rw.Wall(**YIELDING).tie(motions, ultimate=[1, 0, 0.01])
     assert_table(found.table, out)
     assert found.varied == "tie_ultimate" and found.values.tolist() == [0, 0.01, 1]
-    assert found.broken[0].any() and not found.broken[2].any() and (found.force <= tied["tie_strength"]).all()
+    assert found.broken[0].any() and not found.broken[2].any()
+    assert (found.force <= YIELDING["tie_strength"]).all()
     assert (found.elongation[0] == 0).all() and (found.elongation[2] > 0).any()
+
+
+@pytest.mark.parametrize(
+    ("varied", "tied", "values"),
+    [
+        ("stiffness", YIELDING, [1e4, 1e6]),
+        ("strength", YIELDING, [5e2, 2e3]),
+        ("slack", YIELDING, [0, 0.02]),
+        ("height", YIELDING, [1.5, 3]),
+        ("bar_diameter", BARRED, [4e-3, 8e-3]),
+    ],
+)
+def test_numbers_of_a_tie_that_yields(program, tmp_path, varied, tied, values):
+    paths, out = records(program, tmp_path, 2), tmp_path / "tie.csv"
+    arguments = [word for name, value in tied.items() for word in ("--set", f"{name}={value}")]
+    arguments += ["--unit", "m/s2", f"--{varied.replace('_', '-')}", ",".join(map(str, values))]
+    program("study", "tie", *arguments, "--records", *paths, "--csv", out)
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    found = rw.Wall(**tied).tie(motions, **{varied: values})
+    assert_table(found.table, out)
+    assert found.varied.endswith(varied) and found.values.tolist() == values
+    assert found.elongation.any() and (found.u_ratio_max[0] != found.u_ratio_max[1]).any()
 
 
 def test_what_is_no_tie(record):
@@ -355,6 +382,7 @@ def test_what_is_no_tie(record):
         (lambda: wall.tie(scale=2.0), "scale needs records"),
         (lambda: wall.tie(record, stiffness=[1e6], slack=[0.0]), "stiffness and slack are given"),
         (lambda: wall.tie(record, stiffness=[-1.0]), "tie_stiffness = -1 N/m is below its limit 0"),
+        (lambda: wall.tie(record, bar_diameter=[0.01]), "no bar, so bar_diameter has no effect; set it"),
     ]:
         with pytest.raises(ValueError, match=words):
             call()
@@ -377,6 +405,8 @@ def test_a_building(program, tmp_path, record, scale):
         ours = found.walls[wall["name"]]
         told_of_fall = (wall["u_max"], wall["overturn_time"], wall["falls"])
         assert (ours.u_max, ours.overturn_time, ours.falls) == told_of_fall
+        told_of_tie = (wall["tie_elongation"] or 0.0, wall["tie_break_time"])
+        assert (ours.tie_elongation, ours.tie_break_time) == told_of_tie
         for name in ("u_ratio", "reaction_bottom", "reaction_top"):
             assert getattr(ours, f"{name}_peak") == wall[name], name
     histories = columns(out)

@@ -8,14 +8,12 @@ use fmu_export::Step;
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
-use rocking_wall::response::Fate;
 use rocking_wall::scene::{SceneError, check_tail};
-use rocking_wall::solver::reported_peak;
 use rocking_wall::variables::RealVariable as WallVariable;
-use rocking_wall::wall::Wall;
 
 use crate::document::Building;
 use crate::error::BuildingError;
+use crate::histories::{FloorHistory, History, WallHistory};
 use crate::parts::Parts;
 use crate::units::{Plan, Unit, at};
 
@@ -52,67 +50,6 @@ impl Settings {
     }
 }
 
-/// A largest absolute value, and when it came.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Peak {
-    /// The value, with its sign.
-    pub value: f64,
-    /// Its time \[s\].
-    pub time: f64,
-}
-
-impl Peak {
-    fn add(&mut self, value: f64, time: f64) {
-        if value.abs() > self.value.abs() {
-            *self = Self { value, time };
-        }
-    }
-}
-
-/// A quantity over time, and its peak at all communication points.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct History {
-    /// Values at the times of the [`Coupled`] run.
-    pub values: Vec<f64>,
-    /// Largest value at any communication point.
-    pub peak: Peak,
-}
-
-impl History {
-    fn add(&mut self, value: f64, time: f64, is_shown: bool) {
-        self.peak.add(value, time);
-        if is_shown {
-            self.values.push(value);
-        }
-    }
-}
-
-/// A storey in time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FloorHistory {
-    /// Absolute acceleration \[m/s²\].
-    pub acceleration: History,
-    /// Displacement relative to what it stands on: the drift \[m\].
-    pub drift: History,
-}
-
-/// A wall in time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WallHistory {
-    /// u \[m\].
-    pub displacement: History,
-    /// u/`u_ins` of its side (-).
-    pub ratio: History,
-    /// Force of the bottom support on the wall \[N\].
-    pub reaction_bottom: History,
-    /// Force of the top support on the wall \[N\]; 0 for a parapet.
-    pub reaction_top: History,
-    /// Largest |u| between the communication points too \[m\].
-    pub largest: f64,
-    /// When it overturned \[s\].
-    pub overturn_time: Option<f64>,
-}
-
 /// A building in time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupled {
@@ -128,23 +65,6 @@ pub struct Coupled {
     pub floors: Vec<FloorHistory>,
     /// Walls in the order of the file.
     pub walls: Vec<WallHistory>,
-}
-
-impl WallHistory {
-    /// Returns the wall's overturning and whether it falls, from its history at the times of the run \[s\].
-    pub fn fate(&self, times: &[f64]) -> Fate {
-        Fate::of(self.overturn_time, times.iter().copied().zip(self.ratio.values.iter().copied()))
-    }
-
-    /// Returns the peak of u \[m\], and the largest |u| \[m\] and |u|/`u_ins`, as results report them.
-    pub fn reported(&self, wall: &Wall, times: &[f64]) -> (Peak, [f64; 2]) {
-        let u_ins = wall.body().instability;
-        let (peak, falls) = (self.displacement.peak, self.fate(times).falling());
-        let end = self.displacement.values.last().copied().unwrap_or_default();
-        let own = [self.largest, self.largest / u_ins.of(peak.value)];
-        let reported = reported_peak(own, u_ins.of(end), falls.is_some());
-        (falls.map_or(peak, |time| Peak { value: reported[0].copysign(end), time }), reported)
-    }
 }
 
 impl Coupled {
@@ -223,15 +143,20 @@ impl Coupled {
 /// References of the outputs that are shown.
 struct References {
     floors: Vec<[(usize, u32); 2]>,
-    walls: Vec<[(usize, u32); 6]>,
+    walls: Vec<[[(usize, u32); 3]; 3]>,
 }
 
 impl References {
     fn new(building: &Building) -> Self {
-        use WallVariable::{OverturnTime, ReactionBottom, ReactionTop, U, UMax, URatio};
+        use WallVariable as V;
         let floor =
             |unit| [FloorVariable::AccelerationAbsolute, FloorVariable::Displacement].map(|id| at(unit, id));
-        let wall = |unit| [U, URatio, ReactionBottom, ReactionTop, UMax, OverturnTime].map(|id| at(unit, id));
+        let of_wall = [
+            [V::U, V::URatio, V::ReactionBottom],
+            [V::ReactionTop, V::UMax, V::OverturnTime],
+            [V::TieElongation, V::TieElongationNegative, V::TieBreakTime],
+        ];
+        let wall = |unit| of_wall.map(|three| three.map(|id| at(unit, id)));
         let floors = building.floors.len();
         let units = floors + building.walls.len();
         Self { floors: (0..floors).map(floor).collect(), walls: (floors..units).map(wall).collect() }
@@ -382,12 +307,17 @@ impl<'a> Loop<'a> {
             floor.drift.add(get(of[1]), time, is_shown);
         }
         for (wall, of) in run.walls.iter_mut().zip(&self.references.walls) {
-            wall.displacement.add(get(of[0]), time, is_shown);
-            wall.ratio.add(get(of[1]), time, is_shown);
-            wall.reaction_bottom.add(get(of[2]), time, is_shown);
-            wall.reaction_top.add(get(of[3]), time, is_shown);
-            wall.largest = get(of[4]);
-            wall.overturn_time = Some(get(of[5])).filter(|time| *time >= 0.0);
+            let [[u, ratio, bottom], [top, largest, overturned], [positive, negative, broke]] =
+                of.map(|three| three.map(get));
+            wall.displacement.add(u, time, is_shown);
+            wall.ratio.add(ratio, time, is_shown);
+            wall.reaction_bottom.add(bottom, time, is_shown);
+            wall.reaction_top.add(top, time, is_shown);
+            wall.largest = largest;
+            // -1 before
+            [wall.overturn_time, wall.tie_break_time] =
+                [overturned, broke].map(|time| Some(time).filter(|time| *time >= 0.0));
+            wall.tie_elongation = positive.max(negative);
         }
     }
 }

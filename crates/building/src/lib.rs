@@ -12,6 +12,7 @@
 //! |---|---|
 //! | [`document`] | the file of a building |
 //! | [`parts`] | its units and their connections, and the SSP |
+//! | [`histories`] | floors and walls in time |
 //! | [`coupled`] | the run under a record |
 //! | [`table`] | its peaks and histories as tables and JSON |
 //! | [`page`] | the page of a run |
@@ -20,6 +21,7 @@
 pub mod coupled;
 pub mod document;
 pub mod error;
+pub mod histories;
 pub mod page;
 pub mod parts;
 mod ssd;

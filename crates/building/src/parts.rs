@@ -106,8 +106,9 @@ fn scene(building: &Building, wall: &Member, warnings: &mut Vec<String>) -> Resu
     let made = scene_fmu::check(&scene).map_err(|error| format!("{path}: {error}"))?;
     let name = &wall.name;
     warnings.extend(made.warnings().iter().map(|warning| format!("wall {name:?}: {warning}")));
-    if scene.parameters.u_start != 0.0 {
-        let start = scene.parameters.u_start;
+    let start = scene.parameters.u_start;
+    warnings.extend(made.start_warning(start).map(|warning| format!("wall {name:?}: {warning}")));
+    if start != 0.0 {
         warnings.push(format!("wall {name:?} is released from u_start = {start} m, as its scene says"));
     }
     let spans = scene.parameters.mechanism == Mechanism::VerticalSpanning;

@@ -1,10 +1,12 @@
 //! The run of a building as tables: the peaks of its floors and walls, and all histories.
 
 use report::table::{Digits, Growing, Table};
+use rocking_wall::wall::Wall;
 use run::demands;
 use serde_json::{Value, json};
 
-use crate::coupled::{Coupled, History, Peak};
+use crate::coupled::Coupled;
+use crate::histories::{History, Peak};
 use crate::{Building, Parts};
 
 /// A peak with its sign and its time, for people.
@@ -22,21 +24,41 @@ pub fn floors(building: &Building, run: &Coupled) -> Table {
         .done()
 }
 
-/// Returns the peaks of each wall, and whether it overturned.
+/// Returns the peaks of each wall, and whether it overturned. Where ties may yield, it says how much longer
+/// they are at the end, and when one first broke.
 pub fn walls(building: &Building, parts: &Parts, run: &Coupled) -> Table {
     let (any, three) = (Digits::AtMost(6), Digits::Decimals(3));
     let rows = building.walls.iter().zip(&run.walls).zip(&parts.walls);
-    let rows = rows.map(|((wall, history), own)| (wall, history, history.reported(own, &run.times)));
-    Table::over(rows)
+    let rows =
+        rows.map(|((wall, history), own)| (wall, history, yields(own), history.reported(own, &run.times)));
+    let has_yielding_ties = parts.walls.iter().any(yields);
+    let table = Table::over(rows)
         .text("", "wall", |(wall, ..)| wall.name.clone())
         .number("", "u [mm]", any, |(.., (peak, _))| at(*peak, 1000.0, 1))
         .number("", "u/u_ins", three, |(.., (_, [_, ratio]))| *ratio)
-        .number("", "bottom force [kN]", any, |(_, history, _)| at(history.reaction_bottom.peak, 1e-3, 2))
-        .number("", "top force [kN]", any, |(wall, history, _)| {
+        .number("", "bottom force [kN]", any, |(_, history, ..)| at(history.reaction_bottom.peak, 1e-3, 2))
+        .number("", "top force [kN]", any, |(wall, history, ..)| {
             wall.top.map(|_| at(history.reaction_top.peak, 1e-3, 2))
         })
-        .text("", "overturned", |(_, history, _)| demands::overturned(history.fate(&run.times), 3))
+        .text("", "overturned", |(_, history, ..)| demands::overturned(history.fate(&run.times), 3));
+    if !has_yielding_ties {
+        return table.done();
+    }
+    table
+        .number("", "tie longer by [mm]", Digits::Decimals(1), |(_, history, yields, _)| {
+            yields.then_some(1e3 * history.tie_elongation)
+        })
+        .text("", "tie", |(_, history, ..)| match history.tie_break_time {
+            Some(time) => format!("broke at {time:.3} s"),
+            None if history.tie_elongation > 0.0 => "yielded".to_owned(),
+            None => String::new(),
+        })
         .done()
+}
+
+/// Returns whether a wall has a tie that may yield.
+fn yields(wall: &Wall) -> bool {
+    wall.tie().is_some_and(|tie| tie.ultimate.is_some())
 }
 
 /// Returns all histories: a row for each sample of the record, and on at its step.
@@ -81,6 +103,8 @@ pub fn json(building: &Building, parts: &Parts, run: &Coupled) -> Value {
             "reaction_top": peak(&history.reaction_top),
             "overturn_time": history.overturn_time,
             "falls": history.fate(&run.times).falls(),
+            "tie_elongation": yields(own).then_some(history.tie_elongation),
+            "tie_break_time": history.tie_break_time,
         })
     });
     json!({

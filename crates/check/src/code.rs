@@ -259,18 +259,6 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits)
     Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
 }
 
-/// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
-pub fn complete(schema: &mut Schema) {
-    let mut tables = Schema::new();
-    let codes = CODES.map(|code| (code.describe)("check", &mut tables)).to_vec();
-    if let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") {
-        check.insert("anyOf".to_owned(), codes.into());
-    }
-    if let Some(all) = schema["$defs"].as_table_mut() {
-        all.extend(tables);
-    }
-}
-
 /// Says how to write a table `[check]`.
 pub fn how_to_write() -> String {
     let names = CODES.map(|code| format!("{:?}", code.name)).join(" and ");

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Place, SceneError, parse_document, refusal};
+use rocking_wall::scene::{Place, SceneError, Schema, parse_document, refusal};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -10,6 +10,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
+use crate::code::CODES;
 use crate::error::CheckError;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
@@ -311,5 +312,17 @@ impl<'a> CheckFile<'a> {
             }
         }
         at.span()
+    }
+}
+
+/// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
+pub fn complete(schema: &mut Schema) {
+    let mut tables = Schema::new();
+    let codes = CODES.map(|code| (code.describe)("check", &mut tables)).to_vec();
+    if let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") {
+        check.insert("anyOf".to_owned(), codes.into());
+    }
+    if let Some(all) = schema["$defs"].as_table_mut() {
+        all.extend(tables);
     }
 }

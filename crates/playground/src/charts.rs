@@ -4,6 +4,7 @@ use report::plot::{Picture, Plot};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::wall::Wall;
 use run::figure as plots;
+use run::page::tie;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -12,8 +13,9 @@ const AFTER_FALL: f64 = 0.15;
 /// Limits of the width of a chart \[px\].
 const WIDTHS: [f64; 2] = [280.0, 1200.0];
 
-/// The history, the motion and the restoring force of a run, by the names of their places on the page.
-pub(crate) type Charts = [(&'static str, Plot); 3];
+/// The history, the motion and the restoring force of a run, and those of its tie, by the names of their
+/// places on the page.
+pub(crate) type Charts = Vec<(&'static str, Plot)>;
 
 /// Draws a run at a width \[px\].
 pub(crate) fn charts(wall: &Wall, response: &Response, width: f64) -> Charts {
@@ -24,11 +26,19 @@ pub(crate) fn charts(wall: &Wall, response: &Response, width: f64) -> Charts {
     let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
     let force = plots::force_path(wall, shown.iter().copied(), &ratios);
     let sized = |height: f64, plot: Plot| Plot { size: [width, height], ..plot };
-    [
+    let of_tie = tie::plots(wall, response, end).into_iter().map(|(id, _, plot)| (id, sized(150.0, plot)));
+    let charts = [
         ("history", sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end))),
         ("motion", sized(150.0, plots::motion(&ground, None, end))),
         ("force", sized((0.5 * width).clamp(200.0, 270.0), force)),
-    ]
+    ];
+    charts.into_iter().chain(of_tie).collect()
+}
+
+/// Returns the captions of the charts of a tie, by the names of their places; empty without one.
+pub(crate) fn captions(wall: &Wall, response: &Response) -> Vec<(&'static str, String)> {
+    let plots = tie::plots(wall, response, shown_end(response));
+    plots.into_iter().map(|(id, caption, _)| (id, caption)).collect()
 }
 
 /// Returns charts as inline SVG, with what a cursor needs.
@@ -39,7 +49,7 @@ pub(crate) fn inline(charts: Charts) -> Value {
 
 /// Returns charts as one SVG file.
 pub(crate) fn file(charts: Charts) -> String {
-    Picture::stacked(&charts.map(|(_, plot)| plot)).svg()
+    Picture::stacked(&charts.into_iter().map(|(_, plot)| plot).collect::<Vec<_>>()).svg()
 }
 
 /// The end of the time axes \[s\]: soon after a fall.
@@ -57,18 +67,21 @@ pub(crate) struct Frames {
     u: Vec<f32>,
     /// Restoring forces \[kN\].
     f: Vec<f32>,
+    /// What a tie does; null without one.
+    tie: Value,
 }
 
 impl Frames {
-    pub(crate) fn of(response: &Response) -> Self {
+    pub(crate) fn of(wall: &Wall, response: &Response) -> Self {
         let end = shown_end(response);
-        let shown = || response.samples.iter().take_while(|sample| sample.time <= end);
+        let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
         #[allow(clippy::cast_possible_truncation, reason = "a drawing has no more digits")]
-        let column = |pick: fn(&Sample) -> f64| shown().map(|sample| pick(sample) as f32).collect();
+        let column = |pick: fn(&Sample) -> f64| shown.iter().map(|sample| pick(sample) as f32).collect();
         Self {
             t: column(|sample| sample.time),
             u: column(|sample| sample.outputs.displacement),
             f: column(|sample| 1e-3 * sample.outputs.restoring_force),
+            tie: tie::data(wall, response, &shown),
         }
     }
 }

@@ -4,7 +4,7 @@ use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
 use serde_json::{Value, json};
 
-use crate::charts::{Frames, charts, file, inline};
+use crate::charts::{Frames, captions, charts, file, inline};
 use crate::check;
 use crate::fragility::Fragility;
 use crate::parameters;
@@ -54,7 +54,7 @@ impl Session {
 
     /// The frames of the last run; apart from its other numbers, which keep all their digits.
     fn frames(&self) -> String {
-        let frames = self.last.as_ref().map(|(_, response)| Frames::of(response));
+        let frames = self.last.as_ref().map(|(prepared, response)| Frames::of(&prepared.wall, response));
         format!("{{\"answer\":{}}}", serde_json::to_string(&frames).unwrap_or_default())
     }
 
@@ -82,6 +82,7 @@ impl Session {
             "computed": parameters::computed(wall),
             "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
             "charts": inline(charts(wall, &response, inputs.width)),
+            "captions": captions(wall, &response),
             "wall": {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,

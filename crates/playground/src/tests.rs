@@ -194,6 +194,27 @@ fn a_tie_can_be_given_by_its_bar() {
     value("largest plastic elongation of the tie");
 }
 
+/// The page knows what each tie does in each frame, and has charts of its force and elongation.
+#[test]
+fn a_tie_is_slack_pulls_yields_and_breaks() {
+    let tied = json!({
+        "tie_height": "3", "tie_stiffness": "2e5", "tie_strength": "1e3", "tie_slack": "0.01",
+        "tie_ultimate": "0.02", "tie_side": "both",
+    });
+    let (mut session, motion) = (Session::default(), json!({ "kind": "synthetic", "seed": "1", "pga": "4" }));
+    let answer = run(&mut session, &tied, &motion)["answer"].clone();
+    for (place, name) in ["tie_force", "tie_elongation"].into_iter().enumerate() {
+        assert!(answer["captions"][place][0] == name && answer["charts"][name]["svg"].is_string());
+    }
+    let tie = ask(&mut session, &json!("frames"))["answer"]["tie"].clone();
+    let states = tie["sides"].as_array().unwrap().iter().flat_map(|side| side["state"].as_array().unwrap());
+    let states: std::collections::BTreeSet<_> = states.map(|state| state.as_u64().unwrap()).collect();
+    assert!(states.into_iter().eq(0..4) && tie["sides"].as_array().unwrap().len() == 2);
+    let free = run(&mut session, &json!({}), &motion)["answer"].clone();
+    let frames = ask(&mut session, &json!("frames"))["answer"].clone();
+    assert!(free["captions"] == json!([]) && frames["tie"].is_null());
+}
+
 /// The page shows the fields that matter, by the conditions of the model description.
 #[test]
 fn the_library_says_which_parameters_do_not_matter() {

@@ -6,6 +6,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::solver::Yielding;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::Wall;
+use run::page::tie;
 use serde_json::{Value, json};
 
 /// Part of the static instability displacement below which the wall counts as not having moved.
@@ -31,7 +32,7 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
             "Largest displacement {largest} mm at {:.2} s; it overturns beyond {u_ins} mm.",
             peak.time
         ),
-    };
+    } + &tie::said(response);
     let onset = wall.rocking_onset();
     let shaken = scene.excitation.as_ref().map(|excitation| {
         let peak = excitation.bottom().peak();

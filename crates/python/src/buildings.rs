@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use building::coupled::{Coupled, History, Peak, Settings};
+use building::coupled::{Coupled, Settings};
+use building::histories::{History, Peak};
 use building::{BuildingError, Parts};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -99,6 +100,8 @@ impl Building {
             values.set_item("u_max", u_max)?;
             values.set_item("overturn_time", history.overturn_time)?;
             values.set_item("falls", history.fate(&run.times).falls())?;
+            values.set_item("tie_elongation", history.tie_elongation)?;
+            values.set_item("tie_break_time", history.tie_break_time)?;
             walls.set_item(&wall.name, values)?;
         }
         let values = PyDict::new(py);

@@ -37,3 +37,23 @@ function timeUnder(event, plot) {
   const box = plot.getBoundingClientRect();
   return from + (to - from) * ((event.clientX - box.left) / box.width - left) / (right - left);
 }
+// ---- ties, as run::page::tie describes them
+const tieStates = ["slack", "pulls", "yields", "broken"];
+const ofSides = (tie, text) => tie.sides.map(text).join(" / ");
+const statesOf = (tie, frame) => ofSides(tie, side => tieStates[side.state[frame]]);
+const longerBy = (tie, frame) => ofSides(tie, side => side.p[frame].toFixed(1));
+// Draws the ties of a frame to the wall at x, with displacements enlarged by `factor`: sagging while slack,
+// hanging down once broken. A parabola over the span l that is longer by d sags by the root of 3/8 l d.
+function drawTies(tie, frame, x, thickness, factor) {
+  document.querySelectorAll(".tie").forEach((line, index) => {
+    const { state, free } = tie.sides[index], y = tie.y, edge = Number(line.dataset.edge);
+    const middle = (edge + x) / 2, span = Math.abs(x - edge);
+    const face = x + Math.sign(edge) * 0.55 * thickness;
+    const sag = Math.sqrt(0.375 * span * free[frame] * factor);
+    const to = tieStates[state[frame]] === "broken"
+      ? `Q${middle} ${y} ${middle} ${y - span / 2}M${face} ${y}v${-span / 4}`
+      : `Q${middle} ${y - 2 * sag} ${x} ${y}`;
+    line.setAttribute("d", `M${9 * edge} ${y}H${edge}${to}`);
+    line.setAttribute("class", `tie ${tieStates[state[frame]]}`);
+  });
+}

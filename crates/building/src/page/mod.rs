@@ -154,7 +154,7 @@ fn telling(run: &Coupled, frames: &[usize]) -> usize {
 pub(super) fn said(building: &Building, run: &Coupled) -> String {
     let overturned = overturned(building, run);
     let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
-        let ratio = |wall: &crate::coupled::WallHistory| wall.ratio.peak.value.abs();
+        let ratio = |wall: &crate::histories::WallHistory| wall.ratio.peak.value.abs();
         ratio(a.1).total_cmp(&ratio(b.1))
     });
     let name = |name: &str| name.replace('_', " ");

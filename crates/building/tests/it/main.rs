@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use building::{Building, Coupled, Parts, Settings};
+use building::{Building, Coupled, Parts, Settings, table};
 use ground_motion::{GroundMotion, Storey, Storeys, SyntheticMotion};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{Floors, Scene, StoreyTable, SupportsTable};
@@ -58,9 +58,14 @@ fn written(folder: &Path, storeys: &[(f64, f64)], damping_ratio: f64, walls: &[(
     path
 }
 
-fn run(path: &Path, ground: &GroundMotion, end: f64, tolerance: f64) -> Coupled {
+fn read(path: &Path) -> (Building, Parts) {
     let building = Building::read(path).unwrap();
     let parts = Parts::read(&building).unwrap();
+    (building, parts)
+}
+
+fn run(path: &Path, ground: &GroundMotion, end: f64, tolerance: f64) -> Coupled {
+    let (building, parts) = read(path);
     Coupled::run(&building, &parts, ground, Settings { end, tolerance }).unwrap()
 }
 
@@ -139,6 +144,7 @@ fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
 /// communication point, to the 1e-10 at which the loop counts as closed, and ten roundings of M a.
 #[test]
 fn a_tie_that_yields_reacts_on_its_floor() {
+    const BROKEN: &str = "where the tie breaks: it starts broken";
     let folder = folder("building_tied");
     let (mass, stiffness) = (2.0e4, 2.0e4 * 400.0);
     // u at which the ties yield: N_y/K over 2y/h
@@ -160,8 +166,24 @@ fn a_tie_that_yields_reacts_on_its_floor() {
             assert!(sum.abs() <= allowed, "{sum:e} of {allowed:e}");
         }
         peaks.push(wall.largest);
+        // p = 2y/h (u - u_y), to a rounding, up to p_u
+        let longer = (2.0 * (wall.largest - yields)).clamp(0.0, f64::max(ultimate, 0.0));
+        assert!((wall.tie_elongation - longer).abs() < 1e-15, "{} {longer}", wall.tie_elongation);
+        assert_eq!(wall.tie_break_time.is_some(), ultimate == 2e-3);
+        let (building, parts) = read(&path);
+        let text = table::walls(&building, &parts, &coupled).text();
+        let told = ["tie longer by", "broke at", "yielded"].map(|words| text.contains(words));
+        assert_eq!(told, [ultimate >= 0.0, ultimate == 2e-3, ultimate == 10.0], "{text}");
+        assert!(!parts.warnings.iter().any(|warning| warning.contains(BROKEN)), "{:?}", parts.warnings);
     }
     assert!(peaks[0] < peaks[1].min(peaks[2]), "an elastic tie holds the wall best: {peaks:?}");
+    // pulled beyond the fracture by hand
+    let tie = "tie_height = 1.2\ntie_stiffness = 2e5\ntie_strength = 300.0\ntie_ultimate = 2e-3";
+    let scene = format!("{}[tie]\n{tie}\n[start]\nu_start = 0.01\n", parapet(2.0));
+    fs::write(folder.join("p.toml"), scene).unwrap();
+    let path = written(&folder, &[(mass, stiffness)], 0.0, &[("p", "bottom = \"floor_1\"")]);
+    let (_, parts) = read(&path);
+    assert!(parts.warnings.iter().any(|warning| warning.contains(BROKEN)), "{:?}", parts.warnings);
 }
 
 /// Every line of a building, broken in every way: no message speaks in words of the reader.

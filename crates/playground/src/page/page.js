@@ -211,6 +211,10 @@ function show(answer) {
   at("warnings").replaceChildren(...answer.warnings.map(textContent => make("li", { textContent })));
   at("facts").replaceChildren(...answer.facts.map(pair =>
     make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
+  at("ties").replaceChildren(...answer.captions.map(([id, textContent]) => {
+    const plot = scrubbed(make("div", { className: "plot", id }));
+    return make("figure", {}, make("figcaption", { textContent }), plot);
+  }));
   for (const [id, { svg, area, ranges }] of Object.entries(answer.charts)) {
     const height = `top: ${100 * area[2]}%; height: ${100 * (area[3] - area[2])}%`;
     at(id).innerHTML = svg + (id === "force" ? `<div class="dot"></div>`
@@ -339,9 +343,7 @@ function listen() {
   at("controls").addEventListener("submit", event => event.preventDefault());
   at("play").addEventListener("click", () => playing === null ? play() : stop());
   at("time").addEventListener("input", () => { stop(); pose(Number(at("time").value)); });
-  for (const id of ["history", "motion"]) {
-    for (const kind of ["pointerdown", "pointermove"]) { at(id).addEventListener(kind, scrub); }
-  }
+  for (const id of ["history", "motion"]) { scrubbed(at(id)); }
   at("fragility").addEventListener("click", fragility);
   at("copy_scene").addEventListener("click", () => copy(shown?.toml ?? "", "Scene file"));
   for (const language of ["en", "it"]) {

@@ -20,11 +20,8 @@ function draw(wall, asked) {
     : `<g id="lower">${rect("body", -b / 2, 0, b, hinge)}</g>` +
       `<g id="upper">${rect("body", -b / 2, hinge, b, h - hinge)}${load}</g>`;
   // ties pull towards the side that they hold the wall from
-  const tied = "bar_diameter" in asked || Number(asked.tie_stiffness ?? 0) > 0;
-  const y = Number(asked.tie_height ?? 0);
-  const pulls = { positive: [-1], negative: [1], both: [-1, 1] }[asked.tie_side] ?? [];
-  const ties = !tied ? "" : pulls.map(side =>
-    `<line class="tie" data-height="${y}" x1="${20 * side * h}" x2="0" y1="${y}" y2="${y}"/>`).join("");
+  const sides = shown.frames.tie?.sides ?? [];
+  const ties = sides.map(({ sign }) => `<path class="tie" data-edge="${-sign * half}"/>`).join("");
   const stop = { one_sided_positive: -20 * h - b / 2, one_sided_negative: b / 2 }[asked.rocking];
   const transverse = stop === undefined ? "" : rect("support", stop, 0, 20 * h, 0.94 * h);
   at("wall").setAttribute("viewBox", `${-half} ${-(h + top)} ${2 * half} ${h + top + below}`);
@@ -42,8 +39,9 @@ function pose(frame) {
   if (wall.hinge === null) {
     const turn = angle(wall.height / 2);
     at("lower").setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
-    for (const tie of document.querySelectorAll(".tie")) {
-      tie.setAttribute("x2", toe - toe * Math.cos(turn) + Math.sin(turn) * tie.dataset.height);
+    if (frames.tie !== null) {
+      const x = toe - toe * Math.cos(turn) + Math.sin(turn) * frames.tie.y;
+      drawTies(frames.tie, frame, x, b, factor);
     }
   } else {
     openHinge(at("lower"), at("upper"), angle(wall.hinge), angle(wall.height - wall.hinge), toe, wall.hinge);
@@ -54,6 +52,9 @@ function pose(frame) {
   const fallen = summary.falls !== null && t >= summary.falls;
   at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
     : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
+  at("tie_now").textContent = frames.tie === null ? "" : `tie: ${statesOf(frames.tie, frame)}, ` +
+    `${frames.tie.force[frame].toFixed(1)} kN` +
+    (frames.tie.yields ? `, longer by ${longerBy(frames.tie, frame)} mm` : "");
   moveCursors(t, [ratio, frames.f[frame]]);
 }
 let playing = null;
@@ -82,4 +83,9 @@ function scrub(event) {
   const time = timeUnder(event, event.currentTarget);
   stop();
   pose(Math.max(0, shown.frames.t.findLastIndex(one => one <= time)));
+}
+// Lets a pointer on a history choose the time.
+function scrubbed(plot) {
+  for (const kind of ["pointerdown", "pointermove"]) { plot.addEventListener(kind, scrub); }
+  return plot;
 }

@@ -59,6 +59,10 @@ class BuildingWallResponse:
     """When |u| first exceeded u_ins [s]; None for never."""
     falls: bool
     """Whether the wall falls; one that overturned can come back."""
+    tie_elongation: float
+    """Plastic elongation of its tie at the end, the larger one of two [m]; 0 for one that stays elastic."""
+    tie_break_time: float | None
+    """When a tie first broke [s]; None for never."""
 
     @property
     def overturned(self) -> bool:

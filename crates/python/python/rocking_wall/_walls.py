@@ -341,6 +341,7 @@ class Wall(Given):
         slack: ArrayLike | None = None,
         height: ArrayLike | None = None,
         ultimate: ArrayLike | None = None,
+        bar_diameter: ArrayLike | None = None,
         scale: float = 1.0,
         both_polarities: bool = False,
         threads: int | None = None,
@@ -356,6 +357,7 @@ class Wall(Given):
         :param height: Heights of the tie above the base [m] instead.
         :param ultimate: Plastic elongations at which the tie breaks [m] instead, -1 for one that stays
             elastic.
+        :param bar_diameter: Diameters of the bar of the tie [m] instead.
         :param scale: Factor on the records.
         :param both_polarities: Run each motion with both signs.
         :param threads: Number of threads; by default one for each core.
@@ -372,11 +374,11 @@ class Wall(Given):
             raise ValueError("scale needs records beside it")
         motions = [scaled(motion_of(record), scale, "scale") for record in given]
         ties = {"stiffness": stiffness, "strength": strength, "slack": slack}
-        ties |= {"height": height, "ultimate": ultimate}
+        ties |= {"height": height, "ultimate": ultimate, "bar_diameter": bar_diameter}
         chosen = [name for name, values in ties.items() if values is not None] or ["stiffness"]
         if len(chosen) > 1:
             raise ValueError(f"{' and '.join(chosen)} are given; give one of them")
-        varied = f"tie_{chosen[0]}"
+        varied = chosen[0] if chosen[0] == "bar_diameter" else f"tie_{chosen[0]}"
         values, table, picture, is_alike = _native.tie_of_wall(
             self._native, motions, (varied, ties[chosen[0]]), both_polarities, threads
         )

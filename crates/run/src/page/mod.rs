@@ -279,7 +279,7 @@ fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
         )
 }
 
-mod tie;
+pub mod tie;
 
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use report::moving::{plot, rounded};
 use report::number;
 use report::palette::{AMBER, BLUE};
+use report::plot::Plot;
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::solver::Yielding;
 use rocking_wall::wall::{Tie, TiePart, Wall};
@@ -53,7 +54,7 @@ fn state(tie: &Tie, sample: &Sample, sign: f64, broke: Option<f64>) -> State {
 
 /// Returns what the script draws: for each side that is held its state and its free length, for each frame
 /// the force \[kN\] and the elongations \[mm\]. Null without a tie.
-pub(super) fn data(wall: &Wall, response: &Response, frames: &[&Sample]) -> Value {
+pub fn data(wall: &Wall, response: &Response, frames: &[&Sample]) -> Value {
     let Some(tie) = wall.tie() else { return Value::Null };
     let side = |sign: f64| {
         let free = |sample: &&Sample| {
@@ -112,7 +113,7 @@ pub(super) fn fact(wall: &Wall, weaker: Option<TiePart>) -> Option<String> {
 }
 
 /// Says what becomes of ties that yield; empty for others.
-pub(super) fn said(response: &Response) -> String {
+pub fn said(response: &Response) -> String {
     let Some(Yielding { elongation, breaks }) = yielding(response) else { return String::new() };
     let largest = 1000.0 * elongation.positive.max(elongation.negative);
     match breaks.into_iter().flatten().reduce(f64::min) {
@@ -122,30 +123,44 @@ pub(super) fn said(response: &Response) -> String {
     }
 }
 
-/// Force and elongation over the time.
-pub(super) fn figures(wall: &Wall, response: &Response, end: f64) -> String {
-    let Some(tie) = wall.tie() else { return String::new() };
+/// A plot over the time, with its name and its caption.
+pub type Named = (&'static str, String, Plot);
+
+/// Force and, of ties that may yield, plastic elongation over the time up to `end` \[s\].
+pub fn plots(wall: &Wall, response: &Response, end: f64) -> Vec<Named> {
+    let Some(tie) = wall.tie() else { return Vec::new() };
     let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
-        response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
+        let shown = response.samples.iter().take_while(|sample| sample.time <= end);
+        shown.map(|sample| (sample.time, pick(sample))).collect()
     };
-    let yields = yielding(response).is_some();
-    let first = response.demands.tie.and_then(|tie| tie.strength).map(|first| first.time);
-    let breaks = sides(tie).filter_map(|sign| broke(response, sign)).map(|time| (time, "breaks"));
-    // a brittle tie breaks where it would yield
-    let first = first.filter(|_| yields && tie.ultimate != Some(0.0)).map(|time| (time, "yields"));
-    let marks: Vec<_> = first.into_iter().chain(breaks).filter(|(time, _)| *time <= end).collect();
     let force = column(&|sample| sample.outputs.tie_force / 1000.0);
     let force = histories(&[(&force, BLUE)], [0.0, end], "N (kN)", &[]);
-    let mut text = plot("tie_force", "Force of the tie", &force, &marks, true);
-    if yields {
+    let mut plots = vec![("tie_force", "Force of the tie".to_owned(), force)];
+    if yielding(response).is_some() {
         let elongations: Vec<_> = sides(tie)
             .map(|sign| (column(&|sample| 1000.0 * sample.outputs.tie_elongation.of(sign)), sign))
             .collect();
         let color = |sign: f64| if sign > 0.0 { BLUE } else { AMBER };
         let lines: Vec<_> = elongations.iter().map(|(points, sign)| (&points[..], color(*sign))).collect();
         let which = if lines.len() > 1 { ": u > 0 (blue), u < 0 (amber)" } else { "" };
-        let caption = format!("Plastic elongation of the tie{which}");
-        text += &plot("tie_elongation", &caption, &histories(&lines, [0.0, end], "p (mm)", &[]), &[], true);
+        let plot = histories(&lines, [0.0, end], "p (mm)", &[]);
+        plots.push(("tie_elongation", format!("Plastic elongation of the tie{which}"), plot));
     }
-    text
+    plots
+}
+
+/// Force and elongation over the time, with marks where a tie first yields and where it breaks.
+pub(super) fn figures(wall: &Wall, response: &Response, end: f64) -> String {
+    let Some(tie) = wall.tie() else { return String::new() };
+    let yields = yielding(response).is_some();
+    let first = response.demands.tie.and_then(|tie| tie.strength).map(|first| first.time);
+    let breaks = sides(tie).filter_map(|sign| broke(response, sign)).map(|time| (time, "breaks"));
+    // a brittle tie breaks where it would yield
+    let first = first.filter(|_| yields && tie.ultimate != Some(0.0)).map(|time| (time, "yields"));
+    let marks: Vec<_> = first.into_iter().chain(breaks).filter(|(time, _)| *time <= end).collect();
+    let of = |id| if id == "tie_force" { &marks[..] } else { &[] };
+    plots(wall, response, end)
+        .iter()
+        .map(|(id, caption, drawn)| plot(id, caption, drawn, of(*id), true))
+        .collect()
 }

@@ -241,3 +241,61 @@ fn samples_are_walls_and_classes() {
     assert!(assumed(&loaded).contains(&"a1") && !assumed(&loaded).contains(&"height"));
     assert_eq!(assumed(&received), assumed(&loaded));
 }
+
+/// A table may have the numbers of a tie as columns, and `[uncertain]` draws them: each sample has a tie of
+/// its own, whose force is at most its own strength and which breaks at its own elongation.
+#[test]
+fn numbers_of_ties_are_columns_and_are_sampled() {
+    let columns = ["tie_stiffness", "tie_slack", "tie_strength", "tie_ultimate"];
+    let text = |uncertain: &str| {
+        with(uncertain)
+            .replace(
+                "{ name = \"a\", geometry = { height = 3, thickness = 0.3 } }",
+                "{ table = \"walls.csv\" }",
+            )
+            .replace(if uncertain.is_empty() { "[uncertain]\n" } else { "nothing" }, "")
+    };
+    let folder = std::env::temp_dir().join(format!("uncertain_ties_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let table = format!(
+        "name,height,thickness,tie_height,{}\na,3,0.3,2.6,2e5,0.005,800,0.05\nb,2.5,0.25,2.5,1e5,0,500,0\n",
+        columns.join(",")
+    );
+    std::fs::write(folder.join("walls.csv"), table).unwrap();
+    let load = |uncertain: &str| {
+        std::fs::write(folder.join("study.toml"), text(uncertain)).unwrap();
+        LoadedStudy::read(&folder.join("study.toml")).unwrap()
+    };
+    let of_tie =
+        |wall: &Parameters| [wall.tie_stiffness, wall.tie_slack, wall.tie_strength, wall.tie_ultimate];
+    let ties = |loaded: &LoadedStudy| -> Vec<[f64; 4]> {
+        loaded.study.walls().iter().map(|wall| of_tie(&wall.parameters)).collect()
+    };
+    assert_eq!(ties(&load("")), [[2e5, 0.005, 800.0, 0.05], [1e5, 0.0, 500.0, 0.0]]);
+    let loaded = load(
+        "samples = 6\n[uncertain.parameters]\ntie_stiffness = { lognormal = [1.5e5, 0.3] }\n\
+         tie_slack = { uniform = [0, 0.01] }\ntie_strength = { normal = [700, 100] }\n\
+         tie_ultimate = { triangular = [0.005, 0.02, 0.03] }\n",
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+    let samples = loaded.report.samples.as_ref().unwrap();
+    let drawn = |row: &Vec<f64>| {
+        columns.map(|name| row[samples.parameters.iter().position(|found| found == name).unwrap()])
+    };
+    let drawn: Vec<_> = samples.rows.iter().map(drawn).collect();
+    assert_eq!(ties(&loaded), [&drawn[..], &drawn[..]].concat());
+    let study = &loaded.study;
+    let (mut whole, mut broken) = (0, 0);
+    for case in (0..study.count()).map(|index| study.case(index)) {
+        let [_, _, strength, ultimate] = drawn[case.wall % drawn.len()];
+        for tie in study.curve(case).unwrap().runs().iter().filter_map(|run| run.tie) {
+            // the force may round
+            assert!(tie.force <= strength * (1.0 + 4.0 * f64::EPSILON), "{tie:?} {strength}");
+            if tie.elongation > 0.0 {
+                assert_eq!((tie.force, tie.broken), (strength, tie.elongation == ultimate));
+                *(if tie.broken { &mut broken } else { &mut whole }) += 1;
+            }
+        }
+    }
+    assert!(whole > 5 && broken > 5, "{whole} ties yielded, {broken} broke");
+}
