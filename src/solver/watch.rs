@@ -226,6 +226,14 @@ impl Watch<'_> {
     }
 }
 
+impl<F, S> Quantity<F, S> {
+    /// Returns by how much it may exceed its values at the ends of an interval.
+    fn above(&self, width: f64, snap: f64) -> f64 {
+        let [number, share] = self.curvature;
+        0.125 * width * width * (number + share * snap)
+    }
+}
+
 /// Number of instants of a piece that a search begins with, to find the size of the quantities on it.
 const FIRST: usize = 5;
 
@@ -282,7 +290,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
     ) -> Result<(), SearchExhausted> {
         let [start, end] = [(0.0, &self.ends[0]), (self.length, &self.ends[1])]
             .map(|(t, motion)| (quantity.value)(t, motion));
-        let most = self.above(quantity.curvature, self.length, self.snap);
+        let most = quantity.above(self.length, self.snap);
         if start.max(end) + most <= extremes.highest.value && start.min(end) - most >= extremes.lowest.value {
             return Ok(());
         }
@@ -295,11 +303,6 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         Ok(())
     }
 
-    /// Returns by how much a quantity may exceed its values at the ends of an interval.
-    fn above(&self, [number, share]: [f64; 2], width: f64, snap: f64) -> f64 {
-        0.125 * width * width * (number + share * snap)
-    }
-
     /// Returns the highest value of `sign` times a quantity, if it exceeds `best`.
     fn highest<F: Fn(f64, &KinematicState) -> f64, S: Fn() -> f64>(
         &self,
@@ -308,7 +311,6 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         quantity: &Quantity<F, S>,
     ) -> Result<Option<Instant>, SearchExhausted> {
         let [_, share] = quantity.curvature;
-        let above = |width: f64, snap: f64| self.above(quantity.curvature, width, snap);
         let node = |offset: f64, motion: &KinematicState| Node {
             offset,
             value: sign * (quantity.value)(offset, motion),
@@ -316,7 +318,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         let first = self.seen().map(|(offset, motion)| node(offset, &motion));
         let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
         let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
-        if highest + above(longest, self.snap) <= best {
+        if highest + quantity.above(longest, self.snap) <= best {
             return Ok(None);
         }
         let size = (quantity.size)();
@@ -343,7 +345,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * size.max(found.value.abs());
-            let within = |snap: f64| higher + above(width, snap) <= found.value + tolerance;
+            let within = |snap: f64| higher + quantity.above(width, snap) <= found.value + tolerance;
             // the bound between two instants is smaller than that over the whole piece, which is known
             let between = || self.piece.snap([left.offset, right.offset], self.bounds);
             if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
