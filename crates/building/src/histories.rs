@@ -24,7 +24,7 @@ impl Peak {
 /// A quantity over time, and its peak at all communication points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Values at the times of the [`Coupled`] run.
+    /// Values at the times of the [`Coupled`](crate::Coupled) run.
     pub values: Vec<f64>,
     /// Largest value at any communication point.
     pub peak: Peak,

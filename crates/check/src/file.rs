@@ -317,11 +317,10 @@ impl<'a> CheckFile<'a> {
 
 /// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
 pub fn complete(schema: &mut Schema) {
+    let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") else { return };
     let mut tables = Schema::new();
     let codes = CODES.map(|code| (code.describe)("check", &mut tables)).to_vec();
-    if let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") {
-        check.insert("anyOf".to_owned(), codes.into());
-    }
+    check.insert("anyOf".to_owned(), codes.into());
     if let Some(all) = schema["$defs"].as_table_mut() {
         all.extend(tables);
     }

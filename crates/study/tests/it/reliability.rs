@@ -285,7 +285,7 @@ fn annual_rates_are_those_of_a_power_law() {
 }
 
 /// Of a wall that is alike on both sides both signs of a record tell the same: as pairs they change no number
-/// by more than the fits' 1e-9, and ζ by the records counts each record once. The worst changes no byte.
+/// by more than the fits' 1e-9, and ζ by the records counts each record once. The worst changes no digit.
 #[test]
 fn signs_of_records_count_once() {
     let of = |polarity: &str| {
@@ -294,10 +294,14 @@ fn signs_of_records_count_once() {
         run(&name, &load(&name, &text).unwrap())
     };
     let [plain, both, worst] = ["as_recorded", "both", "worst"].map(of);
-    let table = "reliability.csv";
-    assert_eq!(fs::read(plain.join(table)).unwrap(), fs::read(worst.join(table)).unwrap());
+    // the sides of the loaded wall differ
+    let alike = |folder: PathBuf| {
+        rows(&folder.join(FILES[0])).into_iter().filter(|row| row["wall"] != "loaded").collect::<Vec<_>>()
+    };
+    let [plain, both, worst] = [plain, both, worst].map(alike);
+    assert!(plain == worst, "the worst sign changes a number");
     let mut compared = 0;
-    for (one, other) in rows(&plain.join(table)).iter().zip(rows(&both.join(table))) {
+    for (one, other) in plain.iter().zip(&both) {
         for (name, cell) in one {
             match (cell.parse::<f64>(), other[name].parse::<f64>()) {
                 (Ok(one), Ok(other)) if one.is_finite() => {
