@@ -140,7 +140,8 @@ def test_measures_are_those_of_scipy(wall, tmp_path, samples, measure):
         text = nrml.read_text(encoding="utf-8")
         assert f"intensities in {described['contents']['unit']}" in text
         imls = ElementTree.fromstring(text).iter("{http://openquake.org/xmlns/nrml/0.5}imls")
-        assert {element.get("imt") for element in imls} <= {imt}
+        # one record has no curve
+        assert not list(imls)
 
 
 def test_a_level_in_another_unit_is_refused(wall, tmp_path, samples):

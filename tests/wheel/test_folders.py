@@ -112,15 +112,24 @@ def test_results_of_another_report_are_not_read(study, tmp_path):
         rw.read_results(tmp_path / "out")
 
 
-def test_a_study_of_parts_becomes_a_file(tmp_path):
+def test_a_study_of_parts_becomes_a_file(tmp_path, monkeypatch):
     """A study of objects, dictionaries and arrays gives the same tables from its file; ξ of a wall too."""
     walls = {"low": rw.Wall(1.5, 0.25), "own": {"height": 3, "thickness": 0.25, "xi": 0.07}}
     rng = np.random.default_rng(5)
     records = [rw.synthetic_record(rng, duration=10) for _ in range(3)]
     levels = {"method": "step", "step": 0.4, "top": 4}
     report = {"resamples": 100, "seed": np.random.default_rng(7)}
-    study = rw.Study(walls=walls, records=records, models=["CR", "CDC"], levels=levels, report=report)
+    hazard = tmp_path / "elsewhere" / "curve.csv"
+    hazard.parent.mkdir()
+    hazard.write_text("intensity,annual_rate\n0.05,0.03\n0.8,5e-5\n", encoding="utf-8")
+    monkeypatch.chdir(hazard.parent)
+    options = {"report": report, "hazard": {"file": "curve.csv"}}
+    study = rw.Study(walls=walls, records=records, models=["CR", "CDC"], levels=levels, **options)
     study.to_toml(tmp_path / "study.toml")
+    (tmp_path / "b_records").mkdir()
+    with pytest.raises(FileExistsError, match="b_records: exists; remove it"):
+        study.to_toml(tmp_path / "b.toml")
+    (tmp_path / "b_records").rmdir()
     again = rw.Study(tmp_path / "study.toml")
     for name, each in {"parts": study, "file": again}.items():
         each.run(tmp_path / name, progress=False)
@@ -160,6 +169,25 @@ def test_curves_are_components_of_pelicun(study):
             assert float(row[f"LS{k}-Theta_0"]) == curve["theta"]
             assert float(row[f"LS{k}-Theta_1"]) == curve["beta"]
             assert list(described[name]["LimitStates"][f"LS{k}"]) == [f"DS{k}"]
+
+
+def test_components_by_other_measures(tmp_path):
+    """Demands and units are those of pelicun's vocabulary (DLML, `dlml/vocabulary.py`, EDP_TYPES)."""
+    records = [rw.synthetic_record(seed, duration=10) for seed in range(8)]
+    levels = {"method": "hunt", "first": 0.1, "increase": 0.1, "top": 4, "unit": "m/s"}
+    for intensity, demand, unit in (
+        ({"measure": "Sa", "period": 0.5}, "Spectral Acceleration|0.5", "g"),
+        ({"measure": "PGV"}, "Peak Ground Velocity", "cmps"),
+    ):
+        of = levels if unit == "cmps" else {**levels, "unit": "g"}
+        parts = {"walls": rw.Wall(2, 0.3), "records": records, "models": ["CR"], "levels": of}
+        study = rw.Study(**parts, intensity=intensity, report={"fractions": [1.0], "resamples": 100})
+        found = study.run(tmp_path / intensity["measure"], progress=False)
+        with open(tmp_path / intensity["measure"] / "pelicun.csv", encoding="utf-8", newline="") as file:
+            [row] = csv.DictReader(file)
+        assert (row["Demand-Type"], row["Demand-Unit"]) == (demand, unit)
+        assert float(row["LS1-Theta_0"]) == found.curves["theta"][0]
+        assert found.curves["unit"][0] == {"g": "g", "cmps": "cm/s"}[unit]
 
 
 def test_results_become_a_dataset(study):

@@ -157,7 +157,7 @@ def test_a_check_by_the_code(program, tmp_path, wall, checked, zeta):
     scene = written(tmp_path, wall, {"code": "circolare-2019", **checked})
     told = program("check", scene, "--json", "--csv", tmp_path / "rows.csv")
     assert_verdict(verdict, told, tmp_path / "rows.csv")
-    assert rw.Wall.from_toml(scene).check(**checked) == verdict
+    assert rw.Wall.from_toml(scene).check(**checked) == verdict == pickle.loads(pickle.dumps(verdict))
 
 
 def test_a_dynamic_check_by_the_code(program, tmp_path):

@@ -14,7 +14,7 @@ pub struct Fitting {
     models: usize,
     reference: usize,
     fractions: Vec<f64>,
-    /// Levels \[m/s²\] that all records share.
+    /// Levels that all records share, in SI units.
     grid: Option<Vec<f64>>,
     crossing: Crossing,
     estimator: Estimator,

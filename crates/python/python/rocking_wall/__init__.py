@@ -7,8 +7,9 @@
 False
 
 Parameters have the names, units and defaults of the FMU's variables: `help(rw.Wall)` lists them. All numbers
-are in SI units, except for the columns of a study whose names end in `_g`. What cannot be used raises
-`ValueError`, a file that is missing `FileNotFoundError`, and an unknown parameter `TypeError`.
+are in SI units, except for intensities of a study: the names of their columns end in the unit, such as `_g`,
+and `curves` has a column `unit`. What cannot be used raises `ValueError`, a file that is missing
+`FileNotFoundError`, and an unknown parameter `TypeError`.
 """
 
 from warnings import warn

@@ -227,7 +227,7 @@ def number(cell: str) -> float:
     for a flag among empty cells."""
     if cell in FLAGS:
         return FLAGS[cell]
-    if cell.startswith("open "):
+    if cell.startswith("open"):
         return math.inf if cell.startswith("open >") else math.nan
     return float(cell) if cell else math.nan
 

@@ -57,7 +57,7 @@ class Verdict:
         """
         wall, text, records = self._given
         text += "[report]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in project.items())
-        page = _native.check_report(wall, text, records, title)
+        page = _native.check_report(wall._native, text, records, title)
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(page)
 

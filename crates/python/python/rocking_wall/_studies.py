@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
+from os.path import abspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
@@ -98,7 +100,8 @@ class Study:
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
         :param hazard: The hazard of the site, such as `{"points": [[0.1, 0.01], [0.4, 4e-4]]}` (intensities
-            in g and annual rates at which they are exceeded), or `{"file": "curve.csv"}`; for annual rates.
+            in the unit of results, and annual rates at which they are exceeded), or `{"file": "curve.csv"}`;
+            for annual rates.
         :param uncertain: Distributions of parameters, of which each wall stands for samples, such as
             `{"samples": 100, "parameters": {"height": {"normal": [3.0, 0.1]}}}`.
         :param check: The table `[check]`, for `reliability`.
@@ -117,7 +120,7 @@ class Study:
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
             if not isinstance(levels, Mapping):
-                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}, in g'
+                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}'
                 raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
             options = {"models": models, "levels": levels, **options}
             given = {name: option for name, option in options.items() if option is not None}
@@ -150,7 +153,8 @@ class Study:
     def to_toml(self, path: str | PathLike[str]) -> None:
         """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
         same results to the last bit. Its records are in the folder `PATH_records` beside it, as numbers in
-        text files of their names.
+        text files of their names. Other files that it names, such as that of a hazard, stay where they are,
+        by their absolute paths.
 
         Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
         walls on storeys, records with several steps, names that are not those of files.
@@ -320,6 +324,18 @@ def read(record: object) -> object:
     return read_record(record) if isinstance(record, str | PathLike) else record
 
 
+def anchored(text: str) -> str:
+    """Returns options with absolute paths of the files that they name."""
+    options = tomllib.loads(text)
+    for *tables, key in (("hazard", "file"), ("check", "site", "grid"), ("check", "spectrum")):
+        table = options
+        for name in tables:
+            table = table.get(name, {})
+        if isinstance(table.get(key), str):
+            table[key] = abspath(table[key])
+    return "".join(f"{name} = {toml(option)}\n" for name, option in options.items())
+
+
 def write_study(
     path: Path,
     text: str,
@@ -345,9 +361,11 @@ def write_study(
     folder = path.with_name(f"{path.stem}_records")
     files = [f"{folder.name}/{name}" for name, *_ in records]
     described = {"files": files, "format": "numbers", "step": steps.pop(), "unit": "m/s2"}
+    if folder.exists():
+        raise FileExistsError(f"{folder}: exists; remove it, or write the study elsewhere")
     with open(path, "x", encoding="utf-8", newline="") as file:
         folder.mkdir()
         for (_, _, samples), name in zip(records, files):
             numbers = "".join(f"{sample!r}\n" for sample in samples.tolist())
             (path.parent / name).write_text(numbers, encoding="utf-8", newline="")
-        file.write(f"{text}records = {toml(described)}\n{''.join(tables)}")
+        file.write(f"{anchored(text)}records = {toml(described)}\n{''.join(tables)}")

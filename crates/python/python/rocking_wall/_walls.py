@@ -261,9 +261,9 @@ class Wall(Given):
             table["records"] = {}
         text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
         named = [(getattr(record, "name", ""), motion_of(record)) for record in records]
-        given = (self._native, text, named)
-        summary, numbers, rows, picture = _native.check_wall(*given)
+        summary, numbers, rows, picture = _native.check_wall(self._native, text, named)
         said, values = json.loads(summary), json.loads(numbers)
+        given = (self, text, named)
         return Verdict(**said, table=Table(rows), numbers=values, _picture=picture, _given=given)
 
     def rocking_spectrum(

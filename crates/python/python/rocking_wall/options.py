@@ -265,7 +265,8 @@ class Hazard(TypedDict, total=False):
     - points: Points: intensity and annual rate of exceedance [1/year]; intensities rise, rates fall.
     - site: Number of the site in a file of OpenQuake, from 1, at least 1.
     - target: Annual rate that each limit state should not exceed [1/year], above 0.
-    - unit: Unit of the intensities of points and of a CSV, as that of levels; by default that of the results.
+    - unit: Unit of the intensities of points and of two columns, as that of levels; by default that of the
+      results.
     - years: Years of the probabilities, above 0; default 50.0.
     """
 
@@ -280,7 +281,7 @@ class Hazard(TypedDict, total=False):
 class Intensity(TypedDict, total=False):
     """Intensity measure by which records are scaled; spectral ones at 5 % damping.
 
-    - measure: The measure; default "AvgSA".
+    - measure: The measure.
     - period: Period of Sa [s].
     - periods: Periods of AvgSA and of code [s]; by default 0.2, 0.4 to 1.4 s, and 0.2, 0.3 to 2 s.
     - select: With code: takes so many of the records, those whose spectra fit that of the site best, at least

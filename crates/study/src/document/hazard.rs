@@ -26,7 +26,7 @@ tables! {
         /// Number of the site in a file of `OpenQuake`, from 1.
         #[key(minimum = 1)]
         site: Option<Spanned<u32>>,
-        /// Unit of the intensities of points and of a CSV, as that of levels; by default that of the results.
+        /// Unit of points and of two columns, as that of levels; by default that of the results.
         unit: Option<Spanned<String>>,
         /// Years of the probabilities.
         #[key(exclusiveMinimum = 0, default = YEARS)]
@@ -48,7 +48,13 @@ pub struct HazardEntry {
 #[derive(Clone, Debug)]
 enum Source {
     Points(HazardCurve),
-    File { file: String, to_si: ToSi, site: Option<u32> },
+    /// `has_unit` says that the study states a unit.
+    File {
+        file: String,
+        to_si: ToSi,
+        has_unit: bool,
+        site: Option<u32>,
+    },
 }
 
 impl HazardEntry {
@@ -66,16 +72,17 @@ impl HazardEntry {
         let Self { curve, years, target } = self;
         let (curve, warnings) = match curve {
             Source::Points(curve) => (curve, Vec::new()),
-            Source::File { file, to_si, site } => {
+            Source::File { file, to_si, has_unit, site } => {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let table = read(&text, measure, to_si, site).map_err(|error| match error.line {
-                    Some(line) => {
-                        SceneError::Line { file: name.clone(), line, key: None, message: error.message }
-                    }
-                    None => SceneError::File { file: name.clone(), reason: error.message },
-                })?;
+                let table =
+                    read(&text, measure, (to_si, has_unit), site).map_err(|error| match error.line {
+                        Some(line) => {
+                            SceneError::Line { file: name.clone(), line, key: None, message: error.message }
+                        }
+                        None => SceneError::File { file: name.clone(), reason: error.message },
+                    })?;
                 inputs.push(path);
                 (table.curve, table.warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
             }
@@ -112,6 +119,7 @@ pub(super) fn hazard(
         (None, Some(file)) => Source::File {
             file: file.get_ref().clone(),
             to_si,
+            has_unit: unit.is_some(),
             site: site.as_ref().map(|site| *site.get_ref()),
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),

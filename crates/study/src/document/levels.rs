@@ -20,7 +20,7 @@ tables! {
     #[derive(Debug)]
     pub(super) struct IntensityTable {
         /// The measure.
-        #[key(enum = MEASURES.to_vec(), default = "AvgSA")]
+        #[key(enum = MEASURES.to_vec())]
         measure: Spanned<String>,
         /// Period of Sa \[s\].
         period: Option<f64>,

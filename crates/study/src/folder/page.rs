@@ -241,10 +241,18 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
     let unit = contents.unit;
     let mut html = format!(
         "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median ({1})</th><th>θ ({1})</th><th>β</th>\
-         <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th><th>misfit</th>\
-         <th>θ ({1}) of the first, last, fraction</th></tr></thead><tbody>",
+         <th>median / {0}</th><th>θ / {0}</th>{2}</tr></thead><tbody>",
         escaped(&report.reference),
-        unit.name()
+        unit.name(),
+        if contents.is_cloud {
+            "<th>overturned</th>".to_owned()
+        } else {
+            format!(
+                "<th>censored</th><th>stands again</th><th>misfit</th>\
+                 <th>θ ({}) of the first, last, fraction</th>",
+                unit.name()
+            )
+        }
     );
     for (model, (state, (color, mark))) in results.states(collapse).iter().zip(looks(manifest)).enumerate() {
         let StateResults { summary, by_crossing, .. } = state;
@@ -262,10 +270,19 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let thetas = by_crossing.iter().map(|curve| {
             curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", unit.of(curve.median)))
         });
+        let more = if contents.is_cloud {
+            String::new()
+        } else {
+            format!(
+                "<td>{again}</td><td>{}</td><td>{}</td>",
+                summary.misfit.map_or("–".to_owned(), |misfit| format!("{misfit:.2}")),
+                thetas.collect::<Vec<_>>().join("<br>"),
+            )
+        };
         let _ = write!(
             html,
             "<tr><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
-             <td>{}</td><td>{}</td><td>{}</td><td>{again}</td><td>{}</td><td>{}</td></tr>",
+             <td>{}</td><td>{}</td><td>{}</td>{more}</tr>",
             escaped(&contents.models[model].name),
             sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
@@ -281,8 +298,6 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             ratio(&summary.median_ratio),
             ratio(&summary.theta_ratio),
             summary.censored,
-            summary.misfit.map_or("–".to_owned(), |misfit| format!("{misfit:.2}")),
-            thetas.collect::<Vec<_>>().join("<br>"),
         );
     }
     html.push_str("</tbody></table>");

@@ -6,7 +6,6 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::FragilityFunction;
-use crate::tables::in_g;
 use report::table::Table;
 use run::file::{self, Draft};
 use serde_json::{Map, json};
@@ -18,17 +17,23 @@ use super::nrml::limit_states;
 /// Names of the files.
 const FILES: [&str; 2] = ["pelicun.csv", "pelicun.json"];
 
-/// Returns the demand of pelicun that an intensity measure is; `None` for those it does not know.
-fn demand(measure: &str) -> Option<String> {
-    let period = measure.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
-    let of_period = period.map(|period| format!("Spectral Acceleration|{period}"));
-    of_period.or_else(|| (measure == "PGA").then(|| "Peak Ground Acceleration".to_owned()))
+/// Returns the demand of pelicun that an intensity measure is, and pelicun's name of the unit of results;
+/// `None` for those it does not know.
+fn demand(measure: &str) -> Option<(String, &'static str)> {
+    if let Some(period) = measure.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)")) {
+        return Some((format!("Spectral Acceleration|{period}"), "g"));
+    }
+    match measure {
+        "PGA" => Some(("Peak Ground Acceleration".to_owned(), "g")),
+        "PGV" => Some(("Peak Ground Velocity".to_owned(), "cmps")),
+        _ => None,
+    }
 }
 
 /// The files under construction.
 pub(crate) struct Pelicun<'a> {
     manifest: &'a Manifest,
-    demand: String,
+    demand: (String, &'static str),
     rows: Draft,
     described: Draft,
     ids: BTreeSet<String>,
@@ -63,11 +68,12 @@ impl<'a> Pelicun<'a> {
     ) -> Result<(), FolderError> {
         let is_begun = !self.ids.is_empty();
         let id = self.id(name, model);
+        let (demand, unit) = &self.demand;
         let mut table = Table::over([()])
             .text("ID", "", |()| id.clone())
             .value("Incomplete", |()| 0)
-            .text("Demand-Type", "", |()| self.demand.clone())
-            .text("Demand-Unit", "", |()| "g")
+            .text("Demand-Type", "", |()| demand.clone())
+            .text("Demand-Unit", "", |()| *unit)
             .value("Demand-Offset", |()| 0)
             // a wall rocks in one direction
             .value("Demand-Directional", |()| 1);
@@ -79,7 +85,7 @@ impl<'a> Pelicun<'a> {
             let about =
                 format!("The displacement exceeds {fraction} of the static instability displacement.");
             states.insert(key.clone(), json!({ format!("DS{}", k + 1): { "Description": about } }));
-            let (theta, beta) = (in_g(curve.median), function.dispersion(k));
+            let (theta, beta) = (self.manifest.contents.unit.of(curve.median), function.dispersion(k));
             table = table
                 .text(format!("{key}-Family"), "", |()| "lognormal")
                 .value(format!("{key}-Theta_0"), move |()| theta)

@@ -27,7 +27,7 @@ const MOST_PLOTS: usize = 12;
 /// Part of the rates that may lie beyond the last point without a word.
 const MOST_BEYOND: f64 = 0.05;
 
-/// A limit state of a wall or class with one model: θ \[m/s²\] and β with all its parts, and those of each
+/// A limit state of a wall or class with one model: θ in SI units and β with all its parts, and those of each
 /// resample.
 pub(crate) struct Fitted {
     pub(crate) curve: Option<[f64; 2]>,

@@ -331,7 +331,7 @@ impl<'a> Output<'a> {
         let named = format!("{} of {fits} fits: {}{more}", self.doubted, self.doubts.join(", "));
         if self.doubted > 0 && manifest.contents.is_cloud {
             return Some(format!(
-                "theta of the collapse lies outside the runs in {named}; scale the records, or add others"
+                "theta of the collapse is not among the runs in {named}; scale the records, or add others"
             ));
         }
         (self.doubted > 0).then(|| match manifest.report.beta {
@@ -354,19 +354,21 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
 
 /// Names a wall and model whose limit states contradict a common β, with the β of each, or whose curves
 /// cross, with the limit states and intensities at which they do; of a cloud, whose θ of the collapse lies
-/// outside the runs.
+/// outside the runs, or which has no regression.
 fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
     let Manifest { report, contents, .. } = manifest;
     let unit = contents.unit;
-    let in_unit = |intensity: f64| format!("{:.3} {}", unit.of(intensity), unit.name());
+    let in_unit = |intensity: f64| format!("{} {}", report::number(unit.of(intensity), 3), unit.name());
     let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
     let words: Vec<_> = if contents.is_cloud {
         let runs = results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
         let [least, most] = [f64::min, f64::max].map(|end| runs.clone().reduce(end).unwrap_or(f64::NAN));
-        let theta = collapse(manifest).and_then(|state| results.summary(state, model).fitted.ok());
-        let theta = theta.map(|curve| curve.median).filter(|theta| !(least..=most).contains(theta));
-        let told = |theta| format!("{}, runs {} to {}", in_unit(theta), in_unit(least), in_unit(most));
-        theta.map(told).into_iter().collect()
+        let told = |theta| format!("theta {}, runs {} to {}", in_unit(theta), in_unit(least), in_unit(most));
+        let words = |state| match results.summary(state, model).fitted {
+            Ok(curve) => Some(curve.median).filter(|theta| !(least..=most).contains(theta)).map(told),
+            Err(_) => Some("no regression".to_owned()),
+        };
+        collapse(manifest).and_then(words).into_iter().collect()
     } else if report.beta == Dispersion::Common {
         let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
         alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()

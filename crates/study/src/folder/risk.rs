@@ -284,8 +284,12 @@ impl<'a> Risk<'a> {
             1 => format!("{file} lacks 1 function, of a wall or class {reason}\n"),
             _ => format!("{file} lacks {count} functions, of walls or classes {reason}\n"),
         };
-        let without_curve = "with a limit state that has no curve: it is exceeded by no run or by all, \
-             or its records do not scatter; add levels below or above, or drop its fraction";
+        let without_curve = if self.manifest.contents.is_cloud {
+            "without a regression; change the scale, or add records"
+        } else {
+            "with a limit state that has no curve: it is exceeded by no run or by all, or its records do not \
+             scatter; add levels below or above, or drop its fraction"
+        };
         let without_numbers =
             "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
         [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat()

@@ -63,6 +63,11 @@ impl Bootstrap {
         Self { group, ..self }
     }
 
+    /// Returns how many records are drawn together.
+    pub fn group(&self) -> usize {
+        self.group
+    }
+
     /// Computes something of each resample, from the indices of the records drawn.
     fn each<T>(&self, mut result: impl FnMut(&[usize]) -> T) -> Vec<T> {
         let mut random = Pcg::new(self.seed);

@@ -136,7 +136,7 @@ impl Fragility {
         let mut own = estimator.clone();
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
-        let contradicted = contradict_common_dispersion(&terms, &alone);
+        let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
         let crossings = estimator.crossings(&fitted);
         let medians = states.iter().map(|state| Resampled::medians(state.exceedances(), bootstrap));
         let resampled = medians.zip(bootstrap.fitted(states, estimator));
@@ -226,11 +226,16 @@ pub fn covariance(resamples: &[[f64; 2]]) -> Option<[f64; 3]> {
 }
 
 /// Returns whether limit states contradict a common β, by the ratio of likelihoods at a level of 5 %, as if
-/// their runs were independent. Limit states without a curve of their own are left out.
+/// their runs were independent. Limit states without a curve of their own are left out. The two signs of a
+/// record tell as much as one: of some in a group the likelihood counts once.
 ///
 /// S. S. Wilks: The large-sample distribution of the likelihood ratio for testing composite hypotheses.
 /// Annals of Mathematical Statistics 9(1), 1938, 60–62.
-fn contradict_common_dispersion(states: &[Vec<Term>], alone: &[Result<Lognormal, FitError>]) -> bool {
+fn contradict_common_dispersion(
+    states: &[Vec<Term>],
+    alone: &[Result<Lognormal, FitError>],
+    group: usize,
+) -> bool {
     let own = states.iter().zip(alone).filter_map(|(terms, alone)| Some((Ok(terms.as_slice()), alone.ok()?)));
     let (states, alone): (Vec<_>, Vec<_>) = own.unzip();
     let joint: Vec<Lognormal> = fit_from(&states, &[]).into_iter().flatten().collect();
@@ -240,7 +245,7 @@ fn contradict_common_dispersion(states: &[Vec<Term>], alone: &[Result<Lognormal,
     let sum = |curves: &[Lognormal]| -> f64 {
         states.iter().flatten().zip(curves).map(|(terms, curve)| log_likelihood(terms, curve)).sum()
     };
-    2.0 * (sum(&alone) - sum(&joint)) > chi_squared_95(states.len() - 1)
+    2.0 * (sum(&alone) - sum(&joint)) / group as f64 > chi_squared_95(states.len() - 1)
 }
 
 /// Returns the 95 % fractile of χ² with some degrees of freedom, to 3 %: for one degree 3.75 instead of 3.84.

@@ -47,7 +47,10 @@ pub enum FitError {
     )]
     NoScatter,
     /// The curve of maximum likelihood does not rise.
-    #[error("the demand is not exceeded more often at higher intensities: check the levels and counts")]
+    #[error(
+        "the demand is not exceeded more often at higher intensities: check the levels, or the scale of a \
+         cloud"
+    )]
     Falling,
     /// The demands of a cloud have no regression.
     #[error(

@@ -35,7 +35,7 @@ const FORMS: &str = "expected a line of names with a measure or \"intensity\" an
 pub fn read(
     text: &str,
     measure: &IntensityMeasure,
-    to_si: ToSi,
+    (to_si, has_unit): (ToSi, bool),
     site: Option<u32>,
 ) -> Result<Table, ReadError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
@@ -45,6 +45,10 @@ pub fn read(
         return Err(ReadError { line: None, message: format!("the file is empty; {FORMS}") });
     };
     if first.1.starts_with('#') && first.1.contains("investigation_time") {
+        if has_unit {
+            let message = "a hazard-curve CSV of OpenQuake has units of its own; leave out unit";
+            return Err(ReadError { line: None, message: message.into() });
+        }
         return open_quake(*first, rest, measure, site);
     }
     if site.is_some() {
@@ -210,7 +214,7 @@ mod tests {
     #[test]
     fn tables_of_openquake_have_rates() {
         let measure = IntensityMeasure::Sa { period: 0.5 };
-        let read = |site| read(OPEN_QUAKE, &measure, G, site);
+        let read = |site| read(OPEN_QUAKE, &measure, (G, false), site);
         let Table { curve, warnings } = read(Some(1)).unwrap();
         let given = [[0.1, 0.5], [0.2, 0.1], [0.4, 0.02]];
         assert_eq!(curve.points().len(), 3, "{warnings:?}");
@@ -224,14 +228,16 @@ mod tests {
         for (site, words) in [(None, "has 2 sites; give site = n"), (Some(3), "must be from 1 to 2")] {
             assert!(read(site).unwrap_err().message.contains(words));
         }
-        let other = super::read(OPEN_QUAKE, &IntensityMeasure::Pga, G, Some(1));
+        let other = super::read(OPEN_QUAKE, &IntensityMeasure::Pga, (G, false), Some(1));
+        let told = super::read(OPEN_QUAKE, &measure, (G, true), Some(1)).unwrap_err();
+        assert!(told.message.contains("leave out unit"), "{told}");
         let told = other.unwrap_err();
         assert!(told.line == Some(1) && told.message.contains("\"SA(0.5)\", the study of PGA"), "{told}");
     }
 
     #[test]
     fn two_columns_have_a_unit_and_their_measure() {
-        let read = |text| read(text, &IntensityMeasure::Pga, G, None);
+        let read = |text| read(text, &IntensityMeasure::Pga, (G, false), None);
         let table = read("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-3\n").unwrap();
         assert_eq!(table.curve.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
         assert_eq!(read("intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n").unwrap(), table);

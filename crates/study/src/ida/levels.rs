@@ -72,8 +72,8 @@ fn check_range(
 }
 
 impl Levels {
-    /// Returns the levels \[m/s²\] at which every record is run up to its collapse; `None` where each record
-    /// has its own levels.
+    /// Returns the levels, in the SI unit of the measure, at which every record is run up to its collapse;
+    /// `None` where each record has its own levels.
     pub fn shared(&self) -> Option<Vec<f64>> {
         match self {
             Self::Grid(levels) => Some(levels.clone()),

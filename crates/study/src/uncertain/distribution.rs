@@ -42,6 +42,9 @@ pub fn range([least, most]: [f64; 2]) -> String {
     }
 }
 
+/// A part of a distribution that is below every sample.
+const LEAST: f64 = 1e-15;
+
 /// A distribution within limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distribution {
@@ -88,11 +91,11 @@ impl Distribution {
     }
 
     /// Returns whether its logarithm is the natural scale: it is lognormal, or its values are positive and
-    /// not near 0 (the thousandth is above a tenth of the median).
+    /// not near 0 (the thousandth is above a tenth of the median, and no sample is at 0 or below).
     pub fn is_logarithmic(&self) -> bool {
         matches!(self.shape, Shape::Lognormal { .. }) || {
-            let [thousandth, median] = [0.001, 0.5].map(|part| self.value(part));
-            median > 0.0 && thousandth > FAR_FROM_ZERO * median
+            let [least, thousandth, median] = [LEAST, 0.001, 0.5].map(|part| self.value(part));
+            least > 0.0 && thousandth > FAR_FROM_ZERO * median
         }
     }
 

@@ -86,6 +86,8 @@ fn a_logarithm_is_taken_of_what_is_far_from_zero() {
         // a thousandth is below 0.05 − 3.09·0.018, cut off at 0
         ("{ normal = [0.05, 0.018] }", false),
         ("{ normal = [0.05, 0.05], within = [0.001, 0.2] }", false),
+        // a sample of many may be below 0 where the parameter has no limit there
+        ("{ normal = [0.05, 0.0145] }", true),
         ("{ uniform = [0.02, 0.1] }", true),
         ("{ uniform = [0.002, 0.1] }", false),
         ("{ values = [0.02, 0.1] }", true),
@@ -94,6 +96,8 @@ fn a_logarithm_is_taken_of_what_is_far_from_zero() {
         let uncertain = read(&format!("samples = 9\n[uncertain.parameters]\na1 = {distribution}\n"));
         assert_eq!(uncertain.parameters[0].1.is_logarithmic(), is_logarithmic, "{distribution}");
     }
+    let text = "samples = 9\n[uncertain.parameters]\noverburden_eccentricity = { normal = [0.05, 0.0145] }\n";
+    assert!(!read(text).parameters[0].1.is_logarithmic(), "it may be below 0");
 }
 
 /// The samples are those of every machine, to the last bit.
