@@ -197,17 +197,20 @@ fn shape(parameters: &str) -> String {
             .map(|v| v.trim_matches('"'))
     };
     let text = |name| find(name).unwrap_or("?");
+    // a sample has all its digits
+    let short = |text: &str| text.parse().map_or(text.to_owned(), |number: f64| report::number(number, 4));
+    let size = |name| short(text(name));
     let mut words =
-        format!("{}, {} m × {} m", text("mechanism").replace('_', " "), text("height"), text("thickness"));
+        format!("{}, {} m × {} m", text("mechanism").replace('_', " "), size("height"), size("thickness"));
     if text("mechanism") == "vertical_spanning" {
-        let _ = write!(words, ", h1 = {} h", text("hinge_ratio"));
+        let _ = write!(words, ", h1 = {} h", size("hinge_ratio"));
     }
     let _ = write!(words, ", {}", text("force_law").replace('_', " "));
     if let Some(a1) = find("a1") {
-        let _ = write!(words, ", a1 = {a1}");
+        let _ = write!(words, ", a1 = {}", short(a1));
     }
     if find("overburden").is_some_and(|load| load != "0.0") {
-        let _ = write!(words, ", overburden {} N", text("overburden"));
+        let _ = write!(words, ", overburden {} N", size("overburden"));
     }
     words
 }

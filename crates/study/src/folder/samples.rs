@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 
 use crate::results::WallResults;
 use crate::uncertain::{Samples, Sensitivity, sensitivities};
-use report::escaped;
 use report::table::{Digits, Table};
+use report::{escaped, number};
 use run::file;
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::legend::looks;
 
+/// Most walls and models of which coefficients are drawn.
+const MOST_DRAWN: usize = 12;
 /// Names of the files.
 const FILES: [&str; 2] = ["samples.csv", "sensitivity.csv"];
 
@@ -153,12 +156,55 @@ impl<'a> Sampled<'a> {
              Spearman’s correlation of each parameter with θ, and a linear regression of ln θ on the \
              logarithms of the parameters; a parameter whose distribution reaches near 0 is taken itself. A \
              standardised coefficient is in standard deviations. Other limit states are in sensitivity.csv.\
-             </p><div class=\"scroll\">{}</div></section>",
+             </p>{}<div class=\"scroll\">{}</div></section>",
             self.samples.rows.len(),
             escaped(&self.samples.parameters.join(", ")),
             fractions[last],
+            self.drawn(rows.iter().filter(|row| row.state == last)),
             table.html()
         );
+        html
+    }
+
+    /// Draws the standardised coefficients as bars, those of a wall and model by their size.
+    fn drawn<'r>(&self, rows: impl Iterator<Item = &'r Row<'r>>) -> String {
+        let rows: Vec<_> = rows.filter_map(|row| Some((row, row.found.standardised?))).collect();
+        let end = rows.iter().map(|(_, coefficient)| coefficient.abs()).fold(1.0, f64::max);
+        let colors = looks(self.manifest);
+        let mut html = String::new();
+        for of_model in
+            rows.chunk_by(|(a, _), (b, _)| (a.wall, a.model) == (b.wall, b.model)).take(MOST_DRAWN)
+        {
+            let mut sorted = of_model.to_vec();
+            sorted.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+            let (first, _) = sorted[0];
+            let model = &self.manifest.contents.models[first.model].name;
+            let _ = write!(
+                html,
+                "<h3>{}, {}</h3><div class=\"forest\" style=\"--step:25%;--high:13px;\
+                 margin-right:.8em\">",
+                escaped(first.wall),
+                escaped(model)
+            );
+            for (row, coefficient) in sorted {
+                let width = 50.0 * coefficient.abs() / end;
+                let _ = write!(
+                    html,
+                    "<span>{}</span><div class=\"track\"><div title=\"{coefficient:.3}\"><i class=\"chip\" \
+                     style=\"left:{:.2}%;width:{width:.2}%;height:9px;top:2px;background:{}\"></i></div>\
+                     </div>",
+                    escaped(row.parameter),
+                    if coefficient < 0.0 { 50.0 - width } else { 50.0 },
+                    colors[first.model].0
+                );
+            }
+            html.push_str("<span></span><div class=\"axis\">");
+            for place in [0.0, 25.0, 50.0, 75.0, 100.0] {
+                let value = end * (place / 50.0 - 1.0);
+                let _ = write!(html, "<small style=\"left:{place}%\">{}</small>", number(value, 2));
+            }
+            html.push_str("</div></div>\n");
+        }
         html
     }
 }
