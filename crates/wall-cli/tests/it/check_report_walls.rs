@@ -75,6 +75,7 @@ period = 0.3
 code = "circolare-2019"
 method = "dynamic"
 before_activation = "rigid"
+rocking = "one_sided_positive"
 soil = "B"
 record_scale = "none"
 site.grid = "grid.csv"
@@ -185,6 +186,7 @@ fn italian_reports_have_no_english() {
     let beam =
         STRIP.replace("\"law\"", "\"beam\"\nyoung_modulus = 1e9").replace("\"worst\"", "\"least_alpha0\"");
     let anchor = TIED.replace("60e3", "30e3");
+    let torn = TIED.replace("ultimate_strain = 0.02", "ultimate_strain = 0.001");
     let (before, after) = TIED.split_once("[tie.bar]").unwrap();
     let check = after.split_once("[check]").unwrap().1.replace("yield", "none");
     let brittle =
@@ -204,6 +206,7 @@ fn italian_reports_have_no_english() {
         ("site", SITE),
         ("tied", TIED),
         ("anchor", &anchor),
+        ("torn", &torn),
         ("brittle", &brittle),
         ("given", &given),
         ("seven", &seven),
@@ -219,6 +222,10 @@ fn italian_reports_have_no_english() {
         let left: Vec<_> = all.iter().filter_map(|text| Some((english(text)?, text))).collect();
         assert!(left.is_empty(), "{name}: {left:#?}");
     }
+    assert_has(&content(&folder, "torn.html"), &["la barra (fragile)", "Area della sezione della barra"]);
+    // the runs rock as the scene does
+    let said = "Nelle verifiche statiche la parete oscilla solo verso u &gt; 0.";
+    assert_has(&content(&folder, "site.html"), &[said]);
 }
 
 /// A cover with the wall that governs and all walls, then a sheet for each; names stay as they are written.
