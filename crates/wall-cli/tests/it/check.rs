@@ -255,7 +255,7 @@ fn ties_at_the_level_of_a_check() {
     std::fs::write(folder.join("scene.toml"), high).unwrap();
     refused(&folder, &signs, &["scene.toml, line 18", "give [[storeys]] in place of [check.building]"]);
     let fractions = scene.split("[check]").next().unwrap().to_owned()
-        + "tie_stiffness = 1e6\n[check]\ncode = \"fractions\"\nspectrum = [[0, 1], [4, 1]]\nunit = \"m/s2\"\n";
+        + "[check]\ncode = \"fractions\"\nspectrum = [[0, 1], [4, 1]]\nunit = \"m/s2\"\n";
     std::fs::write(folder.join("scene.toml"), fractions).unwrap();
     refused(&folder, &signs, &["no limit states with runs; use code = \"circolare-2019\", or --scale"]);
 }
