@@ -15,7 +15,7 @@ const EXPONENTS: f64 = 3.0;
 /// Ratio of the ends of a logarithmic axis up to which it has numbers between the powers of ten.
 const FEW: f64 = 1.1e3;
 /// Distance of the legend from the sides of the plot area, height of its rows, length of its samples \[px\].
-const LEGEND: f64 = 8.0;
+pub(crate) const LEGEND: f64 = 8.0;
 const ROW: f64 = 18.0;
 const SAMPLE: f64 = 20.0;
 
@@ -135,6 +135,11 @@ fn power_of_ten(exponent: f64) -> String {
     if exponent == 0.0 { "1".to_owned() } else { format!("1e{exponent:.0}") }
 }
 
+/// The height of a legend of some rows \[px\].
+pub(crate) fn legend_height(rows: usize) -> f64 {
+    ROW * rows as f64 + 10.0
+}
+
 /// Adds a legend of the series that have names, at the top right of a plot area.
 pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f64; 4]) {
     let named: Vec<_> = series.iter().filter(|series| !series.name.is_empty()).collect();
@@ -145,7 +150,7 @@ pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f
         svg,
         "<rect x=\"{left:.2}\" y=\"{top}\" width=\"{width:.2}\" height=\"{:.0}\" fill=\"#fff\" \
          stroke=\"#000\"/><g font-size=\"12\">",
-        ROW * named.len() as f64 + 10.0
+        legend_height(named.len())
     );
     for (index, series) in named.into_iter().enumerate() {
         let y = top + 5.0 + ROW * (index as f64 + 0.5);

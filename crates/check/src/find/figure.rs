@@ -2,15 +2,15 @@
 
 use report::number;
 use report::palette::{BLUE, DARK_GREY, GREEN, RED};
-use report::plot::{Axis, Look, Plot, Scale, Series};
+use report::plot::{Axis, Look, Plot, Scale, Series, room_for_legend};
 
 use super::{Found, FoundCheck, Sought};
 
 /// Colours of the lines of checks.
 const COLORS: [&str; 4] = [BLUE, RED, GREEN, DARK_GREY];
 
-/// Height of the axis over that of the lines: above them is the legend.
-const ROOM: f64 = 1.35;
+/// Width and height of the picture \[px\].
+const SIZE: [f64; 2] = [820.0, 460.0];
 /// Points (value, capacity over demand) of a line.
 type Points = Vec<(f64, f64)>;
 
@@ -45,13 +45,13 @@ impl Found {
             Series { name: format!("{symbol}, {}{informs}", found.check), look, ..stroke }
         };
         let mut series: Vec<_> = lines.into_iter().enumerate().map(line).collect();
+        let top = top * room_for_legend(SIZE[1], series.len() + usize::from(value.is_some()));
         if let Some(value) = value {
-            let line = Series::stroke(DARK_GREY, 1.3, vec![(value, 0.0), (value, ROOM * top)]);
+            let line = Series::stroke(DARK_GREY, 1.3, vec![(value, 0.0), (value, top)]);
             let name = format!("{name} = {} {unit}", number(value, 4));
             series.push(Series { look: Look::Dashed, name, ..line });
         }
-        let axes =
-            [Axis::over(&format!("{name} ({unit})"), [left, right]), Axis::over(&symbol, [0.0, ROOM * top])];
-        Plot { limits: vec![(1.0, DARK_GREY)], scale, ..Plot::new([820.0, 460.0], axes, series) }
+        let axes = [Axis::over(&format!("{name} ({unit})"), [left, right]), Axis::over(&symbol, [0.0, top])];
+        Plot { limits: vec![(1.0, DARK_GREY)], scale, ..Plot::new(SIZE, axes, series) }
     }
 }

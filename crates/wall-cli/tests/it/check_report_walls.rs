@@ -143,9 +143,9 @@ records = { synthetic = { count = 7, duration = 10, step = 0.02 } }
 "#;
 
 /// Words that no Italian text of the program has.
-const ENGLISH: &str = "the of is are with and at from its not walls each taken before which without to for by \
-                       has have under needs stands passed demand tie records spectrum onset displacement ratio \
-                       quantity unit capacity secant points column";
+const ENGLISH: &str = "the of is are with and at from its not walls each taken before which without to \
+                       for by has have under needs stands passed demand tie records spectrum onset \
+                       displacement ratio quantity unit capacity secant points column";
 
 /// The texts of a page: what stands between tags other than those of formulas, and the labels of pictures.
 /// What users write and names of parameters are left out.
