@@ -67,7 +67,7 @@ impl From<(&str, [f64; 2])> for Axis {
 /// Points that belong together, and how they look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// x and y.
+    /// x and y; one whose y is NaN is a gap in a line.
     pub points: Vec<(f64, f64)>,
     /// A colour of the [palette](crate::palette).
     pub color: &'static str,
@@ -119,8 +119,15 @@ impl Series {
         // writing to a String cannot fail
         let Look::Marks(mark) = self.look else {
             let mut path = String::new();
-            for ([x, y], step) in places.iter().zip(std::iter::once("M").chain(std::iter::repeat("L"))) {
+            let mut step = "M";
+            for [x, y] in places {
+                // a point without a value is a gap
+                if y.is_nan() {
+                    step = "M";
+                    continue;
+                }
                 let _ = write!(path, "{step}{x:.2} {y:.2}");
+                step = "L";
             }
             let dashes = match self.look {
                 Look::Dashed => " stroke-dasharray=\"8 4\"",
