@@ -28,6 +28,10 @@ pub struct Level {
     pub factors: Vec<f64>,
     /// The storeys below the wall, as the limit state has them.
     pub floors: Option<Floors>,
+    /// Whether the code runs each record with both signs.
+    pub both_signs: bool,
+    /// What is to be known of the factors.
+    pub warnings: Vec<String>,
 }
 
 impl Records {

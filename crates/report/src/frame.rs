@@ -15,7 +15,7 @@ const EXPONENTS: f64 = 3.0;
 /// Ratio of the ends of a logarithmic axis up to which it has numbers between the powers of ten.
 const FEW: f64 = 1.1e3;
 /// Distance of the legend from the sides of the plot area, height of its rows, length of its samples \[px\].
-const LEGEND: f64 = 8.0;
+pub(crate) const LEGEND: f64 = 8.0;
 const ROW: f64 = 18.0;
 const SAMPLE: f64 = 20.0;
 
@@ -63,7 +63,7 @@ impl Frame<'_> {
         let count = [(right - left) / BETWEEN_NUMBERS[0], (bottom - top) / BETWEEN_NUMBERS[1]];
         match self.scale {
             Scale::Linear => [ticks(across, count[0]), ticks(up, count[1])],
-            Scale::LogarithmicAcross => [logarithmic(across), ticks(up, count[1])],
+            Scale::LogarithmicAcross => [logarithmic(across, count[0]), ticks(up, count[1])],
             Scale::Logarithmic => {
                 let powers = multiples(EXPONENTS, up);
                 [decades(across, &[1.0]), powers.map(|power| (power, power_of_ten(power))).collect()]
@@ -124,13 +124,20 @@ fn decades(range: [f64; 2], factors: &[f64]) -> Vec<(f64, String)> {
 }
 
 /// Numbers of a logarithmic axis: 1, 2 and 5 times powers of ten over a few decades, over many the powers.
-fn logarithmic(range: [f64; 2]) -> Vec<(f64, String)> {
+/// Between two of these, round numbers, about `count` of them.
+fn logarithmic(range: [f64; 2], count: f64) -> Vec<(f64, String)> {
     let factors: &[f64] = if range[1] > FEW * range[0] { &[1.0] } else { &[1.0, 2.0, 5.0] };
-    decades(range, factors)
+    let numbers = decades(range, factors);
+    if numbers.len() < 2 { ticks(range, count) } else { numbers }
 }
 
 fn power_of_ten(exponent: f64) -> String {
     if exponent == 0.0 { "1".to_owned() } else { format!("1e{exponent:.0}") }
+}
+
+/// The height of a legend of some rows \[px\].
+pub(crate) fn legend_height(rows: usize) -> f64 {
+    ROW * rows as f64 + 10.0
 }
 
 /// Adds a legend of the series that have names, at the top right of a plot area.
@@ -143,7 +150,7 @@ pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f
         svg,
         "<rect x=\"{left:.2}\" y=\"{top}\" width=\"{width:.2}\" height=\"{:.0}\" fill=\"#fff\" \
          stroke=\"#000\"/><g font-size=\"12\">",
-        ROW * named.len() as f64 + 10.0
+        legend_height(named.len())
     );
     for (index, series) in named.into_iter().enumerate() {
         let y = top + 5.0 + ROW * (index as f64 + 0.5);
@@ -166,9 +173,11 @@ mod tests {
 
     #[test]
     fn logarithmic_axes_have_round_numbers() {
-        let texts = |range| logarithmic(range).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+        let texts = |range| logarithmic(range, 5.0).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
         assert_eq!(texts([0.06, 12.0]), ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
         // the ends belong to the axis
         assert_eq!(texts([1.0, 1e4]), ["1", "10", "100", "1000", "10000"]);
+        // between 2 and 5, as around one value
+        assert_eq!(texts([2.4, 3.75]), ["2.5", "3.0", "3.5"]);
     }
 }

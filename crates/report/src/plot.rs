@@ -19,13 +19,15 @@
 use std::fmt::Write;
 
 use crate::escaped;
-use crate::frame::{CHARACTER, Frame, legend};
+use crate::frame::{CHARACTER, Frame, LEGEND, legend, legend_height};
 use crate::palette::{Mark, SERIES};
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
 pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
 /// Size of the numbers on the axes \[px\]: inline, and in a picture.
 const NUMBERS: [f64; 2] = [13.0, 12.0];
+/// Margins above and below the plot area of a picture without a title \[px\].
+const PICTURE: [f64; 2] = [10.0, 51.0];
 /// Space between plots one above the other \[px\].
 const SPACING: f64 = 4.0;
 
@@ -65,7 +67,7 @@ impl From<(&str, [f64; 2])> for Axis {
 /// Points that belong together, and how they look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// x and y.
+    /// x and y; one whose y is NaN is a gap in a line.
     pub points: Vec<(f64, f64)>,
     /// A colour of the [palette](crate::palette).
     pub color: &'static str,
@@ -117,8 +119,15 @@ impl Series {
         // writing to a String cannot fail
         let Look::Marks(mark) = self.look else {
             let mut path = String::new();
-            for ([x, y], step) in places.iter().zip(std::iter::once("M").chain(std::iter::repeat("L"))) {
+            let mut step = "M";
+            for [x, y] in places {
+                // a point without a value is a gap
+                if y.is_nan() {
+                    step = "M";
+                    continue;
+                }
                 let _ = write!(path, "{step}{x:.2} {y:.2}");
+                step = "L";
             }
             let dashes = match self.look {
                 Look::Dashed => " stroke-dasharray=\"8 4\"",
@@ -239,6 +248,13 @@ impl Plot {
     }
 }
 
+/// Returns how much higher than lines from 0 on an axis is, so that a legend of some rows stands above them,
+/// in a picture without a title of a height \[px\].
+pub fn room_for_legend(height: f64, rows: usize) -> f64 {
+    let area = height - PICTURE[0] - PICTURE[1];
+    area / (area - 2.0 * LEGEND - legend_height(rows))
+}
+
 /// The range of an axis that takes it from the data: their extremes, with or without room around them.
 pub(crate) fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
@@ -266,8 +282,8 @@ impl Picture {
         let (mut body, mut size) = (String::new(), [0.0_f64; 2]);
         for plot in plots {
             let y = if size[1] > 0.0 { size[1] + SPACING } else { 0.0 };
-            let top = if plot.title.is_empty() { 10.0 } else { 32.0 };
-            let mut frame = plot.frame([0.0, 14.0, top, 51.0], NUMBERS[1]);
+            let top = if plot.title.is_empty() { PICTURE[0] } else { 32.0 };
+            let mut frame = plot.frame([0.0, 14.0, top, PICTURE[1]], NUMBERS[1]);
             frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
             let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
             if !plot.title.is_empty() {

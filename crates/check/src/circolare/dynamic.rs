@@ -14,7 +14,7 @@ use super::LimitState;
 use super::case::Case;
 use super::curve::Curve;
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::level::scaled;
+use super::level::{has_storeys, scaled};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::table::{Method, Polarities};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts};
@@ -137,8 +137,8 @@ impl DynamicCheck {
         for (name, state) in self.states() {
             if state.passed && state.zeta < 1.0 {
                 warnings.push(format!(
-                    "{}: the wall passes under the records, and fails under {:.3} of them: the response is \
-                     not monotonic",
+                    "{}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
+                     response is not monotonic",
                     name.name(),
                     state.zeta
                 ));
@@ -205,10 +205,7 @@ pub(super) fn check(
     if records.named.is_empty() {
         return Ok(None);
     }
-    if statement.table.building.is_some() && floors.is_none() {
-        let message = "the records move the ground: give [[storeys]] in place of [check.building]";
-        return Err(CheckError::value(&["building"], message));
-    }
+    has_storeys(statement, floors)?;
     let (divided, hinge) = divided(parameters, case, sides)?;
     let motion = Motion::of(&divided, divided.tolerance)?;
     let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);

@@ -108,6 +108,11 @@ impl FloorSpectrum {
         self.printed_peak().max(self.least)
     }
 
+    /// Whether `a_g` S, not the modes, gives the acceleration at a period.
+    pub(super) fn ground_governs(&self, period: f64, xi: f64) -> bool {
+        period <= self.first_period() && self.amplified(period, xi) < self.least
+    }
+
     /// `S_eZ`(T, ξ, z) of [C7.2.5] \[m/s²\].
     pub fn acceleration(&self, period: f64, xi: f64) -> f64 {
         let amplified = self.amplified(period, xi);

@@ -1,10 +1,12 @@
 //! Records at the level of shaking of a limit state.
 
+use rocking_wall::scene::Floors;
+
 use super::case::Case;
 use super::compatibility::{Compatibility, Ratios};
 use super::statement::Statement;
 use super::states::{Source, StateStatement};
-use super::table::RecordScale;
+use super::table::{Polarities, RecordScale};
 use super::{G, LimitState};
 use crate::code::Subject;
 use crate::error::CheckError;
@@ -13,7 +15,7 @@ use crate::site::Level;
 /// Shortest period at which records are held against the spectrum \[s\].
 const SHORTEST: f64 = 0.15;
 
-/// The factors and the building of a limit state.
+/// The factors and the building of a limit state, with what is to be said of them.
 pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> Result<Level, CheckError> {
     let given = statement.states.iter().flatten().find(|given| given.state.key() == name);
     let Some(given) = given else {
@@ -26,6 +28,7 @@ pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
             "there are no records; give --records, or [check.records]",
         ));
     }
+    has_storeys(statement, subject.floors)?;
     let case = Case::new(statement, subject)?;
     let mut longest = 0.0_f64;
     // only a scale by the spectrum asks how far it counts
@@ -36,9 +39,20 @@ pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
             longest = longest.max(check.map_or(0.0, |check| check.period));
         }
     }
-    let (factors, _) = scaled(&case, given, longest)?;
+    let (factors, compatibility) = scaled(&case, given, longest)?;
+    let warnings = compatibility.iter().flat_map(|own| own.warnings(name, factors.iter().copied())).collect();
+    let both_signs = statement.table.polarities == Polarities::Both;
     let floors = subject.floors.map(|floors| floors.in_state(given.building_damping, given.building_period));
-    Ok(Level { factors, floors: floors.transpose()? })
+    Ok(Level { factors, floors: floors.transpose()?, both_signs, warnings })
+}
+
+/// Refuses runs of a wall whose height in the building only `[check.building]` states.
+pub(super) fn has_storeys(statement: &Statement, floors: Option<&Floors>) -> Result<(), CheckError> {
+    if statement.table.building.is_some() && floors.is_none() {
+        let message = "the records move the ground: give [[storeys]] in place of [check.building]";
+        return Err(CheckError::value(&["building"], message));
+    }
+    Ok(())
 }
 
 /// The factors of the records, and their mean spectrum beside that of the ground; `longest` is `T_SLV` or

@@ -262,7 +262,7 @@ fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     }
     notes.extend(check.runs.iter().map(|run| {
         let [positive, negative] = [run.d[0], -run.d[1]].map(|d| number(1e3 * d, 4));
-        let beyond = if run.beyond_d0 { "  beyond d0" } else { "" };
+        let beyond = if run.beyond_d0 { "  beyond d_0" } else { "" };
         let beyond =
             if run.at_strength { beyond.to_owned() + "  tie at its strength" } else { beyond.into() };
         format!(

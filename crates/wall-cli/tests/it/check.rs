@@ -219,23 +219,45 @@ fn ties_at_the_level_of_a_check() {
     // the wall is 2 m wide
     assert!(n > 0.0 && (n / of_metre / 2.0 - 1.0).abs() < 1e-12, "{row}");
     // records that are given take the place of those of the check: S = 1.4 − 0.4 F0 a_g = 1.106 of soil B
-    let names = [("1.csv", 1.0), ("2.csv", 2.0), ("3.csv", 4.0)];
+    let names = [("1.csv", 0.5), ("2.csv", 2.0), ("3.csv", 4.0)];
     for (name, peak) in names {
         let row = |k: i32| format!("{},{}\n", 0.02 * f64::from(k), if k == 100 { peak } else { 0.0 });
         let rows: String = (0..500).map(row).collect();
         std::fs::write(folder.join(name), format!("time [s],acc [m/s2]\n{rows}")).unwrap();
     }
-    let found = at(&["--records", "1.csv", "2.csv", "3.csv"]);
+    let given = ["--records", "1.csv", "2.csv", "3.csv"];
+    let found = at(&given);
     for (factor, (_, peak)) in found["factors"].as_array().unwrap().iter().zip(names) {
         assert!((factor.as_f64().unwrap() * peak / (0.3 * 9.81 * 1.106) - 1.0).abs() < 1e-12, "{factor}");
     }
-    let text = printed(&folder, &[&study[..], &["--level", "SLV"]].concat());
-    assert_has(&text, &["3 motions at SLV (factors", "N 84 %", "[kN/m]", "N_y [kN]"]);
+    let table = printed(&folder, &[&study[..], &["--level", "SLV"]].concat());
+    assert_has(&table, &["3 motions at SLV (factors", "N 84 %", "[kN/m]", "N_y [kN]"]);
     let words = ["scene.toml, line", "SLC is not stated; give its ag, F0 and TC"];
     refused(&folder, &[&study[..], &["--level", "SLC"]].concat(), &words);
     std::fs::write(folder.join("bare.toml"), scene.split("records").next().unwrap()).unwrap();
     let bare = ["study", "tie", "bare.toml", "--strength", "1e4", "--level", "SLV"];
     refused(&folder, &bare, &["there are no records; give --records, or [check.records]"]);
+    let limit_states = ["'slv'", "SLD, SLV, SLC"];
+    fails(&folder, &[&study[..], &["--level", "slv"]].concat(), &limit_states);
+    // what the dynamic check says of the factors is said here, too: 3.25/0.5 is not usual
+    let told = succeed(&folder, &[&study[..], &["--level", "SLV"], &given].concat());
+    assert_has(&text(&told.stderr), &["SLV: a record is scaled by 6.510; 0.25 to 4 is usual"]);
+    // both signs, as the check has them
+    let signs = ["study", "tie", "scene.toml", "--strength", "1e4", "--level", "SLV", "--json"];
+    let motions = |more: &str| {
+        std::fs::write(folder.join("scene.toml"), scene.replace("\"both\"", "\"positive\"") + more).unwrap();
+        json(&folder, &signs)["motions"].as_u64()
+    };
+    assert_eq!([motions(""), motions("polarities = \"as_recorded\"\n")], [Some(6), Some(3)]);
+    // records move the ground, and nothing says how the building moves
+    let building = "building = { storeys = 3, period = 0.3, height_ratio = 1 }\n";
+    let high = scene.replace("0.32 }", "0.32, building_damping = 0.1 }") + building;
+    std::fs::write(folder.join("scene.toml"), high).unwrap();
+    refused(&folder, &signs, &["scene.toml, line 18", "give [[storeys]] in place of [check.building]"]);
+    let fractions = scene.split("[check]").next().unwrap().to_owned()
+        + "[check]\ncode = \"fractions\"\nspectrum = [[0, 1], [4, 1]]\nunit = \"m/s2\"\n";
+    std::fs::write(folder.join("scene.toml"), fractions).unwrap();
+    refused(&folder, &signs, &["no limit states with runs; use code = \"circolare-2019\", or --scale"]);
 }
 
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.

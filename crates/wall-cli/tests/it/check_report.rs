@@ -319,6 +319,16 @@ fn a_tie_has_its_own_section() {
     assert_has(&section(&page, "SLV with q"), &["the ground governs", "ag S = 2.56 · 1.153 = 2.953"]);
     // the tie fills a quarter of the curve, which needs no second figure
     assert!(!page.contains("The beginning of the curve"));
+    // so it is with another damping, where it differs from a_g S by a rounding; a bar that tears as it yields
+    // is brittle
+    let torn = bar.replace("ultimate_strain = 0.02", "ultimate_strain = 0.001");
+    let damped = check.replace("building_damping = 0.1 }", "building_damping = 0.12 }");
+    let page = report(&folder, &[facade, &damped, &torn].concat(), &[]);
+    assert_has(&section(&page, "SLV with q"), &["the ground governs", "ag S = 2.56 · 1.153 = 2.953"]);
+    assert_has(
+        &section(&page, "The tie"),
+        &["max(0, εu L − Ny/K) = max(0, 0.001 · 6000 − 15.75/2346 · 10³) = 0 mm", "the bar (brittle)"],
+    );
     let brittle = facade.to_owned() + "tie_stiffness = 5e6\ntie_strength = 10e3\n" + check;
     let page = report(&folder, &brittle, &[]);
     check_whole(&page);

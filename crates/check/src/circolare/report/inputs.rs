@@ -24,7 +24,11 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         state(overburden(case), &["overburden_mass"]);
     }
     if let Some(rocks) = statement.table.rocking {
-        state(escaped(sides(rocks)), &["rocking"]);
+        let said = sides(rocks);
+        // the runs rock as the scene does
+        let is_dynamic = case.outcome.dynamic.is_some();
+        let said = if is_dynamic { said.replacen("The", "In the static checks the", 1) } else { said.into() };
+        state(escaped(&said), &["rocking"]);
     }
     if case.wall.tie().is_some() {
         state(tie(statement.at_activation()).into(), &["tie"]);

@@ -85,7 +85,7 @@ fn activation(
             ("Demand".to_owned(), "[3.2.2], T = 0", "a_g S", put)
         }
         Demand::Ground(_) => (at_t0(), "[3.2.2]", "S_e(T0, ξ)", String::new()),
-        Demand::Floor(floor) if check.demand == floor.ground().acceleration(0.0, 0.05) => {
+        Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
             let ground = floor.ground();
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
             let words = format!(

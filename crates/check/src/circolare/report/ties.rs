@@ -38,7 +38,7 @@ fn bar(case: &Checked<'_>) -> String {
     let (l, e, f) = (n(1e3 * length), n(1e-6 * young_modulus), n(1e-6 * yield_stress));
     let mut lines = Calculation::default();
     lines.line(
-        ["Section of the bar", ""],
+        ["Cross-section of the bar", ""],
         ["A_s = π φ²/4", &format!("π · {}²/4", n(1e3 * diameter))],
         (1e6 * area, "mm²"),
     );
@@ -68,12 +68,16 @@ fn bar(case: &Checked<'_>) -> String {
         Some(strain) => {
             let [strength, stiffness] =
                 [parameters.tie_strength, parameters.tie_stiffness].map(|value| n(1e-3 * value));
-            let put = format!("{} · {l} − {strength}/{stiffness} · 10³", n(strain));
-            lines.line([words, ""], ["e_p = ε_u L − N_y/K", &put], ultimate);
+            let put = format!("max(0, {} · {l} − {strength}/{stiffness} · 10³)", n(strain));
+            lines.line([words, ""], ["e_p = max(0, ε_u L − N_y/K)", &put], ultimate);
         }
         None => lines.line([words, ""], ["e_p", ""], ultimate),
     }
-    let first = if weaker == TiePart::Anchor { "the anchor (brittle)" } else { "the bar" };
+    let first = match weaker {
+        TiePart::Anchor => "the anchor (brittle)",
+        TiePart::Bar if parameters.tie_ultimate == 0.0 => "the bar (brittle)",
+        TiePart::Bar => "the bar",
+    };
     lines.say("Part that gives way first", first);
     lines.table()
 }

@@ -41,6 +41,7 @@ pub(crate) struct Arguments {
     /// Bring the records to the level of a limit state of the table [check], as its dynamic check does: SLD,
     /// SLV or SLC; without --records those of [check.records]
     #[arg(long, value_name = "LIMIT_STATE", requires = "scene", conflicts_with = "scale")]
+    #[arg(value_parser = ["SLD", "SLV", "SLC"])]
     level: Option<String>,
     /// Stiffnesses in N/m, separated by commas, from 0 for no tie [default: 0, and 1e-2 to 1e3 of
     /// 2 W/h at the tie]
@@ -81,11 +82,11 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
     let named = records(console, arguments)?;
-    let (records, factors) = match &arguments.level {
-        Some(state) => at_level(arguments, &mut scene, named, state)?,
-        None => (named.into_iter().map(|record| record.motion).collect(), Vec::new()),
+    let (records, factors, both_signs) = match &arguments.level {
+        Some(state) => at_level(console, arguments, &mut scene, named, state)?,
+        None => (named.into_iter().map(|record| record.motion).collect(), Vec::new(), false),
     };
-    let study = TieStudy::new(scene, varied(arguments), records, arguments.both_polarities);
+    let study = TieStudy::new(scene, varied(arguments), records, arguments.both_polarities || both_signs);
     let study = arguments.scene.named(study)?;
     let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
     console.picture(arguments.plot.as_ref(), || Ok(picture(&study, &rows)))?;
@@ -122,14 +123,15 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.print(&format!("{title}, tie{place} against {side}, {motions}{level}\n\n{table}{note}{written}"))
 }
 
-/// The records at the level of a limit state of the check, and their factors; gives the wall the tie and the
-/// building that the check has there.
+/// The records at the level of a limit state of the check, their factors, and whether the check runs both
+/// signs; gives the wall the tie and the building that the check has there.
 fn at_level(
+    console: &Console<'_>,
     arguments: &Arguments,
     scene: &mut Scene,
     named: Vec<NamedRecord>,
     state: &str,
-) -> Result<(Vec<GroundMotion>, Vec<f64>)> {
+) -> Result<(Vec<GroundMotion>, Vec<f64>, bool)> {
     let path = arguments.scene.scene.as_ref().context("--level needs a scene with a table [check]")?;
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     let file = CheckFile::parse(&name, &text)?.with_records(named);
@@ -137,15 +139,22 @@ fn at_level(
     let code = read(&file).map_err(located)?;
     let assumed = file.assumed(&arguments.scene.set);
     let subject = Subject { assumed: &assumed, ..(&*scene).into() };
-    let Some(Level { factors, floors }) = code.level(subject, state).map_err(located)? else {
-        bail!("{name}: --level: code = {:?} has no limit states with runs", code.entry().name);
+    let Some(Level { factors, floors, both_signs, warnings }) =
+        code.level(subject, state).map_err(located)?
+    else {
+        bail!(
+            "{name}: --level: code = {:?} has no limit states with runs; use code = \"circolare-2019\", or \
+             --scale",
+            code.entry().name
+        );
     };
+    code.records().warnings.iter().chain(&warnings).for_each(|warning| console.warn(warning));
     let motions = code.records().named.iter().zip(&factors);
     let motions = motions.map(|(record, factor)| record.motion.checked_scaled(*factor));
     let motions = motions.collect::<Result<_, _>>()?;
     scene.parameters = code.prepared(&scene.parameters).map_err(located)?;
     scene.floors = floors;
-    Ok((motions, factors))
+    Ok((motions, factors, both_signs))
 }
 
 /// What is varied, and its values.
