@@ -265,8 +265,7 @@ class Hazard(TypedDict, total=False):
     - points: Points: intensity and annual rate of exceedance [1/year]; intensities rise, rates fall.
     - site: Number of the site in a file of OpenQuake, from 1, at least 1.
     - target: Annual rate that each limit state should not exceed [1/year], above 0.
-    - unit: Unit of the intensities of points and of two columns, as that of levels; by default that of the
-      results.
+    - unit: Unit of points and of two columns, as that of levels; by default that of the results.
     - years: Years of the probabilities, above 0; default 50.0.
     """
 
