@@ -7,6 +7,8 @@ use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use run::records::NamedRecord;
+
 use crate::errors::of_motion;
 
 /// A motion, which Python has as the time between samples \[s\] and the samples \[m/s²\].
@@ -69,4 +71,10 @@ pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         )));
     };
     Ok(array.readonly().as_slice()?.to_vec())
+}
+
+/// Names the motions of records.
+pub(crate) fn named_records(records: Vec<(String, Motion)>) -> Vec<NamedRecord> {
+    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+    records.into_iter().map(record).collect()
 }

@@ -12,7 +12,6 @@ use rocking_wall::scene::{DEFAULT_TAIL, to_toml};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
 use run::polarity::Polarities;
-use run::records::NamedRecord;
 use study::calibration::figure::charts;
 use study::calibration::{
     self, Calibration, CalibrationError, Grid, calibrate, calibrated_models, model_named,
@@ -24,7 +23,7 @@ use study::spectrum::{
 };
 use study::tie::{self, Outcome, Row, TieError, TieStudy};
 
-use crate::arrays::{Motion, Numbers, grid, samples};
+use crate::arrays::{Motion, Numbers, grid, named_records, samples};
 use crate::errors::{failed, of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
@@ -39,7 +38,7 @@ pub(crate) fn check_wall<'py>(
     text: String,
     records: Vec<(String, Motion)>,
 ) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
-    let (records, subject) = (named(records), Subject::from(wall));
+    let (records, subject) = (named_records(records), Subject::from(wall));
     let checked = py.detach(|| {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
@@ -59,7 +58,7 @@ pub(crate) fn check_report(
     records: Vec<(String, Motion)>,
     title: Option<String>,
 ) -> PyResult<String> {
-    let records = named(records);
+    let records = named_records(records);
     let text = to_toml(&wall.scene, "") + "\n" + &text;
     let made = py.detach(|| {
         let file = CheckFile::parse("wall.toml", &text)?.with_records(records);
@@ -70,11 +69,6 @@ pub(crate) fn check_report(
         page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records, report })
     });
     made.map_err(of_check)
-}
-
-fn named(records: Vec<(String, Motion)>) -> Vec<NamedRecord> {
-    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
-    records.into_iter().map(record).collect()
 }
 
 fn of_check(error: CheckError) -> PyErr {

@@ -8,11 +8,10 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rocking_wall::scene::SceneError;
-use run::records::NamedRecord;
 use study::folder::{Contents, encode};
 use study::loaded::{LoadedStudy, Sent};
 
-use crate::arrays::Motion;
+use crate::arrays::{Motion, named_records};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 
@@ -46,8 +45,7 @@ impl Study {
     ) -> PyResult<Self> {
         let mut warnings = Vec::new();
         let walls = named_walls(&walls, &mut warnings)?;
-        let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
-        let records = records.into_iter().map(record).collect();
+        let records = named_records(records);
         let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
             SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),

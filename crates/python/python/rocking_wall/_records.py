@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _native
+from ._tables import drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -360,8 +361,7 @@ def synthetic_record(
     >>> synthetic_record(7, pga=2.0)
     Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s²)
     """
-    if isinstance(seed, np.random.Generator):
-        seed = int(seed.integers(2**32))
+    seed = drawn(seed)
     return Record(*_native.synthetic(seed, duration, dt, pga), name=f"synthetic {seed}")
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._native import verify_formulas
-from ._tables import Table, Tabular, toml
+from ._tables import Table, Tabular, toml_lines
 
 
 @dataclass(frozen=True, repr=False)
@@ -56,7 +56,7 @@ class Verdict:
         Raises `FileExistsError` for a file that exists, `ValueError` for a key that is not known.
         """
         wall, text, records = self._given
-        text += "[report]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in project.items())
+        text += "[report]\n" + toml_lines(project)
         page = _native.check_report(wall._native, text, records, title)
         with open(path, "x", encoding="utf-8", newline="") as file:
             file.write(page)

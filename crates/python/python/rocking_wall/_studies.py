@@ -17,7 +17,7 @@ from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
 from ._given import Attribute
 from ._records import Record, motion_of, read_record
-from ._tables import Table, toml
+from ._tables import Table, toml, toml_lines
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ class Study:
                 raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
             options = {"models": models, "levels": levels, **options}
             given = {name: option for name, option in options.items() if option is not None}
-            text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())
+            text = toml_lines(given)
             self._native = _native.Study.of_parts(text, named_walls(walls), named_records(records))
             self._name = "study" if title is None else title
             self._is_file = False
@@ -333,7 +333,7 @@ def anchored(text: str) -> str:
             table = table.get(name, {})
         if isinstance(table.get(key), str):
             table[key] = abspath(table[key])
-    return "".join(f"{name} = {toml(option)}\n" for name, option in options.items())
+    return toml_lines(options)
 
 
 def write_study(

@@ -70,13 +70,23 @@ def shown(value: object) -> str:
     return f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
+def toml_lines(values: Mapping[str, object]) -> str:
+    """Returns the lines of a table in TOML."""
+    return "".join(f"{name} = {toml(value)}\n" for name, value in values.items())
+
+
+def drawn(seed: int | np.random.Generator) -> int:
+    """Returns a seed, which a generator draws."""
+    return int(seed.integers(2**32)) if isinstance(seed, np.random.Generator) else seed
+
+
 def toml(value: object) -> str:
     """Returns the text of a value in TOML."""
     if isinstance(value, Mapping):
         entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
         return "{ " + ", ".join(entries) + " }"
     if isinstance(value, np.random.Generator):
-        return str(int(value.integers(2**32)))
+        return str(drawn(value))
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):

@@ -20,7 +20,7 @@ from ._parameters import Parameters
 from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict
-from ._tables import Table, shown, toml
+from ._tables import Table, shown, toml_lines
 
 
 class Description(dict[str, Any]):
@@ -259,7 +259,7 @@ class Wall(Given):
         if len(records) > 0:
             # their motions are handed over beside the text
             table["records"] = {}
-        text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
+        text = "[check]\n" + toml_lines(table)
         named = [(getattr(record, "name", ""), motion_of(record)) for record in records]
         summary, numbers, rows, picture = _native.check_wall(self._native, text, named)
         said, values = json.loads(summary), json.loads(numbers)

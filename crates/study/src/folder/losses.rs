@@ -20,6 +20,7 @@ use super::nrml::{self, limit_states};
 use super::plots::SIZE;
 use super::rates::{Fitted, between};
 use super::report::MOST_WALLS;
+use super::rows::Rows;
 
 /// Names of the files.
 const FILES: [&str; 3] = ["vulnerability.csv", "vulnerability.xml", "losses.csv"];
@@ -33,11 +34,10 @@ pub(crate) struct Losses<'a> {
     manifest: &'a Manifest,
     /// Loss ratios of the limit states, which rise.
     ratios: Vec<f64>,
-    curves: Draft,
+    curves: Rows,
     xml: Option<(Draft, nrml::Names)>,
     /// Average annual losses, of a study with a hazard.
-    annual: Option<(&'a Hazard, Draft)>,
-    is_begun: bool,
+    annual: Option<(&'a Hazard, Rows)>,
     /// Rows of the classes and of the walls that are shown.
     shown: [Table; 2],
     /// Plots of classes and of walls by names, and the lines of the one under construction, model by model.
@@ -77,20 +77,15 @@ impl<'a> Losses<'a> {
         }
         let Some(ratios) = &report.loss_ratios else { return Ok(None) };
         let [curves, xml, annual] = paths;
-        let begin = |path: &Path, text: String| Draft::new(path, text.as_bytes());
         let xml = nrml::vulnerability(manifest)
-            .map(|(names, text)| Ok::<_, FolderError>((begin(&xml, text)?, names)));
-        let annual = report
-            .hazard
-            .as_ref()
-            .map(|hazard| Ok::<_, FolderError>((hazard, begin(&annual, String::new())?)));
+            .map(|(names, text)| Ok::<_, FolderError>((Draft::new(&xml, text.as_bytes())?, names)));
+        let annual = report.hazard.as_ref().map(|hazard| Ok::<_, FolderError>((hazard, Rows::new(&annual)?)));
         Ok(Some(Self {
             manifest,
             ratios: limit_states(report).into_iter().map(|(place, _)| ratios[place]).collect(),
-            curves: begin(&curves, String::new())?,
+            curves: Rows::new(&curves)?,
             xml: xml.transpose()?,
             annual: annual.transpose()?,
-            is_begun: false,
             shown: [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2],
             plots: Default::default(),
             lines: Vec::new(),
@@ -109,20 +104,16 @@ impl<'a> Losses<'a> {
         let curves: Option<Vec<_>> = states.iter().map(|state| state.curve).collect();
         let points = curves.map_or_else(Vec::new, |curves| points(&self.ratios, &curves, unit));
         let model_name = &self.manifest.contents.models[model].name;
-        let is_begun = std::mem::replace(&mut self.is_begun, true);
-        let text = |table: &Table| if is_begun { table.csv_rows() } else { table.csv() };
-        let table = of_points(name, model_name, unit, &points);
-        self.curves.write(|file| file.write_all(text(&table).as_bytes()))?;
+        self.curves.add(&of_points(name, model_name, unit, &points))?;
         if let Some((draft, names)) = self.xml.as_mut().filter(|_| !points.is_empty()) {
             let id = names.id(name, model_name);
             let function = self.manifest.function(&id, &self.ratios, &points);
             draft.write(|file| file.write_all(function.as_bytes()))?;
         }
         let mut rows = Vec::new();
-        if let Some((hazard, draft)) = &mut self.annual {
+        if let Some((hazard, file)) = &mut self.annual {
             rows.extend(annual(hazard, &self.ratios, states));
-            let table = of_year(name, model_name, &rows);
-            draft.write(|file| file.write_all(text(&table).as_bytes()))?;
+            file.add(&of_year(name, model_name, &rows))?;
         }
         if is_class || self.manifest.contents.walls.len() <= MOST_WALLS {
             let table = shown(name, model_name, &rows);
@@ -161,14 +152,15 @@ impl<'a> Losses<'a> {
     pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
         let Self { curves, xml, annual, shown: [mut shown, walls], plots, .. } = self;
         shown.rows.extend(walls.rows);
-        let mut drafts = vec![curves];
+        let mut paths = vec![curves.commit()?];
         if let Some((mut draft, _)) = xml {
             draft.write(|file| file.write_all(nrml::VULNERABILITY_END.as_bytes()))?;
-            drafts.push(draft);
+            paths.push(draft.commit(true)?);
         }
         let has_hazard = annual.is_some();
-        drafts.extend(annual.map(|(_, draft)| draft));
-        let paths = drafts.into_iter().map(|draft| draft.commit(true)).collect::<Result<_, _>>()?;
+        if let Some((_, file)) = annual {
+            paths.push(file.commit()?);
+        }
         let (mut told, mut html) = (String::new(), "<section><h2>Losses</h2>".to_owned());
         if has_hazard && !shown.rows.is_empty() {
             let words = format!(

@@ -46,6 +46,7 @@ mod population;
 mod rates;
 mod report;
 mod risk;
+mod rows;
 mod samples;
 mod store;
 

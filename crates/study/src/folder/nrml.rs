@@ -26,13 +26,17 @@ pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
 /// Returns the name in NRML of an intensity measure, as `OpenQuake` has it: `PGA`, `PGV`, `PGD`, `SA(T)`,
 /// `IA`, `CAV`, or `AvgSA`, whose periods NRML leaves to the description; `None` for the others.
 pub(crate) fn measure(name: &str) -> Option<String> {
-    let period = name.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
     let known = ["PGA", "PGV", "PGD", "CAV", "AvgSA"];
     match name {
         "Arias" => Some("IA".into()),
         _ if known.contains(&name) => Some(name.into()),
-        _ => period.map(|period| format!("SA({period})")),
+        _ => period(name).map(|period| format!("SA({period})")),
     }
+}
+
+/// Returns the period of the measure Sa, as its name states it.
+pub(crate) fn period(name: &str) -> Option<&str> {
+    name.strip_prefix("Sa(")?.strip_suffix(" s)")
 }
 
 /// What precedes the functions of a model: the kind of model, more than its description, and its end.
@@ -65,19 +69,23 @@ pub(crate) const VULNERABILITY_END: &str = "  </vulnerabilityModel>\n</nrml>\n";
 
 /// Names of functions, each of which occurs once.
 pub(crate) struct Names {
-    has_models: bool,
+    pub(crate) has_models: bool,
     ids: BTreeSet<String>,
 }
 
 impl Names {
-    fn of(manifest: &Manifest) -> Self {
+    pub(crate) fn of(manifest: &Manifest) -> Self {
         Self { has_models: manifest.contents.models.len() > 1, ids: BTreeSet::new() }
     }
 
     /// Makes the name of a wall or class with a model that no other function has.
     pub(crate) fn id(&mut self, name: &str, model: &str) -> String {
         let id = if self.has_models { format!("{name} ({model})") } else { name.to_owned() };
-        let mut id = id.replace(REFUSED, "_");
+        self.unique(id.replace(REFUSED, "_"))
+    }
+
+    /// Makes a name that no other function has.
+    pub(crate) fn unique(&mut self, mut id: String) -> String {
         while !self.ids.insert(id.clone()) {
             id.push('_');
         }

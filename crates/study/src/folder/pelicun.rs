@@ -1,7 +1,6 @@
 //! Fragilities as components of pelicun (NHERI `SimCenter`), in the form of its damage and loss library: a
 //! row for each wall or class with a model, and JSON that says what its limit states are.
 
-use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +11,8 @@ use serde_json::{Map, json};
 
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::nrml::limit_states;
+use super::nrml::{self, Names, limit_states};
+use super::rows::Rows;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["pelicun.csv", "pelicun.json"];
@@ -20,7 +20,7 @@ const FILES: [&str; 2] = ["pelicun.csv", "pelicun.json"];
 /// Returns the demand of pelicun that an intensity measure is, and pelicun's name of the unit of results;
 /// `None` for those it does not know.
 fn demand(measure: &str) -> Option<(String, &'static str)> {
-    if let Some(period) = measure.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)")) {
+    if let Some(period) = nrml::period(measure) {
         return Some((format!("Spectral Acceleration|{period}"), "g"));
     }
     match measure {
@@ -34,9 +34,9 @@ fn demand(measure: &str) -> Option<(String, &'static str)> {
 pub(crate) struct Pelicun<'a> {
     manifest: &'a Manifest,
     demand: (String, &'static str),
-    rows: Draft,
+    rows: Rows,
     described: Draft,
-    ids: BTreeSet<String>,
+    names: Names,
 }
 
 impl<'a> Pelicun<'a> {
@@ -55,9 +55,9 @@ impl<'a> Pelicun<'a> {
             "Version": "1.0",
         });
         let [rows, described] = paths;
-        let rows = Draft::new(&rows, b"")?;
+        let rows = Rows::new(&rows)?;
         let described = Draft::new(&described, format!("{{\n\"_GeneralInformation\": {about}").as_bytes())?;
-        Ok(Some(Self { manifest, demand, rows, described, ids: BTreeSet::new() }))
+        Ok(Some(Self { manifest, demand, rows, described, names: Names::of(manifest) }))
     }
 
     /// Adds a wall or a class with a model.
@@ -66,7 +66,6 @@ impl<'a> Pelicun<'a> {
         [name, model]: [&str; 2],
         function: &FragilityFunction,
     ) -> Result<(), FolderError> {
-        let is_begun = !self.ids.is_empty();
         let id = self.id(name, model);
         let (demand, unit) = &self.demand;
         let mut table = Table::over([()])
@@ -92,9 +91,7 @@ impl<'a> Pelicun<'a> {
                 .value(format!("{key}-Theta_1"), move |()| beta)
                 .text(format!("{key}-DamageStateWeights"), "", |()| "");
         }
-        let table = table.done();
-        let text = if is_begun { table.csv_rows() } else { table.csv() };
-        self.rows.write(|file| file.write_all(text.as_bytes()))?;
+        self.rows.add(&table.done())?;
         let about = json!({
             "Description": format!("{name}, {model}"),
             "SuggestedComponentBlockSize": "1 EA",
@@ -107,18 +104,13 @@ impl<'a> Pelicun<'a> {
     /// Completes the files, and returns their paths.
     pub(crate) fn finish(mut self) -> Result<[PathBuf; 2], FolderError> {
         self.described.write(|file| file.write_all(b"\n}\n"))?;
-        Ok([self.rows.commit(true)?, self.described.commit(true)?])
+        Ok([self.rows.commit()?, self.described.commit(true)?])
     }
 
     /// Makes the name of a component, which no other has. A dash would part it from its place.
     fn id(&mut self, name: &str, model: &str) -> String {
-        let has_models = self.manifest.contents.models.len() > 1;
-        let text = if has_models { format!("{name}.{model}") } else { name.to_owned() };
+        let text = if self.names.has_models { format!("{name}.{model}") } else { name.to_owned() };
         let kept = |c: char| if c.is_alphanumeric() || c == '.' { c } else { '_' };
-        let mut id: String = text.chars().map(kept).collect();
-        while !self.ids.insert(id.clone()) {
-            id.push('_');
-        }
-        id
+        self.names.unique(text.chars().map(kept).collect())
     }
 }

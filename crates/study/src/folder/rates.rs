@@ -2,7 +2,6 @@
 //! and the terminal show of them.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{CONFIDENCE, Interval};
@@ -11,7 +10,7 @@ use crate::ida::IntensityUnit;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Column, Digits, Table};
-use run::file::{self, Draft};
+use run::file;
 
 use super::contents::Manifest;
 use super::error::FolderError;
@@ -19,6 +18,7 @@ use super::legend::looks;
 use super::nrml::limit_states;
 use super::plots::SIZE;
 use super::report::MOST_WALLS;
+use super::rows::Rows;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["rates.csv", "rate_shares.csv"];
@@ -38,8 +38,7 @@ pub(crate) struct Fitted {
 pub(crate) struct Rates<'a> {
     manifest: &'a Manifest,
     hazard: &'a Hazard,
-    drafts: [Draft; 2],
-    is_begun: bool,
+    files: [Rows; 2],
     /// Rows of the walls and of the classes that are shown.
     shown: Option<Table>,
     /// Plots of the last limit state, by names.
@@ -68,12 +67,11 @@ impl<'a> Rates<'a> {
             paths.iter().try_for_each(|path| file::remove(path))?;
             return Ok(None);
         };
-        let [rates, shares] = paths.map(|path| Draft::new(&path, b""));
+        let [rates, shares] = paths.map(|path| Rows::new(&path));
         Ok(Some(Self {
             manifest,
             hazard,
-            drafts: [rates?, shares?],
-            is_begun: false,
+            files: [rates?, shares?],
             shown: None,
             plots: Vec::new(),
             lines: Vec::new(),
@@ -110,7 +108,9 @@ impl<'a> Rates<'a> {
         }
         let model_name = &manifest.contents.models[model].name;
         let (unit, names) = (manifest.contents.unit, [name, model_name]);
-        self.write(&rates(hazard, unit, names, &rows), &shares(hazard, unit, names, &rows))?;
+        let [of_rates, of_shares] = &mut self.files;
+        of_rates.add(&rates(hazard, unit, names, &rows))?;
+        of_shares.add(&shares(hazard, unit, names, &rows))?;
         if !is_class && manifest.contents.walls.len() > MOST_WALLS {
             return Ok(());
         }
@@ -125,15 +125,6 @@ impl<'a> Rates<'a> {
             None => self.shown = Some(with_kind(table, is_class)),
         }
         self.draw(name, model, rows.last());
-        Ok(())
-    }
-
-    fn write(&mut self, rates: &Table, shares: &Table) -> Result<(), FolderError> {
-        for (draft, table) in self.drafts.iter_mut().zip([rates, shares]) {
-            let text = if self.is_begun { table.csv_rows() } else { table.csv() };
-            draft.write(|file| file.write_all(text.as_bytes()))?;
-        }
-        self.is_begun = true;
         Ok(())
     }
 
@@ -159,8 +150,8 @@ impl<'a> Rates<'a> {
 
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
     pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let Self { manifest, hazard, drafts, shown, plots, beyond: [all, much], .. } = self;
-        let paths = drafts.into_iter().map(|draft| draft.commit(true)).collect::<Result<_, _>>()?;
+        let Self { manifest, hazard, files, shown, plots, beyond: [all, much], .. } = self;
+        let paths = files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
         let (points, unit) = (hazard.curve.points(), manifest.contents.unit);
         let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| unit.of(x));
         let mut words = format!(

@@ -2,7 +2,6 @@
 //! every wall and of every class of walls.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::document::{ReportOptions, WallClass};
@@ -18,6 +17,7 @@ use super::losses::Losses;
 use super::nrml;
 use super::pelicun::Pelicun;
 use super::rates::{Fitted, Rates};
+use super::rows::Rows;
 use report::counted;
 use report::table::{Cell, Table};
 
@@ -28,11 +28,9 @@ const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
 pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
     states: Vec<(usize, String)>,
-    table: Draft,
+    table: Rows,
     /// Keys of the geometry of walls, each a column.
     geometry: Vec<String>,
-    /// Whether the table has its line of names.
-    is_begun: bool,
     xml: Option<(Draft, nrml::Writer)>,
     pelicun: Option<Pelicun<'a>>,
     /// Numbers of the walls of each class.
@@ -87,9 +85,8 @@ impl<'a> Risk<'a> {
             losses: Losses::new(folder, manifest)?,
             resamples: vec![of_class; classes.len()],
             states,
-            table: Draft::new(&table, b"")?,
+            table: Rows::new(&table)?,
             geometry,
-            is_begun: false,
             xml,
             pelicun: Pelicun::new(folder, manifest)?,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
@@ -161,13 +158,11 @@ impl<'a> Risk<'a> {
             }
         }
         told.push_str(&self.words());
-        let mut drafts = vec![self.table];
+        let mut paths = vec![self.table.commit()?];
         if let Some((mut draft, _)) = self.xml {
             draft.write(|file| nrml::Writer::finish(file))?;
-            drafts.push(draft);
+            paths.push(draft.commit(true)?);
         }
-        let paths = drafts.into_iter().map(|draft| draft.commit(true));
-        let mut paths: Vec<_> = paths.collect::<Result<_, _>>()?;
         if let Some(pelicun) = self.pelicun {
             paths.extend(pelicun.finish()?);
         }
@@ -247,10 +242,7 @@ impl<'a> Risk<'a> {
             });
             table = table.value(key.clone(), move |_| cell.clone());
         }
-        let table = table.done();
-        let text = if self.is_begun { table.csv_rows() } else { table.csv() };
-        self.is_begun = true;
-        self.table.write(|file| file.write_all(text.as_bytes()))?;
+        self.table.add(&table.done())?;
         self.left_out[0] += usize::from(function.is_none());
         if let Some((pelicun, function)) = self.pelicun.as_mut().zip(function) {
             pelicun.add([name, model], function)?;

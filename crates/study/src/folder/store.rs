@@ -44,14 +44,13 @@ impl Folder {
     /// [`FolderError`] if it holds another study, or cannot be read or written.
     pub fn of_study(path: &Path, loaded: &LoadedStudy) -> Result<Self, FolderError> {
         let contents = Contents::of(&loaded.study);
-        if path.join(STUDY).exists() {
-            let other = read(path)?;
-            if other.contents != contents {
-                let difference = other.contents.difference(&contents);
-                return Err(FolderError::OtherStudy { path: path.to_owned(), difference });
-            }
+        let earlier = path.join(STUDY).exists().then(|| read(path)).transpose()?;
+        if let Some(other) = earlier.as_ref().filter(|earlier| earlier.contents != contents) {
+            let difference = other.contents.difference(&contents);
+            return Err(FolderError::OtherStudy { path: path.to_owned(), difference });
         }
-        Self::create(path, Manifest::new(loaded.title.clone(), loaded.report.clone(), contents))
+        let manifest = Manifest::new(loaded.title.clone(), loaded.report.clone(), contents);
+        Self::create(path, earlier.as_ref(), manifest)
     }
 
     /// Opens or makes the folder that a study is merged into.
@@ -59,15 +58,16 @@ impl Folder {
     /// # Errors
     /// As [`Self::of_study`].
     pub fn like(path: &Path, manifest: &Manifest) -> Result<Self, FolderError> {
-        if path.join(STUDY).exists() {
-            Self::open(path)?.expect(&manifest.contents)?;
+        let earlier = path.join(STUDY).exists().then(|| Self::open(path)).transpose()?;
+        if let Some(earlier) = &earlier {
+            earlier.expect(&manifest.contents)?;
         }
-        Self::create(path, manifest.clone())
+        Self::create(path, earlier.as_ref().map(Self::manifest), manifest.clone())
     }
 
-    fn create(path: &Path, manifest: Manifest) -> Result<Self, FolderError> {
+    fn create(path: &Path, earlier: Option<&Manifest>, manifest: Manifest) -> Result<Self, FolderError> {
         file::make_folder(&path.join(RUNS))?;
-        if read(path).is_ok_and(|earlier| earlier != manifest) {
+        if earlier.is_some_and(|earlier| *earlier != manifest) {
             // its tables are those of another report
             file::remove(&path.join(PAGE))?;
         }
