@@ -28,7 +28,7 @@ pub fn is_vertical_channel(code: &str) -> bool {
 /// Returns whether a file is vertical by its name or by that of the column that is read, where its format
 /// states no direction: `…-UP.AT2`, `X.ABC..HNZ.csv`, the column `U-D`.
 pub(crate) fn by_name(name: &str, format: Format, options: &RecordOptions) -> bool {
-    if !matches!(format, Format::At2 | Format::Csv | Format::Numbers) {
+    if format.states_direction() {
         return false;
     }
     if let Some(column) = &options.column {
