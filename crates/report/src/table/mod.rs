@@ -214,8 +214,10 @@ impl Table {
         let class_of = |column: &Column| if column.is_text { "" } else { " class=\"number\"" };
         let mut text = String::from("<div class=\"scroll\"><table>\n<thead><tr>");
         for (_, column) in self.shown() {
-            let _ =
-                write!(text, "<th{}>{}</th>", class_of(column), escaped(&column.heading.replace('\n', " ")));
+            // where a table is too wide, a heading of numbers breaks between its lines only
+            let space = if column.is_text { " " } else { "\u{a0}" };
+            let heading = column.heading.replace(' ', space).replace('\n', " ");
+            let _ = write!(text, "<th{}>{}</th>", class_of(column), escaped(&heading));
         }
         text += "</tr></thead>\n<tbody>\n";
         for (index, row) in self.rows.iter().enumerate() {

@@ -30,6 +30,16 @@ fn demand(measure: &str) -> Option<(String, &'static str)> {
     }
 }
 
+/// Says why there are no files by a measure, and the remedy.
+pub(crate) fn refusal(measure: &str) -> String {
+    let other = if measure == "PGD" { ": its own PGD is a permanent deformation of the ground" } else { "" };
+    format!(
+        "no {}: pelicun knows PGA, PGV and Sa(T), and not {measure}{other}; for it run the study with \
+         intensity = {{ measure = \"PGA\" }}\n",
+        FILES[0]
+    )
+}
+
 /// The files under construction.
 pub(crate) struct Pelicun<'a> {
     manifest: &'a Manifest,

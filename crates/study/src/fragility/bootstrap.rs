@@ -3,7 +3,7 @@
 use super::dispersion::Estimator;
 use super::fit::Lognormal;
 use super::observation::Sample;
-use report::table::between;
+use report::table::{Digits, between};
 use run::sample::{Pcg, unsorted_fractile};
 
 use crate::ida::Exceedance;
@@ -232,7 +232,7 @@ impl Interval {
     }
 
     /// Formats the estimate and the ends of its interval in a unit, see [`between`].
-    pub fn texts(&self, unit: f64, decimals: usize) -> [String; 3] {
-        self.bounds(unit).map(|bounds| between(bounds, |value| format!("{value:.decimals$}")))
+    pub fn texts(&self, unit: f64, digits: Digits) -> [String; 3] {
+        self.bounds(unit).map(|bounds| between(bounds, |value| digits.of(value)))
     }
 }

@@ -129,7 +129,7 @@ fn keys_without_a_part_in_a_cloud_are_refused() {
     for (more, words) in [
         ("report = { beta = \"own\" }", "beta has no part in a cloud"),
         ("report = { collapse = \"last\" }", "collapse has no part in a cloud"),
-        ("collapse_is = \"falls\"", "has no part in a cloud"),
+        ("collapse_is = \"falls\"", "as a collapse; leave it out, or give levels of another method"),
     ] {
         let told = read(more).unwrap_err().to_string();
         assert!(told.contains("line 3") && told.contains(words), "{told}");

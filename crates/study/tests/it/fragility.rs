@@ -2,6 +2,8 @@
 
 use proptest::prelude::*;
 
+use report::table::Digits;
+
 use study::fragility::{
     Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Observation, Sample, Summary, compare,
     cumulative, fit, fit_jointly, median, steps,
@@ -309,7 +311,7 @@ fn open_numbers_have_their_bounds() {
     };
     let models = [known, open, never];
     let summaries = compared(&models, 0);
-    let texts = |interval: &Interval| interval.texts(1.0, 2);
+    let texts = |interval: &Interval| interval.texts(1.0, Digits::Decimals(2));
     assert_eq!(texts(&summaries[0].median)[0], "3.00");
     assert_eq!(texts(&summaries[1].median), ["open >5.00", "2.00", "open >5.00"]);
     // 5 over the median 3 of the reference
@@ -350,6 +352,6 @@ fn one_stripe_gives_a_bound() {
         let estimator = Estimator::new(Dispersion::Own, &[1.0]);
         let summary = compare(&[vec![sample]], 0, &estimator, &bootstrap).remove(0).remove(0);
         assert!(summary.fitted.is_err() && summary.beta.estimate.is_nan());
-        assert_eq!(summary.theta.texts(1.0, 2)[0], text, "{fallen} of 10");
+        assert_eq!(summary.theta.texts(1.0, Digits::Decimals(2))[0], text, "{fallen} of 10");
     }
 }
