@@ -31,13 +31,20 @@ pub(crate) fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
     run_reported(name, loaded).0
 }
 
-/// Runs a study of reliability, and returns its folder and what is told of it.
-pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report) {
+/// Runs an analysis, and returns its folder.
+pub(crate) fn run_analysis(name: &str, loaded: &LoadedStudy) -> PathBuf {
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
     compute(&loaded.study, &folder, &missing, 2, |_, _| CONTINUE).unwrap();
     study::folder::finish(&folder, 2, || {}).unwrap();
+    path
+}
+
+/// Runs a study of reliability, and returns its folder and what is told of it.
+pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report) {
+    let path = run_analysis(name, loaded);
+    let folder = Folder::open(&path).unwrap();
     let report = finish(&folder, &Reliability::of(loaded).unwrap(), 2, || {}).unwrap();
     (path, report)
 }
