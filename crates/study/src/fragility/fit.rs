@@ -72,8 +72,8 @@ const MOST_HALVINGS: usize = 60;
 const STEEPEST: f64 = 1e5;
 /// 1/β below which there is no rise.
 const FLATTEST: f64 = 1e-3;
-/// Newton's decrement, in units of ln L, at which the next step is the last: the step leaves an error of about
-/// so many standard errors.
+/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about so
+/// many standard errors.
 const DECREMENT: f64 = 1e-14;
 /// The same of a resample, of which only fractiles are wanted.
 const DECREMENT_OF_RESAMPLE: f64 = 1e-10;

@@ -312,12 +312,14 @@ fn numbers_of_ties_are_columns_and_are_sampled() {
 /// where some samples have no curve; the bars of the page are those of the highest limit state.
 #[test]
 fn sensitivities_of_a_folder_follow_from_its_tables() {
-    let text = "models = [\"CR\", \"CDR\"]\nlevels = { method = \"step\", step = 0.05, top = 1 }\n\
+    let text = "models = [\"CR\", \"CDR\"]\n\
+                levels = { method = \"step\", step = 0.05, top = 1 }\n\
                 intensity = { measure = \"PGA\" }\nreport = { fractions = [1.0, 0.4], resamples = 100 }\n\
-                records = { synthetic = { count = 4, duration = 10, step = 0.01 } }\n[[walls]]\nname = \
-                \"a\"\ngeometry = { height = 3, thickness = 0.3 }\n[[walls]]\nname = \"b\"\ngeometry = { height \
-                = 2, thickness = 0.3 }\n[uncertain]\nsamples = 8\n[uncertain.parameters]\nheight = { uniform = \
-                [2, 4] }\nthickness = { uniform = [0.2, 0.5] }\n";
+                records = { synthetic = { count = 4, duration = 10, step = 0.01 } }\n\
+                walls = [{ name = \"a\", geometry = { height = 3, thickness = 0.3 } }, { name = \"b\", \
+                geometry = { height = 2, thickness = 0.3 } }]\n\
+                [uncertain]\nsamples = 8\n[uncertain.parameters]\n\
+                height = { uniform = [2, 4] }\nthickness = { uniform = [0.2, 0.5] }\n";
     let path = run("sensitivity", &load("sensitivity_study", text).unwrap());
     let samples = rows(&path.join("samples.csv"));
     let curves = rows(&path.join("fragilities.csv"));
