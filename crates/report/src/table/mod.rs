@@ -288,6 +288,17 @@ mod tests {
         );
     }
 
+    /// On a narrow page a heading of numbers breaks where it has lines, and not within a unit.
+    #[test]
+    fn headings_of_numbers_break_between_their_lines() {
+        let table = Table::new([
+            Column::number("", "rate of\nfalls [1/year]", Digits::AtMost(3)),
+            Column::text("", "the wall"),
+        ]);
+        let head = "<th class=\"number\">rate\u{a0}of falls\u{a0}[1/year]</th><th>the wall</th>";
+        assert!(table.html().contains(head), "{}", table.html());
+    }
+
     #[test]
     fn words_of_the_user_are_marked() {
         let mut table = Table::new([Column::text("name", "wall").of_user(), Column::text("side", "side")]);

@@ -124,3 +124,23 @@ impl<'a> Pelicun<'a> {
         self.names.unique(text.chars().map(kept).collect())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{demand, refusal};
+
+    /// The peak displacement of the ground is not what pelicun calls PGD, although the names are alike.
+    #[test]
+    fn measures_that_pelicun_lacks_are_named_with_the_remedy() {
+        for (measure, is_known) in
+            [("PGA", true), ("PGV", true), ("Sa(0.5 s)", true), ("PGD", false), ("AvgSA", false)]
+        {
+            assert_eq!(demand(measure).is_some(), is_known, "{measure}");
+        }
+        let told = refusal("PGD");
+        for words in ["no pelicun.csv", "and not PGD: its own PGD is a permanent", "measure = \"PGA\""] {
+            assert!(told.contains(words), "{told}");
+        }
+        assert!(!refusal("AvgSA").contains("PGD"));
+    }
+}

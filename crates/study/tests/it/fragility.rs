@@ -384,7 +384,7 @@ fn fits_reach_the_maximum() {
         let mut stripe = |k: u32| Observation::Stripe {
             intensity: 0.3 + 0.2 * f64::from(k),
             runs: 30,
-            exceeded: (4 * k + random.below(9) as u32).min(30),
+            exceeded: (4 * k + u32::try_from(random.below(9)).unwrap()).min(30),
         };
         let once: Vec<Observation> = (0..8).map(&mut stripe).collect();
         let (Ok(one), Ok(two)) = (fit(&once), fit(&[&once[..], &once].concat())) else { continue };
