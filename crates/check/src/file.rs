@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Place, SceneError, Schema, parse_document, refusal};
+use rocking_wall::scene::{Place, SceneError, Schema, parse_document, read_text, refusal};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -15,6 +15,9 @@ use crate::error::CheckError;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
 use crate::site::Records;
+
+/// Largest grid of the hazard that is read.
+const MAX_GRID_BYTES: u64 = 64 << 20;
 
 /// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
 /// [`CheckFile::parse_with`].
@@ -182,6 +185,22 @@ impl<'a> CheckFile<'a> {
         &self.place.text()[..self.own]
     }
 
+    /// Returns the text of the file with the lines of the grid of `[check.site]` in place of the name of its
+    /// file, for a machine without that file.
+    ///
+    /// # Errors
+    /// [`SceneError`] of a grid that cannot be read.
+    pub fn self_contained(&self) -> Result<String, SceneError> {
+        let grid = self.check().and_then(|check| check.get_ref().get("site")?.get_ref().get("grid"));
+        let named = grid.and_then(|grid| Some((grid.span(), grid.get_ref().as_str()?)));
+        let Some((span, grid)) = named else { return Ok(self.text().to_owned()) };
+        let lines = lines_of_grid(grid, &self.folder)?;
+        let mut text = self.text().to_owned();
+        // a text of JSON is one of TOML
+        text.replace_range(span, &serde_json::Value::from(lines).to_string());
+        Ok(text)
+    }
+
     /// The folder of the file.
     pub fn folder(&self) -> &Path {
         &self.folder
@@ -313,6 +332,14 @@ impl<'a> CheckFile<'a> {
         }
         at.span()
     }
+}
+
+/// Returns the lines of a grid of the hazard: those of a file in a folder, or those that stand in its place.
+pub(crate) fn lines_of_grid(grid: &str, folder: &Path) -> Result<String, SceneError> {
+    if grid.contains('\n') {
+        return Ok(grid.to_owned());
+    }
+    read_text(&folder.join(grid), "a grid of the hazard (CSV)", MAX_GRID_BYTES)
 }
 
 /// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.

@@ -4,6 +4,7 @@ use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
 use report::number;
 use report::palette::{AMBER, BLUE, GREY, Mark};
 use report::plot::{Axis, Look, Plot, Series};
+use report::table::Digits;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Damping, Parameters};
 use run::model::{EnergyLoss, Model};
@@ -78,7 +79,7 @@ impl Fragility {
         let summaries = compare(std::slice::from_ref(&states), 0, &estimator, &bootstrap);
         let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
         let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
-            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, 2);
+            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, Digits::Decimals(2));
             let dispersion = summary.fitted.map(|curve| number(curve.dispersion, 2));
             json!({
                 "name": name,

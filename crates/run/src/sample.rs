@@ -41,9 +41,20 @@ impl Pcg {
 /// Returns a fractile of a sorted sample: its smallest value that at least a fraction `part` of it does not
 /// exceed.
 pub fn fractile(sorted: &[f64], part: f64) -> Option<f64> {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to the length")]
-    let number = (part * sorted.len() as f64 - 1e-9).ceil().max(1.0) as usize;
-    sorted.get(number - 1).copied()
+    sorted.get(place(sorted.len(), part)).copied()
+}
+
+/// Returns the [`fractile`] of a sample in any order, which it changes.
+pub fn unsorted_fractile(values: &mut [f64], part: f64) -> Option<f64> {
+    let place = place(values.len(), part);
+    (place < values.len()).then(|| *values.select_nth_unstable_by(place, f64::total_cmp).1)
+}
+
+/// Returns the place of a fractile among so many sorted values.
+fn place(count: usize, part: f64) -> usize {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to the count")]
+    let number = (part * count as f64 - 1e-9).ceil().max(1.0) as usize;
+    number - 1
 }
 
 /// Returns the middle value, or the mean of the two in the middle; NaN of an empty sample.

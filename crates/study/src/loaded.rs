@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use check::CheckFile;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::scene::{SceneError, read_text};
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
@@ -121,10 +122,13 @@ impl LoadedStudy {
         let record = |record: &NamedRecord| {
             (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
         };
+        let name = self.inputs.first().map_or_else(String::new, |path| path.display().to_string());
+        let file = CheckFile::parse(&name, &self.text).and_then(|file| file.self_contained());
         // the samples follow from the text
         let walls = if self.sampled.is_empty() { self.study.walls() } else { &self.sampled };
         Sent {
-            text: self.text.clone(),
+            // a grid that has vanished since is named where the text is read
+            text: file.unwrap_or_else(|_| self.text.clone()),
             walls: walls.iter().map(wall).collect(),
             records: self.study.given_records().iter().map(record).collect(),
         }

@@ -8,6 +8,11 @@ use crate::fragility::{FitError, Interval, Lognormal, Summary};
 use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, TieDemand};
 use crate::results::{StateResults, WallResults};
 
+/// Digits of an intensity for people: three that count, since its unit may be g, cm/s or m.
+pub(crate) const OF_INTENSITY: Digits = Digits::Significant(3);
+/// Digits of a ratio of intensities, which is about 1.
+pub(crate) const OF_RATIO: Digits = Digits::Decimals(3);
+
 /// Names of the parts of a study, and its limit states.
 #[derive(Clone, Debug)]
 pub struct Names<'a> {

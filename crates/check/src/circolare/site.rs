@@ -3,21 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use report::number;
-use rocking_wall::scene::{SceneError, read_text};
+use rocking_wall::scene::SceneError;
 
 use crate::error::CheckError;
+use crate::file::lines_of_grid;
 use crate::report::return_period;
 
 use super::LimitState;
 use super::grid::{Grid, SiteHazard, UNITS};
 use super::table::{CheckTable, SiteTable};
 
-/// Largest grid that is read.
-const MAX_FILE_BYTES: u64 = 64 << 20;
-
-/// The file that was read, and what is to be said of the numbers from it.
+/// The file that was read, `None` where its lines are in the table, and what is to be said of the numbers.
 pub(super) struct FromGrid {
-    pub(super) file: PathBuf,
+    pub(super) file: Option<PathBuf>,
     pub(super) notes: Vec<String>,
 }
 
@@ -25,8 +23,8 @@ pub(super) struct FromGrid {
 /// beside the one of the table.
 pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromGrid>, CheckError> {
     let Some(site) = table.site.clone() else { return Ok(None) };
-    let file = folder.join(&site.grid);
-    let hazard = read(&site, &file)?;
+    let file = (!site.grid.contains('\n')).then(|| folder.join(&site.grid));
+    let hazard = read(&site, folder, file.as_deref())?;
     let [first, last] = hazard.periods();
     let mut notes = Vec::new();
     for (state, given) in LimitState::ALL.into_iter().zip([&mut table.sld, &mut table.slv, &mut table.slc]) {
@@ -59,8 +57,9 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         return Err(CheckError::value(&["site"], message));
     }
     let [latitude, longitude] = site.coordinates;
-    let file_name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
-    let place = format!("Site at latitude {latitude}°, longitude {longitude}° on the grid of {file_name}");
+    let named = |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+    let source = file.as_ref().map_or_else(|| "[check.site]".to_owned(), named);
+    let place = format!("Site at latitude {latitude}°, longitude {longitude}° on the grid of {source}");
     let how = if hazard.is_node() {
         "the numbers of the node that it is"
     } else {
@@ -73,7 +72,7 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     Ok(Some(FromGrid { file, notes }))
 }
 
-fn read(site: &SiteTable, file: &Path) -> Result<SiteHazard, CheckError> {
+fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHazard, CheckError> {
     let refused = |key, message: String| Err(CheckError::value(&["site", key], format!("site: {message}")));
     let SiteTable { ag_unit, coordinates, nominal_life, use_coefficient, .. } = site;
     let [latitude, longitude] = *coordinates;
@@ -95,9 +94,9 @@ fn read(site: &SiteTable, file: &Path) -> Result<SiteHazard, CheckError> {
         let given = ag_unit.as_deref().unwrap_or_default();
         return refused("ag_unit", format!("ag_unit = {given:?} is none of {names}"));
     };
-    let text = read_text(file, "a grid of the hazard (CSV)", MAX_FILE_BYTES)?;
+    let text = lines_of_grid(&site.grid, folder)?;
     let grid = Grid::read(&text, unit).map_err(|(line, message)| SceneError::Line {
-        file: file.display().to_string(),
+        file: file.map_or_else(|| "grid of [check.site]".to_owned(), |file| file.display().to_string()),
         line,
         key: None,
         message,

@@ -71,7 +71,7 @@ impl Statement {
         }
         statement.records = file.records(statement.table.records.as_ref())?;
         if let Some(FromGrid { file, notes }) = from_grid {
-            statement.records.files.push(file);
+            statement.records.files.extend(file);
             statement.site_notes = notes;
         }
         let count = statement.records.named.len();

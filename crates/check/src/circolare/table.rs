@@ -145,7 +145,8 @@ tables! {
     /// A site on a grid of the hazard that the user brings.
     #[derive(Clone, Debug)]
     pub struct SiteTable {
-        /// File of the grid (CSV): lon, lat and, for return periods T in years, `ag_T`, `F0_T`, `TC_T`.
+        /// File of the grid (CSV), or its lines: lon, lat and, for return periods T in years, `ag_T`, `F0_T`,
+        /// `TC_T`.
         pub grid: String,
         /// Unit of its `a_g`.
         #[key(enum = UNITS.map(|(name, _)| name).to_vec(), default = "g")]

@@ -1,7 +1,7 @@
 //! The site on a grid of the hazard: the numbers of the limit states, and what is refused.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use check::{CheckFile, Subject, read};
 use rocking_wall::scene::Scene;
@@ -24,11 +24,15 @@ fn folder(name: &str) -> PathBuf {
 
 /// Checks a parapet with more lines in `[check]`; returns ζ_E and the notes, or the refusal.
 fn checked(name: &str, more: &str) -> Result<(f64, Vec<String>), String> {
+    checked_in(&folder(name), more)
+}
+
+fn checked_in(folder: &Path, more: &str) -> Result<(f64, Vec<String>), String> {
     let text = format!(
         "{PARAPET}[force_law]\na1 = 0.03\n[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
          soil = \"B\"\n{more}\n"
     );
-    let path = folder(name).join("scene.toml").display().to_string();
+    let path = folder.join("scene.toml").display().to_string();
     let scene = Scene::parse(&path, &text, std::path::Path::new(".")).unwrap();
     let file = CheckFile::parse(&path, &text).unwrap();
     let assumed = file.assumed(&[]);
@@ -68,6 +72,27 @@ fn limit_states_take_their_numbers_from_the_grid() {
         "{told}"
     );
     assert!(!told.contains("SLV: T_R"), "{told}");
+}
+
+/// A text that holds the lines of the grid needs no file, and says the same of the wall.
+#[test]
+fn the_lines_of_a_grid_stand_for_its_file() {
+    let more = format!("{SITE}\nSLV = {{}}");
+    let (from_file, notes) = checked("site_file", &more).unwrap();
+    let path = folder("site_file").join("a.toml").display().to_string();
+    let text = format!("[check]\n{more}\n# with a comment\n");
+    let told = CheckFile::parse(&path, &text).unwrap().self_contained().unwrap();
+    assert!(!told.contains("grid.csv") && told.ends_with("# with a comment\n"), "{told}");
+    let (_, table) = told.split_once('\n').unwrap();
+    let (from_lines, said) = checked_in(Path::new("nowhere"), table).unwrap();
+    assert_eq!(from_lines, from_file);
+    let of_file = |note: &String| note.replace("grid of grid.csv", "grid of [check.site]");
+    assert_eq!(said, notes.iter().map(of_file).collect::<Vec<_>>());
+    // what holds its lines already stays as it is
+    let again = CheckFile::parse("nowhere/a.toml", &told).unwrap().self_contained().unwrap();
+    assert_eq!(again, told);
+    let told = checked_in(Path::new("nowhere"), &table.replace("2.4,0.28,5", "2.4,0.28,x")).unwrap_err();
+    assert!(told.contains("grid of [check.site], line 2:"), "{told}");
 }
 
 /// A report has coordinates, V_N and C_U of the site, and none that differ from them.

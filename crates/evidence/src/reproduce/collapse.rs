@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::plot::{Plot, Series};
-use report::table::Table;
+use report::table::{Digits, Table};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
@@ -144,7 +144,7 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot 
 }
 
 fn interval(value: &Interval, unit: f64) -> String {
-    let [estimate, low, high] = value.texts(unit, 3);
+    let [estimate, low, high] = value.texts(unit, Digits::Decimals(3));
     format!("{estimate} [{low}, {high}]")
 }
 

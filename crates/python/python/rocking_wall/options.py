@@ -175,7 +175,8 @@ class Site(TypedDict, total=False):
 
     - ag_unit: Unit of its a_g; default "g".
     - coordinates: Latitude and longitude [°].
-    - grid: File of the grid (CSV): lon, lat and, for return periods T in years, ag_T, F0_T, TC_T.
+    - grid: File of the grid (CSV), or its lines: lon, lat and, for return periods T in years, ag_T, F0_T,
+      TC_T.
     - nominal_life: Nominal life V_N [years], NTC 2.4.1, above 0.
     - use_coefficient: Use coefficient C_U (-), NTC 2.4.3, above 0.
     """

@@ -214,8 +214,10 @@ impl Table {
         let class_of = |column: &Column| if column.is_text { "" } else { " class=\"number\"" };
         let mut text = String::from("<div class=\"scroll\"><table>\n<thead><tr>");
         for (_, column) in self.shown() {
-            let _ =
-                write!(text, "<th{}>{}</th>", class_of(column), escaped(&column.heading.replace('\n', " ")));
+            // where a table is too wide, a heading of numbers breaks between its lines only
+            let space = if column.is_text { " " } else { "\u{a0}" };
+            let heading = column.heading.replace(' ', space).replace('\n', " ");
+            let _ = write!(text, "<th{}>{}</th>", class_of(column), escaped(&heading));
         }
         text += "</tr></thead>\n<tbody>\n";
         for (index, row) in self.rows.iter().enumerate() {
@@ -284,6 +286,17 @@ mod tests {
         assert!(
             table.markdown().starts_with("| record | PGA [g] | runs | change [%] |\n|---|---:|---:|---:|\n")
         );
+    }
+
+    /// On a narrow page a heading of numbers breaks where it has lines, and not within a unit.
+    #[test]
+    fn headings_of_numbers_break_between_their_lines() {
+        let table = Table::new([
+            Column::number("", "rate of\nfalls [1/year]", Digits::AtMost(3)),
+            Column::text("", "the wall"),
+        ]);
+        let head = "<th class=\"number\">rate\u{a0}of falls\u{a0}[1/year]</th><th>the wall</th>";
+        assert!(table.html().contains(head), "{}", table.html());
     }
 
     #[test]

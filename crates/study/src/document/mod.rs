@@ -164,7 +164,8 @@ impl StudyFile {
             && word.get_ref() == Collapse::Falls.name()
         {
             let message = "collapse_is = \"falls\" has no part in a cloud: its regression takes a demand of \
-                           u_ins and more as a collapse";
+                           u_ins and more as a collapse; leave it out, or give levels of another method, \
+                           such as \"hunt\"";
             return Err(place.error(word.span(), message));
         }
         Ok(Self {

@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use crate::fragility::{CONFIDENCE, FragilityFunction, Lognormal};
+use crate::tables::OF_INTENSITY;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Column, Digits, Table};
 use report::{counted, escaped};
@@ -27,7 +28,7 @@ pub(crate) struct Classes<'a> {
 
 impl<'a> Classes<'a> {
     pub(crate) fn new(manifest: &'a Manifest, states: &'a [(usize, String)]) -> Self {
-        let three = Digits::Significant(3);
+        let three = OF_INTENSITY;
         let table = Table::new([
             Column::text("", "class"),
             Column::text("", "model"),
@@ -55,8 +56,8 @@ impl<'a> Classes<'a> {
         let unit = contents.unit;
         let interval = |ends: [String; 2]| -> Cell<'static> { ends.join(" … ").into() };
         for (k, (place, _)) in self.states.iter().enumerate() {
-            let [_, low, high] = known[k].theta.texts(unit.size(), 3);
-            let [_, beta_low, beta_high] = known[k].beta.texts(1.0, 3);
+            let [_, low, high] = known[k].theta.texts(unit.size(), OF_INTENSITY);
+            let [_, beta_low, beta_high] = known[k].beta.texts(1.0, OF_INTENSITY);
             let curve = function.map(|function| function.states[k]);
             self.table.row([
                 name.to_owned().into(),

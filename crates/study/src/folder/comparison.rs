@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::fragility::Interval;
 use crate::results::WallResults;
+use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::palette::sign;
 
@@ -70,7 +71,7 @@ fn lane(manifest: &Manifest, model: usize, median: &Interval, end: f64) -> Strin
     let (color, mark) = looks(manifest)[model];
     let unit = manifest.contents.unit;
     let place = |intensity: f64| 100.0 * (unit.of(intensity) / end).clamp(0.0, 1.0);
-    let [text, low, high] = median.texts(unit.size(), 3).map(|text| escaped(&text));
+    let [text, low, high] = median.texts(unit.size(), OF_INTENSITY).map(|text| escaped(&text));
     let (from, to) = (place(median.least[1]), place(median.range[1]));
     let mut html = format!(
         "<div style=\"top:{}px\" title=\"{}: {text} ({low} … {high})\">\

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::fragility::{Dispersion, Interval};
 use crate::ida::{Collapse, Crossing, Exceedance, Polarity};
 use crate::results::{StateResults, WallResults};
+use crate::tables::{OF_INTENSITY, OF_RATIO};
 use report::counted;
 use report::escaped;
 use report::many_lines::STYLE;
@@ -221,7 +222,7 @@ fn collapses(shown: Shown<'_>) -> String {
     if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud {
         return String::new();
     }
-    let columns = models.iter().map(|model| Column::number("", model.name.clone(), Digits::Decimals(3)));
+    let columns = models.iter().map(|model| Column::number("", model.name.clone(), OF_INTENSITY));
     let mut table = Table::new([Column::text("", "record")].into_iter().chain(columns));
     for (index, record) in records.iter().enumerate() {
         let collapse = |model| match shown.results.curves(model)[index].collapse() {
@@ -262,7 +263,8 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let xi = contents.walls[wall].xi[model];
         let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
-        let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
+        let ratio =
+            |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0, OF_RATIO) };
         let crosses =
             (0..report.fractions.len()).any(|state| results.summary(state, model).crossing.is_some());
         let sign_of_doubt = match report.beta {
@@ -271,7 +273,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             _ => "",
         };
         let thetas = by_crossing.iter().map(|curve| {
-            curve.as_ref().map_or("–".to_owned(), |curve| format!("{:.3}", unit.of(curve.median)))
+            curve.as_ref().map_or("–".to_owned(), |curve| OF_INTENSITY.of(unit.of(curve.median)))
         });
         let more = if contents.is_cloud {
             String::new()
@@ -289,11 +291,11 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
             escaped(&contents.models[model].name),
             sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
-            words(&summary.median, unit.size()),
-            words(&summary.theta, unit.size()),
+            words(&summary.median, unit.size(), OF_INTENSITY),
+            words(&summary.theta, unit.size(), OF_INTENSITY),
             match summary.fitted {
                 Ok(_) => {
-                    let [estimate, low, high] = summary.beta.texts(1.0, 2);
+                    let [estimate, low, high] = summary.beta.texts(1.0, Digits::Decimals(2));
                     format!("{estimate}{sign_of_doubt}<br><small>{low} … {high}</small>")
                 }
                 Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
@@ -308,7 +310,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
 }
 
 /// An estimate over its interval.
-fn words(interval: &Interval, size: f64) -> String {
-    let [estimate, low, high] = interval.texts(size, 3).map(|text| escaped(&text));
+fn words(interval: &Interval, size: f64, digits: Digits) -> String {
+    let [estimate, low, high] = interval.texts(size, digits).map(|text| escaped(&text));
     format!("{estimate}<br><small>{low} … {high}</small>")
 }

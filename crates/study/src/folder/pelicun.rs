@@ -30,6 +30,16 @@ fn demand(measure: &str) -> Option<(String, &'static str)> {
     }
 }
 
+/// Says why there are no files by a measure, and the remedy.
+pub(crate) fn refusal(measure: &str) -> String {
+    let other = if measure == "PGD" { ": its own PGD is a permanent deformation of the ground" } else { "" };
+    format!(
+        "no {}: pelicun knows PGA, PGV and Sa(T), and not {measure}{other}; for it run the study with \
+         intensity = {{ measure = \"PGA\" }}\n",
+        FILES[0]
+    )
+}
+
 /// The files under construction.
 pub(crate) struct Pelicun<'a> {
     manifest: &'a Manifest,
@@ -112,5 +122,25 @@ impl<'a> Pelicun<'a> {
         let text = if self.names.has_models { format!("{name}.{model}") } else { name.to_owned() };
         let kept = |c: char| if c.is_alphanumeric() || c == '.' { c } else { '_' };
         self.names.unique(text.chars().map(kept).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{demand, refusal};
+
+    /// The peak displacement of the ground is not what pelicun calls PGD, although the names are alike.
+    #[test]
+    fn measures_that_pelicun_lacks_are_named_with_the_remedy() {
+        for (measure, is_known) in
+            [("PGA", true), ("PGV", true), ("Sa(0.5 s)", true), ("PGD", false), ("AvgSA", false)]
+        {
+            assert_eq!(demand(measure).is_some(), is_known, "{measure}");
+        }
+        let told = refusal("PGD");
+        for words in ["no pelicun.csv", "and not PGD: its own PGD is a permanent", "measure = \"PGA\""] {
+            assert!(told.contains(words), "{told}");
+        }
+        assert!(!refusal("AvgSA").contains("PGD"));
     }
 }

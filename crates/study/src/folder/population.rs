@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::results::WallResults;
+use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
@@ -98,9 +99,7 @@ impl Population {
         order.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
         let weakest = Table::over(order.into_iter().take(WEAKEST))
             .text("", "wall", |wall| manifest.contents.walls[*wall].name.clone())
-            .number("", format!("median ({name})"), Digits::Decimals(3), |wall| {
-                known(Some(unit.of(medians[*wall])))
-            })
+            .number("", format!("median ({name})"), OF_INTENSITY, |wall| known(Some(unit.of(medians[*wall]))))
             .done();
         let _ = writeln!(
             html,
@@ -126,7 +125,7 @@ impl Population {
             .text("", "model", |(_, model, _)| model.name.clone());
         for part in FRACTILES {
             let heading = format!("{:.0} %", 100.0 * part);
-            table = table.number("", heading, Digits::Decimals(3), |(.., all)| known(fractile(all, part)));
+            table = table.number("", heading, OF_INTENSITY, |(.., all)| known(fractile(all, part)));
         }
         table
             .number("", "above the levels", Digits::AtMost(6), |(.., all)| {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::fragility::{CONFIDENCE, Interval};
 use crate::hazard::{Hazard, Rate, probability};
 use crate::ida::IntensityUnit;
+use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Column, Digits, Table};
@@ -153,9 +154,9 @@ impl<'a> Rates<'a> {
         let Self { manifest, hazard, files, shown, plots, beyond: [all, much], .. } = self;
         let paths = files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
         let (points, unit) = (hazard.curve.points(), manifest.contents.unit);
-        let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| unit.of(x));
+        let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| OF_INTENSITY.of(unit.of(x)));
         let mut words = format!(
-            "annual rates from {} of {from:.3} to {to:.3} {}, {:.0} % intervals of the records; \"at most\" \
+            "annual rates from {} of {from} to {to} {}, {:.0} % intervals of the records; \"at most\" \
              adds what may lie outside",
             manifest.contents.measure,
             unit.name(),
@@ -167,7 +168,7 @@ impl<'a> Rates<'a> {
         let (mut told, mut html) = (words.clone() + "\n", String::new());
         let beyond = format!(
             "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, at \
-             {to:.3} {}; give points of higher intensities",
+             {to} {}; give points of higher intensities",
             100.0 * MOST_BEYOND,
             unit.name()
         );

@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::{Fitting, StateResults, WallResults};
-use crate::tables::{CLOUD, KINDS, Kind, Names, TIES};
+use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
-use report::table::{Cell, Digits, Table};
+use report::table::{Cell, Table};
 use run::file::{self, Draft};
 use run::parallel;
 
@@ -299,18 +299,18 @@ impl<'a> Output<'a> {
     /// Adds the collapse of a wall to the summary.
     fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
         let Some(collapse) = collapse(manifest) else { return };
-        let (three, unit) = (Digits::Decimals(3), manifest.contents.unit);
+        let (three, unit) = (OF_INTENSITY, manifest.contents.unit);
         let estimate = |of: &Interval| Cell::Between(of.bounds(unit.size())[0]);
-        let ends = |of: &Interval, size| {
-            let [_, low, high] = of.texts(size, 3);
+        let ends = |of: &Interval, size, digits| {
+            let [_, low, high] = of.texts(size, digits);
             format!("{low} … {high}")
         };
-        let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, 3)[0], ends(of, 1.0));
+        let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, OF_RATIO)[0], ends(of, 1.0, OF_RATIO));
         let table = Table::over(manifest.contents.models.iter().zip(results.summaries(collapse)))
             .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
             .text("", "model", |(model, _)| model.name.clone())
             .number("", "median", three, |(_, one)| estimate(&one.median))
-            .number("", "interval", three, |(_, one)| ends(&one.median, unit.size()))
+            .number("", "interval", three, |(_, one)| ends(&one.median, unit.size(), OF_INTENSITY))
             .number("", "theta", three, |(_, one)| estimate(&one.theta))
             .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
             .number("", "censored", three, |(_, one)| one.censored)

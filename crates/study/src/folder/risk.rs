@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::document::{ReportOptions, WallClass};
 use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Interval, Summary, covariance};
 use crate::results::WallResults;
+use crate::tables::OF_INTENSITY;
 
 use run::file::{self, Draft};
 
@@ -15,7 +16,7 @@ use super::contents::Manifest;
 use super::error::FolderError;
 use super::losses::Losses;
 use super::nrml;
-use super::pelicun::Pelicun;
+use super::pelicun::{self, Pelicun};
 use super::rates::{Fitted, Rates};
 use super::rows::Rows;
 use report::counted;
@@ -251,7 +252,7 @@ impl<'a> Risk<'a> {
         let Some(function) = function else {
             let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
             let theta = |((_, state), known): (&(usize, String), &Known)| {
-                (state.clone(), known.theta.texts(unit.size(), 3)[0].clone())
+                (state.clone(), known.theta.texts(unit.size(), OF_INTENSITY)[0].clone())
             };
             let thetas: Vec<_> = self.states.iter().zip(known).map(theta).collect();
             return Ok(draft.write(|file| writer.note(file, &id, &thetas))?);
@@ -261,14 +262,15 @@ impl<'a> Risk<'a> {
         Ok(())
     }
 
-    /// Describes what the NRML file lacks, and the remedy.
+    /// Describes what the files for risk engines lack, and the remedy.
     fn words(&self) -> String {
         let [_, file] = FILES;
         let measure = &self.manifest.contents.measure;
+        let pelicun = if self.pelicun.is_some() { String::new() } else { pelicun::refusal(measure) };
         if self.xml.is_none() {
             return format!(
                 "no {file}: OpenQuake knows PGA, PGV, PGD, Sa(T), AvgSA, IA and CAV, and not {measure}; \
-                 for it run the study with intensity = {{ measure = \"AvgSA\" }}\n"
+                 for it run the study with intensity = {{ measure = \"AvgSA\" }}\n{pelicun}"
             );
         }
         let lack = |(count, reason): (usize, &str)| match count {
@@ -284,7 +286,7 @@ impl<'a> Risk<'a> {
         };
         let without_numbers =
             "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
-        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat()
+        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat() + &pelicun
     }
 
     /// Says that a class has no curve, as some of its walls have none.
@@ -307,8 +309,8 @@ impl<'a> Risk<'a> {
         let state = |(k, (place, _)): (usize, &(usize, String))| {
             let curve = function.states[k];
             format!(
-                "{:.3} {} to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
-                unit.of(curve.median),
+                "{} {} to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
+                OF_INTENSITY.of(unit.of(curve.median)),
                 unit.name(),
                 report.fractions[*place],
                 function.dispersion(k),

@@ -2,9 +2,9 @@
 
 use super::dispersion::Estimator;
 use super::fit::Lognormal;
-use super::observation::{Sample, median};
-use report::table::between;
-use run::sample::{Pcg, fractile, sample_median};
+use super::observation::Sample;
+use report::table::{Digits, between};
+use run::sample::{Pcg, unsorted_fractile};
 
 use crate::ida::Exceedance;
 
@@ -68,16 +68,17 @@ impl Bootstrap {
         self.group
     }
 
-    /// Computes something of each resample, from the indices of the records drawn.
-    fn each<T>(&self, mut result: impl FnMut(&[usize]) -> T) -> Vec<T> {
+    /// Computes something of each resample, from how often each record was drawn.
+    pub(super) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
         let mut random = Pcg::new(self.seed);
-        let mut drawn = vec![0; self.records];
+        let mut counts = vec![0; self.records];
         let resample = |_| {
-            for group in drawn.chunks_mut(self.group) {
+            counts.fill(0);
+            for _ in 0..self.records / self.group {
                 let first = random.below(self.records / self.group) * self.group;
-                group.iter_mut().zip(first..).for_each(|(place, record)| *place = record);
+                counts[first..first + self.group].iter_mut().for_each(|count| *count += 1);
             }
-            result(&drawn)
+            result(&counts)
         };
         (0..self.samples).map(resample).collect()
     }
@@ -87,25 +88,8 @@ impl Bootstrap {
     /// # Panics
     /// If there are fewer exceedances than records.
     pub fn medians(&self, exceedances: &[Exceedance]) -> Vec<f64> {
-        let mut resampled = vec![0.0; self.records];
-        self.each(|drawn| {
-            for (value, &index) in resampled.iter_mut().zip(drawn) {
-                *value = exceedances[index].or_infinity();
-            }
-            sample_median(&mut resampled)
-        })
-    }
-
-    /// Computes something of each resample, from how often each record was drawn.
-    pub(super) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
-        let mut counts = vec![0; self.records];
-        self.each(|drawn| {
-            counts.fill(0);
-            for &record in drawn {
-                counts[record] += 1;
-            }
-            result(&counts)
-        })
+        let sorted = Sorted::new(exceedances);
+        self.counted(|counts| sorted.median(counts))
     }
 
     /// Fits the curves of each resample: of each limit state θ with the bounds of those that have no fit, and
@@ -115,8 +99,9 @@ impl Bootstrap {
     /// As [`medians`](Self::medians).
     pub fn fitted(&self, states: &[Sample], estimator: &Estimator) -> Vec<[Resampled; 2]> {
         let prepared: Vec<_> = states.iter().map(Sample::prepared).collect();
-        let fit = |counts: &[u32], near: &[_]| {
-            let terms: Vec<_> = prepared.iter().map(|state| state.terms(counts)).collect();
+        let mut terms = vec![Vec::new(); states.len()];
+        let mut fit = |counts: &[u32], near: &[_]| {
+            prepared.iter().zip(&mut terms).for_each(|(state, terms)| state.terms(counts, terms));
             estimator.fit(&terms, near)
         };
         let ends = |counts: &[u32], curves: Vec<Result<Lognormal, _>>| -> Vec<[f64; 3]> {
@@ -144,20 +129,29 @@ impl Bootstrap {
 }
 
 impl Resampled {
-    /// Takes the sample median of exceedances, and those of its resamples.
-    pub(super) fn medians(exceedances: &[Exceedance], bootstrap: &Bootstrap) -> Self {
+    /// Takes the sample median of the exceedances of each limit state, and those of its resamples.
+    pub(super) fn medians(states: &[Sample], bootstrap: &Bootstrap) -> Vec<Self> {
         // a censored record exceeds at least above its levels, one that exceeds at its lowest level anywhere
         // below it
         let least = |exceedance: &Exceedance| match exceedance.bounds() {
             [least, most] if least == 0.0 || most == f64::INFINITY => Exceedance::At(least),
             _ => *exceedance,
         };
-        let least: Vec<_> = exceedances.iter().map(least).collect();
-        Self {
-            estimate: [median(&least), median(exceedances)],
-            least: bootstrap.medians(&least),
-            most: bootstrap.medians(exceedances),
-        }
+        let ends = |state: &Sample| {
+            let least: Vec<_> = state.exceedances().iter().map(least).collect();
+            [&least, state.exceedances()].map(Sorted::new)
+        };
+        let ends: Vec<_> = states.iter().map(ends).collect();
+        let of = |counts: &[u32]| -> Vec<[f64; 2]> {
+            ends.iter().map(|ends| ends.each_ref().map(|sorted| sorted.median(counts))).collect()
+        };
+        let (all, samples) = (of(&vec![1; bootstrap.records]), bootstrap.counted(of));
+        let of_state = |(state, estimate): (usize, [f64; 2])| {
+            let side =
+                |side: usize| samples.iter().map(|sample: &Vec<[f64; 2]>| sample[state][side]).collect();
+            Self { estimate, least: side(0), most: side(1) }
+        };
+        all.into_iter().enumerate().map(of_state).collect()
     }
 
     /// Divides by another estimate, resample by resample.
@@ -174,9 +168,43 @@ impl Resampled {
     /// Encloses the central `part` of the resamples.
     pub(super) fn interval(&self, part: f64) -> Interval {
         let [least, most] = self.estimate;
-        let Interval { range: [low, high], .. } = Interval::new(least, self.least.iter().copied(), part);
         let interval = Interval::new(most, self.most.iter().copied(), part);
+        let [low, high] = if self.least == self.most {
+            interval.range
+        } else {
+            Interval::new(least, self.least.iter().copied(), part).range
+        };
         Interval { least: [least, low, high], ..interval }
+    }
+}
+
+/// The exceedances of records in rising order, with the places of the records.
+struct Sorted(Vec<(f64, usize)>);
+
+impl Sorted {
+    fn new(exceedances: &[Exceedance]) -> Self {
+        let mut sorted: Vec<_> = exceedances.iter().map(|one| one.or_infinity()).zip(0..).collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(sorted)
+    }
+
+    /// Returns the median, by how often each record was drawn: the middle value, or the mean of the two in
+    /// the middle.
+    fn median(&self, counts: &[u32]) -> f64 {
+        let all: u32 = counts.iter().sum();
+        let Some(last) = all.checked_sub(1) else { return f64::NAN };
+        // the value with a number among those that were drawn
+        let (mut below, mut values) = (0, self.0.iter());
+        let mut numbered = |number: u32, last: f64| {
+            let mut value = last;
+            while below <= number {
+                let Some((next, record)) = values.next() else { return f64::NAN };
+                (value, below) = (*next, below + counts[*record]);
+            }
+            value
+        };
+        let lower = numbered(last / 2, f64::NAN);
+        if all % 2 == 1 { lower } else { 0.5 * (lower + numbered(all / 2, lower)) }
     }
 }
 
@@ -184,10 +212,17 @@ impl Interval {
     /// Encloses the central `part` of the resamples' values. Values that are not numbers are left out.
     pub fn new(estimate: f64, resampled: impl IntoIterator<Item = f64>, part: f64) -> Self {
         let mut values: Vec<f64> = resampled.into_iter().filter(|value| !value.is_nan()).collect();
-        values.sort_by(f64::total_cmp);
         let tail = 0.5 * (1.0 - part);
-        let [low, high] = [tail, 1.0 - tail].map(|part| fractile(&values, part).unwrap_or(f64::NAN));
+        let [low, high] =
+            [tail, 1.0 - tail].map(|part| unsorted_fractile(&mut values, part).unwrap_or(f64::NAN));
         Self { estimate, range: [low, high], least: [estimate, low, high] }
+    }
+
+    /// Applies a function that does not fall.
+    #[must_use]
+    pub fn mapped(self, function: impl Fn(f64) -> f64) -> Self {
+        let Self { estimate, range, least } = self;
+        Self { estimate: function(estimate), range: range.map(&function), least: least.map(&function) }
     }
 
     /// Returns the least and the most of the estimate and of the ends of its interval, in a unit.
@@ -197,7 +232,7 @@ impl Interval {
     }
 
     /// Formats the estimate and the ends of its interval in a unit, see [`between`].
-    pub fn texts(&self, unit: f64, decimals: usize) -> [String; 3] {
-        self.bounds(unit).map(|bounds| between(bounds, |value| format!("{value:.decimals$}")))
+    pub fn texts(&self, unit: f64, digits: Digits) -> [String; 3] {
+        self.bounds(unit).map(|bounds| between(bounds, |value| digits.of(value)))
     }
 }

@@ -131,15 +131,19 @@ struct Fragility {
 
 impl Fragility {
     fn of_states(states: &[Sample], estimator: &Estimator, bootstrap: &Bootstrap) -> Vec<Self> {
-        let terms = |state: &Sample| state.prepared().terms(&vec![1; state.exceedances().len()]);
+        let terms = |state: &Sample| {
+            let mut terms = Vec::new();
+            state.prepared().terms(&vec![1; state.exceedances().len()], &mut terms);
+            terms
+        };
         let terms: Vec<_> = states.iter().map(terms).collect();
         let mut own = estimator.clone();
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
         let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
         let crossings = estimator.crossings(&fitted);
-        let medians = states.iter().map(|state| Resampled::medians(state.exceedances(), bootstrap));
-        let resampled = medians.zip(bootstrap.fitted(states, estimator));
+        let medians = Resampled::medians(states, bootstrap);
+        let resampled = medians.into_iter().zip(bootstrap.fitted(states, estimator));
         let fits = fitted.into_iter().zip(alone).zip(crossings);
         let mut all = Vec::new();
         for (((median, [theta, beta]), ((fitted, alone), crossing)), state) in resampled.zip(fits).zip(states)

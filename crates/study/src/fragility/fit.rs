@@ -72,9 +72,13 @@ const MOST_HALVINGS: usize = 60;
 const STEEPEST: f64 = 1e5;
 /// 1/β below which there is no rise.
 const FLATTEST: f64 = 1e-3;
-/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about
-/// 1e-14 standard errors.
+/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about so
+/// many standard errors.
 const DECREMENT: f64 = 1e-14;
+/// The same of a resample, of which only fractiles are wanted.
+const DECREMENT_OF_RESAMPLE: f64 = 1e-10;
+/// Newton's decrement below which a whole step is sure to be better: rounding would hide by how much.
+const SURE: f64 = 1e-6;
 /// Smallest β to start from.
 const LEAST_SPREAD: f64 = 0.05;
 
@@ -127,76 +131,77 @@ pub(super) fn fit_from(
 ) -> Vec<Result<Lognormal, FitError>> {
     let mut states: Vec<Result<State<'_>, FitError>> =
         states.iter().map(|terms| State::new((*terms)?)).collect();
-    let usable: Vec<&mut State<'_>> = states.iter_mut().flatten().collect();
-    let fitted = maximum(usable, near);
-    let mut medians = fitted.iter().flat_map(|(logarithms, _)| logarithms);
+    let a = maximum(&mut states, near);
     let curve = |state: &Result<State<'_>, FitError>| {
-        state.as_ref().map_err(|error| *error)?;
-        let dispersion = fitted.as_ref().map_err(|error| *error)?.1;
-        let median = medians.next().map_or(f64::NAN, |logarithm| libm::exp(*logarithm));
-        Ok(Lognormal { median, dispersion })
+        let State { centre, c, .. } = state.as_ref().map_err(|error| *error)?;
+        let a = a?;
+        Ok(Lognormal { median: libm::exp(centre - c / a), dispersion: 1.0 / a })
     };
     states.iter().map(curve).collect()
 }
 
-/// Returns ln θ of each limit state, and the common β.
+/// Returns a = 1/β of the maximum, and leaves c in each limit state.
 fn maximum(
-    mut states: Vec<&mut State<'_>>,
+    states: &mut [Result<State<'_>, FitError>],
     near: &[Result<Lognormal, FitError>],
-) -> Result<(Vec<f64>, f64), FitError> {
-    let sum = |part: fn(&State<'_>) -> f64| states.iter().map(|state| part(state)).sum::<f64>();
+) -> Result<f64, FitError> {
+    let usable = || states.iter().flatten();
+    let sum = |part: fn(&State<'_>) -> f64| usable().map(part).sum::<f64>();
     let spread = (sum(|state| state.squares) / sum(|state| state.weight)).sqrt();
-    if !states.iter().any(|state| state.scatters) {
+    if !usable().any(|state| state.scatters) {
         return Err(FitError::NoScatter);
     }
-    if states.iter().all(|state| state.terms.iter().all(Term::is_exact)) {
-        return Ok((states.iter().map(|state| state.centre).collect(), spread));
+    let mut terms = usable().flat_map(|state| state.terms);
+    if terms.clone().all(Term::is_exact) {
+        return Ok(1.0 / spread);
     }
-    let mut spread = spread.max(LEAST_SPREAD);
-    let known: Vec<&Lognormal> = near.iter().flatten().collect();
-    if known.len() == states.len() {
-        for (state, near) in states.iter_mut().zip(known) {
-            (state.centre, spread) = (libm::log(near.median), near.dispersion);
+    let mut a = 1.0 / spread.max(LEAST_SPREAD);
+    // the middles of narrow intervals are a better start than other observations
+    let is_known = usable().count() == near.iter().flatten().count();
+    if is_known && !terms.all(Term::is_bounded) {
+        for (state, near) in states.iter_mut().flatten().zip(near.iter().flatten()) {
+            (state.centre, a) = (libm::log(near.median), 1.0 / near.dispersion);
         }
     }
-    // logarithms of intensities about their centres, so that a and c are nearly independent
-    let mut point = Point { a: 1.0 / spread, c: vec![0.0; states.len()] };
-    let mut now = likelihood(&states, &point);
+    let last = if near.is_empty() { DECREMENT } else { DECREMENT_OF_RESAMPLE };
+    let mut value = likelihood(states, a, [0.0, 0.0]);
     for _ in 0..MOST_STEPS {
-        let (step, decrement) =
-            newton_step(&now.1).filter(|_| point.a < STEEPEST).ok_or(FitError::NoScatter)?;
-        if decrement <= DECREMENT {
-            point = point.moved(&step, 1.0);
+        if a >= STEEPEST {
+            return Err(FitError::NoScatter);
+        }
+        let (step, decrement) = newton_step(states).ok_or(FitError::NoScatter)?;
+        if decrement <= last {
+            a += step;
+            states.iter_mut().flatten().for_each(|state| state.c += state.step);
             break;
         }
+        let climbed = if decrement <= SURE {
+            Some((1.0, likelihood(states, a, [step, 1.0])))
+        } else {
+            climb(states, [a, step], value)
+        };
         // where no step raises ln L by more than rounding, this point is the maximum
-        let Some((better, there)) = climb(&states, &point, &step, now.0) else { break };
-        (point, now) = (better, there);
+        let Some((part, better)) = climbed else { break };
+        (a, value) = (a + part * step, better);
+        states.iter_mut().flatten().for_each(|state| state.c += part * state.step);
     }
-    if point.a >= STEEPEST {
+    if a >= STEEPEST {
         return Err(FitError::NoScatter);
     }
-    if point.a <= FLATTEST {
+    if a <= FLATTEST {
         return Err(FitError::Falling);
     }
-    let medians = states.iter().zip(&point.c).map(|(state, c)| state.centre - c / point.a);
-    Ok((medians.collect(), 1.0 / point.a))
+    Ok(a)
 }
 
-/// Halves a step until it raises the likelihood.
-fn climb(
-    states: &[&mut State<'_>],
-    from: &Point,
-    step: &Point,
-    value: f64,
-) -> Option<(Point, (f64, Vec<Likelihood>))> {
+/// Halves a step until it raises the likelihood; returns its part, and ln L there.
+fn climb(states: &mut [Result<State<'_>, FitError>], [a, step]: [f64; 2], value: f64) -> Option<(f64, f64)> {
     let mut part = 1.0;
     for _ in 0..MOST_HALVINGS {
-        let trial = from.moved(step, part);
-        if trial.a > 0.0 {
-            let there = likelihood(states, &trial);
-            if there.0 > value {
-                return Some((trial, there));
+        if a + part * step > 0.0 {
+            let there = likelihood(states, a, [step, part]);
+            if there > value {
+                return Some((part, there));
             }
         }
         part *= 0.5;
@@ -214,12 +219,19 @@ struct State<'a> {
     terms: &'a [Term],
     /// About where ln θ lies: at first the mean of the logarithms.
     centre: f64,
-    /// Sum of the squares of the logarithms about their mean.
+    /// Sum of the squares of the logarithms about their mean, about as of exact intensities.
     squares: f64,
     /// Number of runs.
     weight: f64,
     /// Whether the observations bound β from below.
     scatters: bool,
+    /// Parameter of its curve. Logarithms of intensities are about their centre, so that a and c are nearly
+    /// independent.
+    c: f64,
+    /// Newton's step of c.
+    step: f64,
+    /// The likelihood where it was computed last.
+    likelihood: Likelihood,
 }
 
 impl<'a> State<'a> {
@@ -233,46 +245,43 @@ impl<'a> State<'a> {
         let scatters = last_start > least_end;
         let weight: f64 = terms.iter().map(|term| term.runs).sum();
         let centre = terms.iter().map(|term| term.runs * term.middle()).sum::<f64>() / weight;
-        let squares = terms.iter().map(|term| term.runs * (term.middle() - centre).powi(2)).sum();
-        Ok(Self { terms, centre, squares, weight, scatters })
+        // W. F. Sheppard: the variance of middles is larger than that of values by a twelfth of width²
+        let square =
+            |term: &Term| term.runs * ((term.middle() - centre).powi(2) - term.width().powi(2) / 12.0);
+        let squares = terms.iter().map(square).sum();
+        let (c, step, likelihood) = (0.0, 0.0, Likelihood::default());
+        Ok(Self { terms, centre, squares, weight, scatters, c, step, likelihood })
     }
 }
 
-/// Parameters of the curves: a = 1/β, and c of each limit state.
-struct Point {
-    a: f64,
-    c: Vec<f64>,
+/// Computes the likelihood of each limit state at a part of Newton's step; returns ln L of all.
+fn likelihood(states: &mut [Result<State<'_>, FitError>], a: f64, [step, part]: [f64; 2]) -> f64 {
+    let of = |state: &mut State<'_>| {
+        let at = [a + part * step, state.c + part * state.step];
+        state.likelihood = Likelihood::of(state.terms, state.centre, at);
+        state.likelihood.value
+    };
+    states.iter_mut().flatten().map(of).sum()
 }
 
-impl Point {
-    /// Returns this point, moved by a part of a step.
-    fn moved(&self, step: &Self, part: f64) -> Self {
-        let c = self.c.iter().zip(&step.c).map(|(c, step)| c + part * step).collect();
-        Self { a: self.a + part * step.a, c }
-    }
-}
-
-/// Returns ln L at a point, and the likelihood of each limit state.
-fn likelihood(states: &[&mut State<'_>], point: &Point) -> (f64, Vec<Likelihood>) {
-    let of = |(state, c): (&&mut State<'_>, &f64)| Likelihood::of(state.terms, state.centre, [point.a, *c]);
-    let all: Vec<_> = states.iter().zip(&point.c).map(of).collect();
-    (all.iter().map(|state| state.value).sum(), all)
-}
-
-/// Returns Newton's step and its decrement; none where the curvature is not positive definite.
+/// Leaves Newton's step of c in each limit state; returns that of a, and the decrement. `None` where the
+/// curvature is not positive definite.
 ///
 /// The limit states share nothing but a, so their c are eliminated first.
-fn newton_step(states: &[Likelihood]) -> Option<(Point, f64)> {
-    let (mut gradient, mut curvature) = (0.0, 0.0);
-    for Likelihood { gradient: [ga, gc], curvature: [aa, ac, cc], .. } in states {
+fn newton_step(states: &mut [Result<State<'_>, FitError>]) -> Option<(f64, f64)> {
+    let (mut gradient, mut curvature, mut is_definite) = (0.0, 0.0, true);
+    for State { likelihood: Likelihood { gradient: [ga, gc], curvature: [aa, ac, cc], .. }, .. } in
+        states.iter().flatten()
+    {
         gradient += ga - ac * gc / cc;
         curvature += aa - ac * ac / cc;
+        is_definite &= *cc > 0.0;
     }
-    let definite = curvature > 0.0 && states.iter().all(|state| state.curvature[2] > 0.0);
-    let a = gradient / curvature;
-    let c = states.iter().map(|state| (state.gradient[1] - state.curvature[1] * a) / state.curvature[2]);
-    let c: Vec<f64> = c.collect();
-    let along = |(state, c): (&Likelihood, &f64)| a * state.gradient[0] + c * state.gradient[1];
-    let decrement = states.iter().zip(&c).map(along).sum();
-    definite.then_some((Point { a, c }, decrement))
+    let (a, mut decrement) = (gradient / curvature, 0.0);
+    for state in states.iter_mut().flatten() {
+        let Likelihood { gradient: [ga, gc], curvature: [_, ac, cc], .. } = state.likelihood;
+        state.step = (gc - ac * a) / cc;
+        decrement += a * ga + state.step * gc;
+    }
+    (is_definite && curvature > 0.0).then_some((a, decrement))
 }

@@ -111,10 +111,10 @@ impl Sample {
 
     /// Prepares terms for many fits, with the logarithms of all intensities.
     pub(super) fn prepared(&self) -> Prepared {
-        let between = |one: &Exceedance| one.bounds().map(libm::log);
+        let term = |one: &Exceedance| Term::new(one.bounds().map(libm::log), 1.0);
         let stripe = |stripe: &Stripe| (libm::log(stripe.intensity), stripe.clone());
         Prepared {
-            records: self.exceedances.iter().map(between).collect(),
+            records: self.exceedances.iter().map(term).collect(),
             stripes: self.stripes.iter().map(stripe).collect(),
         }
     }
@@ -188,22 +188,23 @@ impl Stripe {
 
 /// A sample with the logarithms of its intensities.
 pub(super) struct Prepared {
-    records: Vec<[f64; 2]>,
+    records: Vec<Term>,
     stripes: Vec<(f64, Stripe)>,
 }
 
 impl Prepared {
-    /// Returns the terms of the likelihood, by how often each record was drawn.
-    pub(super) fn terms(&self, drawn: &[u32]) -> Vec<Term> {
-        let record = |(between, &count): (&[f64; 2], &u32)| Term { between: *between, runs: count.into() };
-        let stripe = |(y, stripe): &(f64, Stripe)| {
+    /// Puts the terms of the likelihood in place of others, by how often each record was drawn.
+    pub(super) fn terms(&self, drawn: &[u32], terms: &mut Vec<Term>) {
+        terms.clear();
+        for (y, stripe) in &self.stripes {
             let [runs, exceeded] = stripe.count(drawn);
-            let below = Term { between: [f64::NEG_INFINITY, *y], runs: exceeded.into() };
-            [below, Term { between: [*y, f64::INFINITY], runs: (runs - exceeded).into() }]
-        };
-        let records = self.records.iter().zip(drawn).filter(|_| self.stripes.is_empty()).map(record);
-        let all = records.chain(self.stripes.iter().flat_map(stripe));
-        all.filter(|term| term.runs > 0.0).collect()
+            let below = Term::new([f64::NEG_INFINITY, *y], exceeded.into());
+            let above = Term::new([*y, f64::INFINITY], (runs - exceeded).into());
+            terms.extend([below, above].into_iter().filter(|term| term.runs > 0.0));
+        }
+        let records = self.records.iter().zip(drawn).filter(|(_, runs)| **runs > 0);
+        let records = records.filter(|_| self.stripes.is_empty());
+        terms.extend(records.map(|(term, &runs)| term.of_runs(runs.into())));
     }
 }
 

@@ -150,15 +150,43 @@ mod tests {
             (IntensityMeasure::Arias, None, 1.0),
             (IntensityMeasure::Cav, None, 9.806_65),
             (IntensityMeasure::Housner, None, 0.01),
+            (IntensityMeasure::Pga, Some("mm/s2"), 0.001),
+            (IntensityMeasure::Pga, Some("m/s2"), 1.0),
+            (IntensityMeasure::Pga, Some("g"), 9.806_65),
+            (IntensityMeasure::Pgv, Some("mm/s"), 0.001),
+            (IntensityMeasure::Pgd, Some("m"), 1.0),
+            (IntensityMeasure::Pgd, Some("cm"), 0.01),
+            (IntensityMeasure::Arias, Some("cm/s"), 0.01),
+            (IntensityMeasure::Cav, Some("m/s"), 1.0),
+            (IntensityMeasure::Cav, Some("cm/s"), 0.01),
         ] {
             assert_eq!(measure.to_si(unit).unwrap()(1.0), size, "{measure:?} {unit:?}");
             // what is written is read again
             let own = measure.unit();
             assert_eq!(measure.to_si(Some(own.name())).unwrap()(1.0), own.size());
         }
+        let told = IntensityMeasure::Arias.to_si(Some("cm")).unwrap_err();
+        assert_eq!(told, "unit \"cm\" of Arias: expected cm/s, m/s, mm/s");
         let told = IntensityMeasure::Pgv.to_si(Some("g")).unwrap_err();
         assert_eq!(told, "unit \"g\" of PGV: expected cm/s, m/s, mm/s");
         assert_eq!(IntensityUnit::Gravity.shown(9.806_65), "9.80665 m/s² (1 g)");
         assert_eq!(IntensityUnit::MetrePerSecond.shown(2.0), "2 m/s");
+    }
+    #[test]
+    fn units_have_their_names() {
+        for (measure, name, ending, si, si_ending, shown) in [
+            (IntensityMeasure::Pga, "g", "_g", "m/s²", "_m_s2", "0.5 m/s² (0.0509858 g)"),
+            (IntensityMeasure::Pgv, "cm/s", "_cm_s", "m/s", "_m_s", "0.5 m/s (50 cm/s)"),
+            (IntensityMeasure::Pgd, "cm", "_cm", "m", "_m", "0.5 m (50 cm)"),
+            (IntensityMeasure::Housner, "cm", "_cm", "m", "_m", "0.5 m (50 cm)"),
+            (IntensityMeasure::Arias, "m/s", "_m_s", "m/s", "_m_s", "0.5 m/s"),
+            (IntensityMeasure::Cav, "g s", "_g_s", "m/s", "_m_s", "0.5 m/s (0.0509858 g s)"),
+        ] {
+            let unit = measure.unit();
+            assert_eq!((unit.name(), unit.ending()), (name, ending));
+            assert_eq!((unit.si(), unit.si_ending()), (si, si_ending));
+            assert_eq!(unit.shown(0.5), shown);
+            assert_eq!(unit.of(0.5) * unit.size(), 0.5);
+        }
     }
 }

@@ -72,7 +72,12 @@ impl Reliability {
             );
         }
         if matches!(loaded.study.levels(), Levels::Cloud { .. }) {
-            return refused("a study of reliability needs levels, and a cloud runs each record once".into());
+            return refused(
+                "a study of reliability needs levels, and a cloud runs each record once; give levels of \
+                 another method, such as levels = { method = \"hunt\", first = 0.05, increase = 0.05, top = \
+                 5 }, in g"
+                    .into(),
+            );
         }
         for wall in &walls {
             let code = codes.of(wall);

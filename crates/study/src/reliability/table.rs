@@ -63,7 +63,7 @@ pub(super) fn wall(
     }
     table
         .number("records", "records", THREE, |(one, check, event)| event.records(one.model, check.code))
-        .number("dynamic_zeta", "ζ of the records", THREE, |(one, check, event)| {
+        .number("dynamic_zeta", "ζ of the\nrecords", THREE, |(one, check, event)| {
             let dynamic = event.dynamic[one.model];
             (event.check == Some(check.check) && dynamic.is_finite()).then(|| dynamic / check.site)
         })

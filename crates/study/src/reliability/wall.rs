@@ -6,7 +6,7 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 use run::walls::NamedWall;
 
-use crate::fragility::{CONFIDENCE, Interval, Lognormal, Summary};
+use crate::fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
 use crate::ida::{Crossing, Curve, Exceedance};
 use crate::results::Fitting;
 
@@ -138,11 +138,10 @@ impl Event {
     fn probability(&self, model: usize, ground: f64) -> Option<Interval> {
         let summary = &self.fragilities[model];
         let curve = summary.fitted.ok()?;
-        let of = |[median, dispersion]: &[f64; 2]| {
-            let curve = Lognormal { median: *median, dispersion: *dispersion };
-            curve.probability(ground)
-        };
-        Some(Interval::new(curve.probability(ground), summary.resamples.iter().map(of), CONFIDENCE))
+        // Φ is taken of the ends alone, since it rises with z
+        let z = |median: f64, dispersion: f64| libm::log(ground / median) / dispersion;
+        let resampled = summary.resamples.iter().map(|[median, dispersion]| z(*median, *dispersion));
+        Some(Interval::new(z(curve.median, curve.dispersion), resampled, CONFIDENCE).mapped(cumulative))
     }
 
     /// θ over `a_g`, with its interval; `None` without a curve.

@@ -2,6 +2,8 @@
 
 use proptest::prelude::*;
 
+use report::table::Digits;
+use run::sample::{Pcg, sample_median};
 use study::fragility::{
     Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Observation, Sample, Summary, compare,
     cumulative, fit, fit_jointly, median, steps,
@@ -309,7 +311,7 @@ fn open_numbers_have_their_bounds() {
     };
     let models = [known, open, never];
     let summaries = compared(&models, 0);
-    let texts = |interval: &Interval| interval.texts(1.0, 2);
+    let texts = |interval: &Interval| interval.texts(1.0, Digits::Decimals(2));
     assert_eq!(texts(&summaries[0].median)[0], "3.00");
     assert_eq!(texts(&summaries[1].median), ["open >5.00", "2.00", "open >5.00"]);
     // 5 over the median 3 of the reference
@@ -350,6 +352,45 @@ fn one_stripe_gives_a_bound() {
         let estimator = Estimator::new(Dispersion::Own, &[1.0]);
         let summary = compare(&[vec![sample]], 0, &estimator, &bootstrap).remove(0).remove(0);
         assert!(summary.fitted.is_err() && summary.beta.estimate.is_nan());
-        assert_eq!(summary.theta.texts(1.0, 2)[0], text, "{fallen} of 10");
+        assert_eq!(summary.theta.texts(1.0, Digits::Decimals(2))[0], text, "{fallen} of 10");
     }
+}
+
+/// The median of a resample is that of the records that were drawn, whether their number is even or odd.
+#[test]
+fn medians_of_resamples_are_those_of_what_was_drawn() {
+    for count in [4, 5] {
+        let at = |record: usize| match record {
+            2 => Exceedance::Above(3.0),
+            1 => Exceedance::Between([1.0, 4.0]),
+            _ => Exceedance::At(1.0 + record as f64),
+        };
+        let exceedances: Vec<_> = (0..count).map(at).collect();
+        let mut random = Pcg::new(3);
+        for found in Bootstrap::new(count, 60, 3).medians(&exceedances) {
+            let draw = |_| exceedances[random.below(count)].or_infinity();
+            assert_eq!(found, sample_median(&mut (0..count).map(draw).collect::<Vec<_>>()));
+        }
+    }
+}
+
+/// Twice the same observations have the same maximum, since both fits go on until it is reached: to 1e-14
+/// standard errors, which a rounding of ln L of 1e-14 would make 1e-7.
+#[test]
+fn fits_reach_the_maximum() {
+    let mut random = Pcg::new(2);
+    let mut compared = 0;
+    for _ in 0..60 {
+        let mut stripe = |k: u32| Observation::Stripe {
+            intensity: 0.3 + 0.2 * f64::from(k),
+            runs: 30,
+            exceeded: (4 * k + u32::try_from(random.below(9)).unwrap()).min(30),
+        };
+        let once: Vec<Observation> = (0..8).map(&mut stripe).collect();
+        let (Ok(one), Ok(two)) = (fit(&once), fit(&[&once[..], &once].concat())) else { continue };
+        assert!((one.median / two.median - 1.0).abs() < 1e-13, "{one:?} {two:?}");
+        assert!((one.dispersion / two.dispersion - 1.0).abs() < 1e-13, "{one:?} {two:?}");
+        compared += 1;
+    }
+    assert!(compared > 50, "{compared}");
 }

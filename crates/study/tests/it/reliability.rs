@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use check::{CheckFile, Rule, Subject, WallCodes, read};
 use ground_motion::STANDARD_GRAVITY;
 use run::records::NamedRecord;
-use study::folder::{Folder, Report, compute};
+use study::folder::{Contents, Folder, Report, compute};
 use study::fragility::{Lognormal, cumulative};
 use study::loaded::LoadedStudy;
 use study::reliability::{FILES, Reliability, finish};
@@ -31,13 +31,20 @@ pub(crate) fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
     run_reported(name, loaded).0
 }
 
-/// Runs a study of reliability, and returns its folder and what is told of it.
-pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report) {
+/// Runs an analysis, and returns its folder.
+pub(crate) fn run_analysis(name: &str, loaded: &LoadedStudy) -> PathBuf {
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
     compute(&loaded.study, &folder, &missing, 2, |_, _| CONTINUE).unwrap();
     study::folder::finish(&folder, 2, || {}).unwrap();
+    path
+}
+
+/// Runs a study of reliability, and returns its folder and what is told of it.
+pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report) {
+    let path = run_analysis(name, loaded);
+    let folder = Folder::open(&path).unwrap();
     let report = finish(&folder, &Reliability::of(loaded).unwrap(), 2, || {}).unwrap();
     (path, report)
 }
@@ -239,6 +246,11 @@ fn what_cannot_be_answered_is_refused() {
             ]),
             &["wall \"low\"", "[check.tie]", "[tie] of the wall"],
         ),
+        (
+            "cloud",
+            own(["{ method = \"hunt\", first = 0.05, increase = 0.05, top = 5 }", "{ method = \"cloud\" }"]),
+            &["a cloud runs each record once", "such as levels = { method = \"hunt\", first = 0.05"],
+        ),
         ("all", own(["thickness", "width"]), &["no wall can be checked; wall \"low\"", "thickness"]),
         (
             "target",
@@ -314,4 +326,28 @@ fn signs_of_records_count_once() {
         }
     }
     assert!(compared > 4, "{compared}");
+}
+
+/// A study that is sent holds the lines of the grid that its check names: it has the same contents where
+/// there is no such file.
+#[test]
+fn a_grid_is_sent_with_the_study() {
+    let folder = folder("sent_grid");
+    fs::create_dir_all(&folder).unwrap();
+    let node = |place: &str| format!("{place},0.1,2.4,0.3,0.3,2.5,0.35\n");
+    let nodes = ["13.0,42.0", "13.05,42.0", "13.05,42.05", "13.0,42.05"].map(node).concat();
+    let names = "lon,lat,ag_30,F0_30,TC_30,ag_3000,F0_3000,TC_3000\n";
+    fs::write(folder.join("grid.csv"), names.to_owned() + &nodes).unwrap();
+    let site = "site = { grid = \"grid.csv\", coordinates = [42.02, 13.03], nominal_life = 50, \
+                use_coefficient = 1 }\nSLV = {}\n";
+    let own = "SLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\n";
+    let text = text(MEASURE).replace(own, site);
+    let path = folder.join("study.toml");
+    fs::write(&path, text).unwrap();
+    let loaded = LoadedStudy::read(&path).unwrap();
+    let sent = loaded.sent();
+    assert!(!sent.text.contains("grid.csv"));
+    let received = LoadedStudy::received(sent).unwrap();
+    assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
+    assert!(Reliability::of(&received).is_ok());
 }

@@ -1,5 +1,7 @@
 //! Samples of uncertain parameters: strata, correlations, messages, and what explains a number.
 
+use std::collections::BTreeMap;
+
 use ground_motion::{Pulse, Shape};
 use rocking_wall::wall::Parameters;
 use run::records::NamedRecord;
@@ -9,6 +11,8 @@ use study::folder::Contents;
 use study::fragility::cumulative;
 use study::loaded::LoadedStudy;
 use study::uncertain::{Uncertain, hypercube, pearson_of_spearman, rank_correlation, sensitivities};
+
+use crate::reliability::{load, number, rows, run_analysis as run};
 
 fn with(uncertain: &str) -> String {
     format!(
@@ -302,4 +306,62 @@ fn numbers_of_ties_are_columns_and_are_sampled() {
         }
     }
     assert!(whole > 5 && broken > 5, "{whole} ties yielded, {broken} broke");
+}
+
+/// Each row of `sensitivity.csv` follows from the samples and from θ of its wall, model and limit state, also
+/// where some samples have no curve; the bars of the page are those of the highest limit state.
+#[test]
+fn sensitivities_of_a_folder_follow_from_its_tables() {
+    let text = "models = [\"CR\", \"CDR\"]\n\
+                levels = { method = \"step\", step = 0.05, top = 1 }\n\
+                intensity = { measure = \"PGA\" }\nreport = { fractions = [1.0, 0.4], resamples = 100 }\n\
+                records = { synthetic = { count = 4, duration = 10, step = 0.01 } }\n\
+                walls = [{ name = \"a\", geometry = { height = 3, thickness = 0.3 } }, { name = \"b\", \
+                geometry = { height = 2, thickness = 0.3 } }]\n\
+                [uncertain]\nsamples = 8\n[uncertain.parameters]\n\
+                height = { uniform = [2, 4] }\nthickness = { uniform = [0.2, 0.5] }\n";
+    let path = run("sensitivity", &load("sensitivity_study", text).unwrap());
+    let samples = rows(&path.join("samples.csv"));
+    let curves = rows(&path.join("fragilities.csv"));
+    let (mut whole, mut lacking, mut bars) = (0, 0, Vec::new());
+    for row in rows(&path.join("sensitivity.csv")) {
+        let theta = |sample: &BTreeMap<String, String>| {
+            let is_own = |curve: &&BTreeMap<String, String>| {
+                curve["wall"] == sample["wall"]
+                    && ["model", "u_max_over_u_ins"].iter().all(|name| curve[*name] == row[*name])
+            };
+            curves.iter().find(is_own).unwrap()["theta_g"].parse::<f64>().ok()
+        };
+        let own = samples.iter().filter(|sample| sample["of"] == row["wall"]);
+        let pairs = own.filter_map(|sample| Some((number(sample, &row["parameter"]), theta(sample)?)));
+        let (values, thetas): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        assert_eq!(row["with_curve"], values.len().to_string(), "{row:?}");
+        assert_eq!((&*row["samples"], &*row["logarithm"]), ("8", "true"));
+        lacking += usize::from(values.len() < 8);
+        let expected = rank_correlation(&values, &thetas);
+        assert_eq!(row["rank_correlation"], expected.map_or(String::new(), |found| format!("{found:?}")));
+        whole += usize::from(expected.is_some());
+        if let (Ok(standardised), "1.0") =
+            (row["standardised_coefficient"].parse::<f64>(), &*row["u_max_over_u_ins"])
+        {
+            bars.push(standardised);
+        }
+    }
+    // 2 walls, 2 models, 2 limit states, 2 parameters
+    assert!(whole >= 12 && lacking >= 2 && bars.len() >= 4, "{whole} {lacking} {bars:?}");
+    let page = std::fs::read_to_string(path.join("study.html")).unwrap();
+    let end = bars.iter().map(|bar| bar.abs()).fold(1.0, f64::max);
+    for bar in &bars {
+        let width = 50.0 * bar.abs() / end;
+        let left = if *bar < 0.0 { 50.0 - width } else { 50.0 };
+        let drawn =
+            format!("<div title=\"{bar:.3}\"><i class=\"chip\" style=\"left:{left:.2}%;width:{width:.2}%;");
+        assert!(page.contains(&drawn), "{drawn}");
+    }
+    assert!(bars.iter().any(|bar| *bar < 0.0) && bars.iter().any(|bar| *bar > 0.0), "{bars:?}");
+    // the larger coefficient of a wall and model comes first
+    let titles = page.split("<div title=\"").skip(1).filter_map(|rest| rest.split('"').next()?.parse().ok());
+    let titles: Vec<f64> = titles.filter(|title: &f64| title.abs() <= end + 1e-3).collect();
+    let found: Vec<_> = titles.chunks(2).map(|pair| pair[0].abs() >= pair[1].abs()).collect();
+    assert_eq!((titles.len(), found.iter().all(|is_first| *is_first)), (bars.len(), true), "{titles:?}");
 }
