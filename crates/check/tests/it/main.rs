@@ -15,5 +15,6 @@ mod circolare_second_cases;
 mod circolare_second_messages;
 mod circolare_second_ties;
 mod circolare_site;
+mod circolare_warnings;
 mod codes;
 mod messages;
