@@ -88,7 +88,10 @@ impl Statement {
         warnings.extend(super::warnings::of_untied_side(&case, &sides, governs.side));
         warnings.extend(super::warnings::of_periods(&sides));
         warnings.extend(super::warnings::of_verdict(&case, &sides, passed));
-        warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(&case)));
+        if let Some(dynamic) = &dynamic {
+            warnings.extend(super::warnings::of_rocking(self, subject.parameters));
+            warnings.extend(dynamic.warnings(&case));
+        }
         let mut seen = std::collections::BTreeSet::new();
         warnings.retain(|warning| seen.insert(warning.clone()));
         let alike = case.alike;

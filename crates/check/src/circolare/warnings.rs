@@ -161,6 +161,19 @@ fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<String> {
     }
 }
 
+/// Where runs rock as the scene does, and the static checks do not.
+pub(super) fn of_rocking(statement: &Statement, scene: &Parameters) -> Option<String> {
+    let stated = statement.table.rocking?.rocking();
+    (stated != scene.rocking).then(|| {
+        format!(
+            "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state the \
+             same in [impact]",
+            stated.name(),
+            scene.rocking.name()
+        )
+    })
+}
+
 /// Where a spectrum at a height is below that of the ground at T0.
 pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<String> {
     let mut warnings = Vec::new();

@@ -214,11 +214,7 @@ impl Drawing<'_> {
         }
         let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
         for (index, text) in texts.iter().enumerate() {
-            // there is no low y
-            let text = text.replace(
-                "N_y",
-                "N<tspan font-size=\"10\" dy=\"3\">y</tspan><tspan dy=\"-3\">&#8203;</tspan>",
-            );
+            let text = ::report::label(text);
             // one line above the tie, the others below it
             let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
             self.text([x + 4.0, y], "start", &text);

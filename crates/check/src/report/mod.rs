@@ -1,5 +1,6 @@
 //! The report of a check for a calculation file, in one page: what the reports of all codes share.
 
+mod decimals;
 pub(crate) mod drawing;
 pub(crate) mod inputs;
 pub(crate) mod language;
@@ -87,19 +88,50 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = page.section("Document", &document(origin)?).text(SIGNED).text("</div>");
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(with_symbols(&translated(page, origin.report.language)))
+    Ok(finished(page, origin))
+}
+
+/// Returns a page in its language, with its symbols as formulas and the files of the user as they are named.
+fn finished(page: String, origin: &Origin<'_>) -> String {
+    let mut page = with_symbols(&translated(page, origin.report.language));
+    for (index, path) in origin.records.files.iter().enumerate() {
+        page = page.replace(&mark(index), &as_written(&file_name(path)));
+    }
+    page
+}
+
+/// Stands for the name of a file until a page is translated: no word, symbol or number.
+fn mark(index: usize) -> String {
+    format!("\u{e000}{index}\u{e001}")
+}
+
+/// The name of a file; folders are the machine's.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+impl Records {
+    /// Returns a text with a mark in place of each file of the records.
+    fn marked(&self, text: &str) -> String {
+        let files = self.files.iter().enumerate();
+        files.fold(text.to_owned(), |text, (index, path)| {
+            text.replace(&path.display().to_string(), &mark(index))
+        })
+    }
 }
 
 /// Adds the sections about a wall: verdict, those of the code, warnings.
 fn sheet(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<Page, CheckError> {
     // the lines of single runs, which are indented, have a table of their own
-    let notes: Vec<_> = verdict.notes.iter().filter(|note| !note.starts_with("  ")).cloned().collect();
+    let notes = verdict.notes.iter().filter(|note| !note.starts_with("  "));
+    let notes: Vec<_> = notes.map(|note| origin.records.marked(note)).collect();
     let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&notes));
     let mut page = page.section("Verdict", &checks);
     for (heading, markup) in verdict.details.sections(origin)? {
         page = page.section(&heading, &markup);
     }
-    let warnings: Vec<_> = verdict.warnings.iter().chain(&origin.records.warnings).cloned().collect();
+    let warnings = verdict.warnings.iter().chain(&origin.records.warnings);
+    let warnings: Vec<_> = warnings.map(|warning| origin.records.marked(warning)).collect();
     let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
     Ok(page.section("Warnings", &warnings))
 }
@@ -132,16 +164,14 @@ impl Origin<'_> {
 
 /// Program, version, date, and the fingerprints of what was read.
 fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
-    // names of folders are the machine's
-    let name = |path: &Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let own = name(Path::new(origin.file.name()));
+    let own = file_name(Path::new(origin.file.name()));
     let mut files = vec![(own, fingerprint(origin.file.text().as_bytes()))];
     for path in &origin.records.files {
         let bytes = std::fs::read(path).map_err(|error| SceneError::File {
             file: path.display().to_string(),
             reason: format!("{error}; the file could be read earlier in this run"),
         })?;
-        files.push((name(path), fingerprint(&bytes)));
+        files.push((file_name(path), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
     let inputs: Vec<&str> =

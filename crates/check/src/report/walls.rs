@@ -6,10 +6,9 @@ use ::report::escaped;
 use ::report::page::Page;
 use run::walls::NamedWall;
 
-use super::language::{translated, with_symbols};
 use super::markup::table;
 use super::project::as_written;
-use super::{Origin, SIGNED, document, head, sheet};
+use super::{Origin, SIGNED, document, finished, head, sheet};
 use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
@@ -68,7 +67,7 @@ pub fn page_of_walls(
     let page = page.section("Document", &document(origin)?);
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
-    Ok(with_symbols(&translated(page, origin.report.language)))
+    Ok(finished(page, origin))
 }
 
 /// The data of the walls and the numbers of their governing sides: a row a wall.

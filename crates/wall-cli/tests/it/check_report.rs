@@ -256,8 +256,8 @@ fn the_project_and_the_language_are_stated() {
     let page = report(&folder, &scene, &[]);
     assert!(page.contains("<html lang=\"it\">"));
     // V_R = 75 years; 75/-ln(0.9) = 711.8
-    assert_has(&plain(&page), &["CommessaTie & tower", "75 anni", "711.8 anni", "Timbro e firma"]);
-    assert_has(&plain(&page), &["VERIFICA NON SODDISFATTA", "SLV è determinante con ζE = 0.728"]);
+    assert_has(&plain(&page), &["CommessaTie & tower", "75 anni", "711,8 anni", "Timbro e firma"]);
+    assert_has(&plain(&page), &["VERIFICA NON SODDISFATTA", "SLV è determinante con ζE = 0,728"]);
     let english = report(&folder, &scene, &["--lang", "en"]);
     assert_has(&plain(&english), &["ProjectTie & tower", "711.8 years", "Stamp and signature", "NOT PASSED"]);
     for (key, words) in [
