@@ -257,7 +257,11 @@ fn ties_at_the_level_of_a_check() {
     let fractions = scene.split("[check]").next().unwrap().to_owned()
         + "[check]\ncode = \"fractions\"\nspectrum = [[0, 1], [4, 1]]\nunit = \"m/s2\"\n";
     std::fs::write(folder.join("scene.toml"), fractions).unwrap();
-    refused(&folder, &signs, &["no limit states with runs; use code = \"circolare-2019\", or --scale"]);
+    refused(
+        &folder,
+        &signs,
+        &["no limit states with runs; use code = \"circolare-2019\", or scale the records"],
+    );
 }
 
 /// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.
