@@ -186,8 +186,8 @@ const RUNS_AT_ONCE: usize = 4;
 type OfCheck = (String, String, Vec<(String, Motion)>);
 
 /// Runs a wall whose tie has each value of a parameter under each motion, or under the records of a check at
-/// the level of a limit state; returns the outcomes by value and motion, their table, the picture, whether one
-/// sign of the motions stands for both, and what is to be known of the records.
+/// the level of a limit state; returns the outcomes by value and motion, their table, the picture, whether
+/// one sign of the motions stands for both, and what is to be known of the records.
 #[pyfunction]
 pub(crate) fn tie_of_wall<'py>(
     py: Python<'py>,

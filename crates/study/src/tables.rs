@@ -80,8 +80,8 @@ pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table 
     table.done()
 }
 
-/// Fractiles of a tie's demands over the runs at a level, as percentages: the median, that of the mean and one
-/// standard deviation of a normal sample, and the largest value. An anchor is not designed for less.
+/// Fractiles of a tie's demands over the runs at a level: the median, that of the mean and one standard
+/// deviation of a normal sample, and the largest value. An anchor is not designed for less.
 const FRACTILES: [(&str, &str, f64); 3] = [("50", "50 %", 0.5), ("84", "84 %", 0.84), ("max", "max", 1.0)];
 
 /// The ties of a wall that may yield, with every model: in how many runs they yielded and broke, and

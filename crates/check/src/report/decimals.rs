@@ -1,7 +1,7 @@
 //! Decimal commas, which Italian has.
 
-/// Returns a text with its decimal points as commas, and with semicolons between numbers of a list. Numbers of
-/// clauses and dates have more than one point, or follow NTC or a letter, and stay: NTC 8.3, C8.7, 17.1.2018.
+/// Returns a text with decimal commas, and semicolons between the numbers of a list. Clauses and
+/// dates stay: they have more than one point, or follow NTC or a letter, as NTC 8.3, C8.7, 17.1.2018.
 pub(super) fn with_commas(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     let mut rest = text;
@@ -48,7 +48,9 @@ fn separates(before: &str, after: &str) -> bool {
     let last = before.trim_end_matches(|c: char| c.is_ascii_digit());
     let is_decimal =
         last.strip_suffix(',').is_some_and(|whole| whole.ends_with(|c: char| c.is_ascii_digit()));
-    let is_number = last.len() < before.len() && !next.is_empty() && !followed(&after[next.len()..]);
+    let is_in_word = last.ends_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_number =
+        last.len() < before.len() && !is_in_word && !next.is_empty() && !followed(&after[next.len()..]);
     is_number && (is_decimal || next.contains('.'))
 }
 
@@ -64,6 +66,7 @@ mod tests {
             ("D.M. 17.1.2018, 21.1.2019 n. 7", "D.M. 17.1.2018, 21.1.2019 n. 7"),
             ("wall 0.1.0 of 1.5e6 Pa, a1.csv", "wall 0.1.0 of 1,5e6 Pa, a1.csv"),
             ("hinge_range = [0.1, 0.9]", "hinge_range = [0,1; 0,9]"),
+            ("α0, 2.191, and F_0, 0.5", "α0, 2,191, and F_0, 0,5"),
             ("(0, 0.2), (4, -0.01)", "(0; 0,2), (4; -0,01)"),
             ("0.32 s. 24.61 kN, 3 piani", "0,32 s. 24,61 kN, 3 piani"),
             ("42.048°, 13.926°", "42,048°, 13,926°"),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::markup::{formula, kilonewtons, millimetres, stated};
+use super::markup::{formula, kilonewtons, millimetres, shown, stated};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
 const SIZE: [f64; 2] = [500.0, 410.0];
@@ -234,7 +234,8 @@ impl Drawing<'_> {
     fn height(&mut self, x: f64, height: f64, name: &str) {
         let y = self.y(height);
         self.dimension([x, FOOT], [x, y]);
-        let text = format!("{name} = {} m", stated(height));
+        // one that is searched has all its digits
+        let text = format!("{name} = {} m", shown(height));
         self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
     }
 

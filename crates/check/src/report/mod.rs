@@ -73,7 +73,7 @@ impl Figure {
     }
 }
 
-/// Makes the page of a report: the verdict, the sections of its code, warnings and the fingerprints of what
+/// Makes the page of a report: the verdict, warnings, the sections of its code, and the fingerprints of what
 /// was read.
 ///
 /// # Errors
@@ -83,9 +83,9 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
-    // a signature does not stand alone on its page
-    let page = sheet(page, verdict, origin)?.text("<div class=\"together\">");
-    let page = page.section("Document", &document(origin)?).text(SIGNED).text("</div>");
+    let page = sections(sheet_head(page, verdict, origin), verdict.details.site()?);
+    let page = sections(page, verdict.details.sections(origin)?);
+    let page = end(page, &verdict.details.readings(), origin)?;
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
     Ok(finished(page, origin))
@@ -120,20 +120,32 @@ impl Records {
     }
 }
 
-/// Adds the sections about a wall: verdict, those of the code, warnings.
-fn sheet(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<Page, CheckError> {
+/// Adds the verdict on a wall and its warnings.
+fn sheet_head(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Page {
     // the lines of single runs, which are indented, have a table of their own
     let notes = verdict.notes.iter().filter(|note| !note.starts_with("  "));
     let notes: Vec<_> = notes.map(|note| origin.records.marked(note)).collect();
     let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&notes));
-    let mut page = page.section("Verdict", &checks);
-    for (heading, markup) in verdict.details.sections(origin)? {
-        page = page.section(&heading, &markup);
-    }
     let warnings = verdict.warnings.iter().chain(&origin.records.warnings);
     let warnings: Vec<_> = warnings.map(|warning| origin.records.marked(warning)).collect();
     let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
-    Ok(page.section("Warnings", &warnings))
+    page.section("Verdict", &checks).section("Warnings", &warnings)
+}
+
+fn sections(page: Page, sections: Vec<(String, String)>) -> Page {
+    sections.into_iter().fold(page, |page, (heading, markup)| page.section(&heading, &markup))
+}
+
+/// Adds what ends a report: the readings of the code, what was read, and the box for stamp and signature. The
+/// box does not stand alone on its page.
+fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page, CheckError> {
+    if !readings.is_empty() {
+        let items: String = readings.iter().map(|reading| format!("<li>{reading}</li>\n")).collect();
+        let introduced = "<p>Where the code can be read in two ways, this check takes:</p>";
+        page = page.section("Readings of the code", &format!("{introduced}\n<ul>\n{items}</ul>\n"));
+    }
+    let page = page.text("<div class=\"together\">").section("Document", &document(origin)?);
+    Ok(page.text(SIGNED).text("</div>"))
 }
 
 /// The headline of a verdict as markup.

@@ -19,12 +19,12 @@ pub struct AtLevel {
     pub warnings: Vec<String>,
 }
 
-/// Brings the records of a check to the level of a limit state, as its dynamic check does. `assumed` names the
-/// parameters of the wall that nobody stated.
+/// Brings the records of a check to the level of a limit state, as its dynamic check does. `assumed` names
+/// the parameters of the wall that nobody stated.
 ///
 /// # Errors
-/// [`CheckError`] of a code without runs, a limit state without a site, a check without records, or a wall that
-/// cannot be checked.
+/// [`CheckError`] of a code without runs, a limit state without a site, a check without records, or a wall
+/// that cannot be checked.
 pub fn at_level(
     code: &dyn Code,
     scene: &Scene,
