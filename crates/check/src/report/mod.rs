@@ -145,7 +145,7 @@ fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page,
         page = page.section("Readings of the code", &format!("{introduced}\n<ul>\n{items}</ul>\n"));
     }
     let page = page.text("<div class=\"together\">").section("Document", &document(origin)?);
-    Ok(page.text(SIGNED).text("</div>"))
+    Ok(page.text(&signed(origin)).text("</div>"))
 }
 
 /// The headline of a verdict as markup.
@@ -155,8 +155,12 @@ fn head(verdict: &Verdict<'_>) -> String {
     format!("<p class=\"verdict {passed}\">{headline}</p>")
 }
 
-/// The box for stamp and signature.
-const SIGNED: &str = "<div class=\"signed\"><p>Date</p><p>Stamp and signature</p></div>";
+/// The box for stamp and signature of the designer.
+fn signed(origin: &Origin<'_>) -> String {
+    let designer = origin.report.designer.as_deref();
+    let designer = designer.map_or_else(String::new, |name| format!("<br>{}", as_written(name)));
+    format!("<div class=\"signed\"><p>Date</p><p>Stamp and signature{designer}</p></div>")
+}
 
 impl Origin<'_> {
     /// The code and the date as markup.

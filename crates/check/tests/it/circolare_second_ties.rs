@@ -92,11 +92,19 @@ fn ties_that_yield() {
     let side = positive(&outcome);
     near_all(&[side.sld.unwrap().ratio, side.slv_q.unwrap().ratio], &[2.13421, 1.97321], "bar at activation");
     let (slv, slc) = (displaced(side.slv), displaced(side.slc));
+    // u_y = N_y/K h/(2 y), u_r − u_y = e_p h/(2 y)
+    let (tie, lever) = (side.tie.unwrap(), 2.0 * 6.8 / 7.0);
+    let [yields, breaks] = [tie.yields, tie.breaks].map(Option::unwrap);
+    let stiffness = tie.strength.unwrap() / (lever * yields);
+    let numbers = [stiffness, tie.strength.unwrap(), lever * (breaks - yields)];
+    near_all(&numbers, &[2.34572e6, 15749.9, 0.113286], "K, N_y and e_p of the bar");
     near_all(&[side.tie.unwrap().breaks.unwrap(), slv.d, slv.zeta], &[0.0617647, 0.0713609, 1.15475], "bar");
     near_all(&[slc.ratio, slc.zeta], &[0.556940, 0.664546], "bar, SLC");
     let outcome = bar(", anchor_capacity = 30e3");
-    let slv = displaced(positive(&outcome).slv);
-    near_all(&[slv.ratio, slv.zeta], &[0.418495, 0.584854], "a weak anchor");
+    let side = positive(&outcome);
+    let (slv, tie) = (displaced(side.slv), side.tie.unwrap());
+    near_all(&[slv.ratio, slv.zeta, tie.strength.unwrap()], &[0.418495, 0.584854, 10e3], "a weak anchor");
+    assert_eq!(tie.yields, tie.breaks, "it does not stretch");
 }
 
 /// Example 14: ties that break while the wall is on its elastic branch, and limit states on that branch.
