@@ -211,6 +211,10 @@ fn a_search_says_what_blocks_and_what_is_large() {
     let found = searched(&text, Sought::BarDiameter);
     let said = reason(&found, "SLD");
     assert!(said.contains("the anchor gives way before the bar"), "{said}");
+    // a rupture before 0.4 u_0 or 0.6 u_0, u_0 = 0.203 m
+    for (check, limit) in [("SLV", "before 0.4 u_0 = 81.17 mm"), ("SLC", "before 0.6 u_0 = 121.8 mm")] {
+        assert!(reason(&found, check).contains(limit), "{}", reason(&found, check));
+    }
     // a tie so soft does not act at the activation: u_y grows with its strength
     let soft = facade("tie_stiffness = 1.5e6\ntie_strength = 10e3", &format!("{one}\n{YIELD}"));
     let found = searched(&soft, Sought::TieStrength);

@@ -8,6 +8,7 @@ mod broken;
 mod circolare;
 mod circolare_cases;
 mod circolare_dynamic;
+mod circolare_edges;
 mod circolare_properties;
 mod circolare_refusals;
 mod circolare_second;
