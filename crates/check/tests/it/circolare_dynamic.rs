@@ -171,3 +171,22 @@ fn both_signs_of_a_record_run() {
         assert_eq!(both, one);
     }
 }
+
+/// Runs rock as the scene does: one that falls to a side that the static checks leave out fails.
+#[test]
+fn a_fall_to_a_side_that_is_not_checked_fails() {
+    let table = |ag: f64| {
+        format!(
+            "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+             rocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
+             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = {ag}, F0 = 2.45, TC = 0.32 }}\n"
+        )
+    };
+    let outcome = checked(&table(0.6)).unwrap();
+    let said = "the static checks take rocking = one_sided_positive of [check], the runs rocking = two_sided";
+    assert!(outcome.warnings.iter().any(|warning| warning.contains(said)), "{:?}", outcome.warnings);
+    let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
+    let fallen = state.runs.iter().filter(|run| run.d[1] > 0.2).count();
+    assert!(fallen > 0 && !state.passed, "{:?}", state.runs);
+    assert!(state.runs.iter().all(|run| run.beyond_d0 == (run.d[0] > 0.2 || run.d[1] > 0.2)));
+}
