@@ -190,3 +190,21 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     assert!(fallen > 0 && !state.passed, "{:?}", state.runs);
     assert!(state.runs.iter().all(|run| run.beyond_d0 == (run.d[0] > 0.2 || run.d[1] > 0.2)));
 }
+
+/// Records are held against the spectrum up to 2 s, or to 2 `T_1` of a soft building.
+#[test]
+fn the_range_of_a_soft_building_is_longer() {
+    let last = |period: f64| {
+        let text = format!(
+            "{PARAPET}[[storeys]]\nperiod = {period}\n[check]\ncode = \"circolare-2019\"\n\
+             before_activation = \"rigid\"\nsoil = \"B\"\nmethod = \"dynamic\"\n\
+             records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
+             SLV = {{ ag = 0.1, F0 = 2.45, TC = 0.32, building_damping = 0.1 }}\n"
+        );
+        let state = checked(&text).unwrap().dynamic.unwrap().slv.unwrap();
+        state.compatibility.unwrap().ratios.last().unwrap().0
+    };
+    // T_SLV of this wall is 2.26 s
+    near(last(0.3), 2.26079, "T_SLV");
+    near(last(1.5), 3.0, "2 T_1");
+}
