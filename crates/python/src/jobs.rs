@@ -185,6 +185,9 @@ const RUNS_AT_ONCE: usize = 4;
 /// A limit state, a text with the table `[check]`, and records by their names.
 type OfCheck = (String, String, Vec<(String, Motion)>);
 
+/// Outcomes, table, picture, whether one sign stands for both, and warnings of a study of a tie.
+type TieValues<'py> = (Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool, Vec<String>);
+
 /// Runs a wall whose tie has each value of a parameter under each motion, or under the records of a check at
 /// the level of a limit state; returns the outcomes by value and motion, their table, the picture, whether
 /// one sign of the motions stands for both, and what is to be known of the records.
@@ -197,18 +200,14 @@ pub(crate) fn tie_of_wall<'py>(
     varied: (String, Option<Bound<'py, PyAny>>),
     both_polarities: bool,
     threads: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool, Vec<String>)> {
-    let AtLevel { scene, motions, both_signs, warnings, .. } = match level {
-        Some((state, text, named)) => {
-            let code = || read(&CheckFile::parse("check", &text)?.with_records(named_records(named)));
-            let at = |code: Box<dyn Code>| at_level(&*code, &wall.scene, &wall.assumed, &state);
-            code().and_then(at).map_err(of_check)?
-        }
-        None => {
-            let motions = records.into_iter().map(|Motion(record)| record).collect();
-            let (scene, factors) = (wall.scene.clone(), Vec::new());
-            AtLevel { scene, motions, factors, both_signs: false, warnings: Vec::new() }
-        }
+) -> PyResult<TieValues<'py>> {
+    let AtLevel { scene, motions, both_signs, warnings, .. } = if let Some((state, text, named)) = level {
+        let code = || read(&CheckFile::parse("check", &text)?.with_records(named_records(named)));
+        let at = |code: Box<dyn Code>| at_level(&*code, &wall.scene, &wall.assumed, &state);
+        code().and_then(at).map_err(of_check)?
+    } else {
+        let motions = records.into_iter().map(|Motion(record)| record).collect();
+        AtLevel::as_given(wall.scene.clone(), motions)
     };
     let (parameter, given) = varied;
     let given = given.as_ref().map(samples).transpose()?.unwrap_or_default();

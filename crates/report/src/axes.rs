@@ -45,12 +45,10 @@ pub fn label(text: &str) -> String {
         let is_symbol =
             letters.next().is_some_and(char::is_alphabetic) && !letters.next().is_some_and(is_word);
         markup += &escaped(before);
-        markup += &if is_symbol && !index.is_empty() {
-            // the empty text goes back up to the line
-            format!("<tspan dy=\"3\" font-size=\"75%\">{index}</tspan><tspan dy=\"-3\">&#8203;</tspan>")
-        } else {
-            format!("_{index}")
-        };
+        // the empty text goes back up to the line
+        let (low, back) = ("<tspan dy=\"3\" font-size=\"75%\">", "</tspan><tspan dy=\"-3\">&#8203;</tspan>");
+        let [opens, closes] = if is_symbol && !index.is_empty() { [low, back] } else { ["_", ""] };
+        markup.extend([opens, index, closes]);
         rest = &after[index.len()..];
     }
     markup + &escaped(rest)

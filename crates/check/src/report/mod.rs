@@ -140,7 +140,8 @@ fn sections(page: Page, sections: Vec<(String, String)>) -> Page {
 /// box does not stand alone on its page.
 fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page, CheckError> {
     if !readings.is_empty() {
-        let items: String = readings.iter().map(|reading| format!("<li>{reading}</li>\n")).collect();
+        let items = readings.iter().map(|reading| ["<li>", reading, "</li>\n"].concat());
+        let items = items.collect::<String>();
         let introduced = "<p>Where the code can be read in two ways, this check takes:</p>";
         page = page.section("Readings of the code", &format!("{introduced}\n<ul>\n{items}</ul>\n"));
     }

@@ -44,15 +44,15 @@ fn runs_under_records() {
     near(state.d, largest, "of six records the least favourable");
 }
 
-/// FC divides forces and not masses: the wall with FC = 1 and its gravity, load and tie over 1.35 has the same
-/// runs.
+/// FC divides forces, not masses: with FC = 1 and gravity, load and tie over 1.35 the runs are the same.
 #[test]
 fn the_confidence_factor_divides_forces() {
     let table = |over: f64, factor: &str| {
         let [gravity, load, stiffness, strength] = [9.81, 2e3, 4e5, 800.0].map(|force| force / over);
         format!(
             "{PARAPET}gravity = {gravity}\noverburden = {load}\n[tie]\ntie_height = 3\n\
-             tie_stiffness = {stiffness}\ntie_strength = {strength}\ntie_ultimate = 0.05\n[force_law]\na1 = 0.03\n[damping]\ndamping_model = \
+             tie_stiffness = {stiffness}\ntie_strength = {strength}\ntie_ultimate = 0.05\n\
+             [force_law]\na1 = 0.03\n[damping]\ndamping_model = \
              \"constant_coefficient\"\nxi = 0.05\n [check]\ncode = \"circolare-2019\"\n\
              before_activation = \"law\"\nsoil = \"B\"\noverburden_mass = 0\n{factor}\n\
              record_scale = \"none\"\nmethod = \"dynamic\"\n\

@@ -227,7 +227,7 @@ fn a_slack_tie_does_not_shorten_the_period_of_the_demand() {
         let tie = format!("tie_stiffness = 2.4e6\ntie_strength = 8e3\ntie_slack = {slack}");
         let text = parapet(&tie, "");
         let (wall, _) = text.split_once("[check]").unwrap();
-        // a peak at T = 0.1 s and a plateau up to 0.3 s, between T0 with the tie, 0.061 s, and without, 0.356 s
+        // a peak at 0.1 s and a plateau up to 0.3 s, between T0 with the tie, 0.061 s, and without, 0.356 s
         let table = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\n\
                      SLC = { ag = 0.2, spectrum = [[0, 0.2], [0.0999, 0.2], [0.1, 900], [0.1001, 0.2], \
                      [0.2, 0.2], [0.2001, 90], [0.3, 90], [0.3001, 0.2], [9, 0.1]], \

@@ -19,6 +19,13 @@ pub struct AtLevel {
     pub warnings: Vec<String>,
 }
 
+impl AtLevel {
+    /// A scene and records as they are given, without a check.
+    pub fn as_given(scene: Scene, motions: Vec<GroundMotion>) -> Self {
+        Self { scene, motions, factors: Vec::new(), both_signs: false, warnings: Vec::new() }
+    }
+}
+
 /// Brings the records of a check to the level of a limit state, as its dynamic check does. `assumed` names
 /// the parameters of the wall that nobody stated.
 ///

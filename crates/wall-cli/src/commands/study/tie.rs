@@ -84,12 +84,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
     let named = records(console, arguments)?;
-    let AtLevel { scene, motions, factors, both_signs, .. } = match &arguments.level {
-        Some(state) => of_check(console, arguments, &scene, named, state)?,
-        None => {
-            let motions = named.into_iter().map(|record| record.motion).collect();
-            AtLevel { scene, motions, factors: Vec::new(), both_signs: false, warnings: Vec::new() }
-        }
+    let AtLevel { scene, motions, factors, both_signs, .. } = if let Some(state) = &arguments.level {
+        of_check(console, arguments, &scene, named, state)?
+    } else {
+        AtLevel::as_given(scene, named.into_iter().map(|record| record.motion).collect())
     };
     let study = TieStudy::new(scene, varied(arguments), motions, arguments.both_polarities || both_signs);
     let study = arguments.scene.named(study)?;
