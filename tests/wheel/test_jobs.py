@@ -374,6 +374,34 @@ def test_numbers_of_a_tie_that_yields(program, tmp_path, varied, tied, values):
     assert found.elongation.any() and (found.u_ratio_max[0] != found.u_ratio_max[1]).any()
 
 
+def test_a_tie_at_the_level_of_a_check(program, tmp_path):
+    paths, out = records(program, tmp_path, 3), tmp_path / "tie.csv"
+    check = {"before_activation": "law", "soil": "B", "SLV": {"ag": 0.3, "F0": 2.45, "TC": 0.32}}
+    of_check = "".join(f"{name} = {literal(value)}\n" for name, value in check.items())
+    geometry = "[geometry]\nheight = 3.0\nthickness = 0.25\ndensity = 1800\n[force_law]\na1 = 0.05\n"
+    scene = geometry + f'[check]\ncode = "circolare-2019"\n{of_check}'
+    (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
+    tied = {"tie_height": 2.5, "tie_stiffness": 1e6, "tie_side": "positive"}
+    arguments = [word for name, value in tied.items() for word in ("--set", f"{name}={value}")]
+    arguments += ["--unit", "m/s2", "--level", "SLV", "--stiffness", "1e4,1e6"]
+    program("study", "tie", tmp_path / "scene.toml", *arguments, "--records", *paths, "--csv", out)
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    wall = rw.Wall(height=3.0, thickness=0.25, density=1800, a1=0.05, **tied)
+    with pytest.warns(UserWarning, match="SLV: "):
+        found = wall.tie(motions, stiffness=[1e4, 1e6], level="SLV", check=check)
+    assert_table(found.table, out)
+    # the check runs both signs of records on a wall whose sides differ
+    assert found.force.shape == (2, 6)
+    for given, message in (
+        ({"level": "SLC", "check": check}, "SLC is not stated; give its ag"),
+        ({"level": "SLV"}, "level and check go together"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            wall.tie(motions, stiffness=[1e6], **given)
+    with pytest.raises(ValueError, match="level needs records"):
+        wall.tie(stiffness=[1e6], level="SLV", check=check)
+
+
 def test_what_is_no_tie(record):
     wall = rw.Wall(**TIED)
     for call, words in [

@@ -23,7 +23,7 @@ use std::fmt::{self, Write};
 
 use report::number;
 use report::table::{Cell, Column, Digits, Table};
-use rocking_wall::scene::{Floors, Scene, Schema, suggestion};
+use rocking_wall::scene::{Floors, Scene, Schema};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
@@ -239,8 +239,20 @@ pub trait Details {
         overview(self.wall(), self.parameters())
     }
 
-    /// The sections of a report between verdict and warnings: by default the wall, the figure and the
-    /// numbers.
+    /// The sections of a report about the site, which the walls of a building share; by default none.
+    ///
+    /// # Errors
+    /// Those of [`figure`](Self::figure).
+    fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
+        Ok(Vec::new())
+    }
+
+    /// Where the code can be read in two ways: the readings taken, as markup; by default none.
+    fn readings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The sections of a report about the wall: by default the wall, the figure and the numbers.
     ///
     /// # Errors
     /// Those of [`figure`](Self::figure).
@@ -257,31 +269,6 @@ pub trait Details {
 pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits) -> Table {
     let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
     Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
-}
-
-/// Says how to write a table `[check]`.
-pub fn how_to_write() -> String {
-    let names = CODES.map(|code| format!("{:?}", code.name)).join(" and ");
-    let example = CODES[0].example;
-    format!("the codes are {names}; in one line above all tables: {example}")
-}
-
-/// Reads the table `[check]` of a file.
-///
-/// # Errors
-/// [`CheckError`] without a table, of an unknown code, or of the first value that cannot be used.
-pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
-    let names = CODES.map(|code| format!("{:?}", code.name));
-    let Some(name) = file.code() else {
-        return Err(CheckError::wall(format!("the table [check] is missing; {}", how_to_write())));
-    };
-    if let Some(code) = CODES.into_iter().find(|code| code.name == name) {
-        return (code.read)(file);
-    }
-    let given = if name.is_empty() { "code is missing".to_owned() } else { format!("code = {name:?}") };
-    let meant = suggestion(name, CODES.iter().map(|code| code.name));
-    let message = format!("{given}{meant}; state one of {}", names.join(", "));
-    Err(CheckError::value(&["code"], message))
 }
 
 impl Verdict<'_> {

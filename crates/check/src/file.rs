@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Place, SceneError, Schema, parse_document, read_text, refusal};
+use rocking_wall::scene::{Place, SceneError, Schema, parse_document, read_text, refusal, suggestion};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use crate::code::CODES;
+use crate::code::{CODES, Code};
 use crate::error::CheckError;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
@@ -18,6 +18,31 @@ use crate::site::Records;
 
 /// Largest grid of the hazard that is read.
 const MAX_GRID_BYTES: u64 = 64 << 20;
+
+/// Says how to write a table `[check]`.
+pub fn how_to_write() -> String {
+    let names = CODES.map(|code| format!("{:?}", code.name)).join(" and ");
+    let example = CODES[0].example;
+    format!("the codes are {names}; in one line above all tables: {example}")
+}
+
+/// Reads the table `[check]` of a file.
+///
+/// # Errors
+/// [`CheckError`] without a table, of an unknown code, or of the first value that cannot be used.
+pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
+    let names = CODES.map(|code| format!("{:?}", code.name));
+    let Some(name) = file.code() else {
+        return Err(CheckError::wall(format!("the table [check] is missing; {}", how_to_write())));
+    };
+    if let Some(code) = CODES.into_iter().find(|code| code.name == name) {
+        return (code.read)(file);
+    }
+    let given = if name.is_empty() { "code is missing".to_owned() } else { format!("code = {name:?}") };
+    let meant = suggestion(name, CODES.iter().map(|code| code.name));
+    let message = format!("{given}{meant}; state one of {}", names.join(", "));
+    Err(CheckError::value(&["code"], message))
+}
 
 /// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
 /// [`CheckFile::parse_with`].

@@ -11,9 +11,9 @@ mod rule;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, how_to_write, read};
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict};
 pub use error::CheckError;
-pub use file::{CheckFile, complete, with_assignments};
+pub use file::{CheckFile, complete, how_to_write, read, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
 pub use report::{Figure, Language, Origin, ReportTable, page, page_of_walls, report_schema, terms};
 pub use rule::Rule;

@@ -10,9 +10,9 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{Code, Entry, Subject, Verdict, read};
+use crate::code::{Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
-use crate::file::CheckFile;
+use crate::file::{CheckFile, read};
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {

@@ -1,7 +1,7 @@
 //! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
 //! damping that matches restitution; and of formulas beside references.
 
-use check::{CheckError, CheckFile, Origin, Subject, page, read};
+use check::{CheckError, CheckFile, Code, Origin, Subject, page, read};
 use evidence::verification::{self, verify};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -21,7 +21,7 @@ use study::spectrum::{
     MOST_POINTS, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
     over_pulses, over_walls,
 };
-use study::tie::{self, Outcome, Row, TieError, TieStudy};
+use study::tie::{self, AtLevel, Outcome, Row, TieError, TieStudy, at_level};
 
 use crate::arrays::{Motion, Numbers, grid, named_records, samples};
 use crate::errors::{failed, of_scene, refused};
@@ -182,24 +182,39 @@ fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
 /// Runs for each thread between two looks at Ctrl-C.
 const RUNS_AT_ONCE: usize = 4;
 
-/// Runs a wall whose tie has each value of a parameter under each motion; returns the outcomes by value and
-/// motion, their table, the picture, and whether one sign of the motions stands for both.
+/// A limit state, a text with the table `[check]`, and records by their names.
+type OfCheck = (String, String, Vec<(String, Motion)>);
+
+/// Outcomes, table, picture, whether one sign stands for both, and warnings of a study of a tie.
+type TieValues<'py> = (Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool, Vec<String>);
+
+/// Runs a wall whose tie has each value of a parameter under each motion, or under the records of a check at
+/// the level of a limit state; returns the outcomes by value and motion, their table, the picture, whether
+/// one sign of the motions stands for both, and what is to be known of the records.
 #[pyfunction]
 pub(crate) fn tie_of_wall<'py>(
     py: Python<'py>,
     wall: &Wall,
     records: Vec<Motion>,
+    level: Option<OfCheck>,
     varied: (String, Option<Bound<'py, PyAny>>),
     both_polarities: bool,
     threads: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
-    let records = records.into_iter().map(|Motion(record)| record).collect();
+) -> PyResult<TieValues<'py>> {
+    let AtLevel { scene, motions, both_signs, warnings, .. } = if let Some((state, text, named)) = level {
+        let code = || read(&CheckFile::parse("check", &text)?.with_records(named_records(named)));
+        let at = |code: Box<dyn Code>| at_level(&*code, &wall.scene, &wall.assumed, &state);
+        code().and_then(at).map_err(of_check)?
+    } else {
+        let motions = records.into_iter().map(|Motion(record)| record).collect();
+        AtLevel::as_given(wall.scene.clone(), motions)
+    };
     let (parameter, given) = varied;
     let given = given.as_ref().map(samples).transpose()?.unwrap_or_default();
     let varied = tie::ALL.iter().find(|varied| varied.parameter == parameter);
     let varied = varied.unwrap_or_else(|| unreachable!("the package names those that there are"));
-    let study =
-        TieStudy::new(wall.scene.clone(), (varied, &given), records, both_polarities).map_err(refused)?;
+    let study = TieStudy::new(scene, (varied, &given), motions, both_polarities || both_signs);
+    let study = study.map_err(refused)?;
     let threads = threads_of(threads)?.get();
     let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
     let mut rows = Vec::with_capacity(study.values().len());
@@ -209,7 +224,7 @@ pub(crate) fn tie_of_wall<'py>(
     }
     let is_alike = study.polarities() == Polarities::Alike;
     let table = table(py, tie::table(&study, &rows))?;
-    Ok((outcomes(py, &rows)?, table, tie::figure::picture(&study, &rows).svg(), is_alike))
+    Ok((outcomes(py, &rows)?, table, tie::figure::picture(&study, &rows).svg(), is_alike, warnings))
 }
 
 fn of_tie(error: TieError) -> PyErr {

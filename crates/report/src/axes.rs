@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::escaped;
+
 /// Writes a number as people do, with at most `digits` digits. Far from 1 it has a power of ten.
 ///
 /// ```
@@ -24,6 +26,32 @@ pub(crate) fn write_text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, text:
 pub(crate) fn write_upwards(svg: &mut String, [x, y]: [f64; 2], text: &str) {
     let place = format!("translate({x:.1} {y:.1}) rotate(-90)");
     let _ = write!(svg, "<text transform=\"{place}\" text-anchor=\"middle\">{text}</text>");
+}
+
+/// A label as markup: what follows the `_` of a single letter is its index, as in `S_e` and `u/u_ins`.
+///
+/// ```
+/// assert!(report::label("d_0 of tie_side").starts_with("d<tspan dy=\"3\" font-size=\"75%\">0</tspan>"));
+/// assert!(report::label("d_0 of tie_side").ends_with(" of tie_side"));
+/// ```
+pub fn label(text: &str) -> String {
+    let mut markup = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('_') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let index = &after[..after.find(|letter| !is_word(letter)).unwrap_or(after.len())];
+        let mut letters = before.chars().rev();
+        let is_symbol =
+            letters.next().is_some_and(char::is_alphabetic) && !letters.next().is_some_and(is_word);
+        markup += &escaped(before);
+        // the empty text goes back up to the line
+        let (low, back) = ("<tspan dy=\"3\" font-size=\"75%\">", "</tspan><tspan dy=\"-3\">&#8203;</tspan>");
+        let [opens, closes] = if is_symbol && !index.is_empty() { [low, back] } else { ["_", ""] };
+        markup.extend([opens, index, closes]);
+        rest = &after[index.len()..];
+    }
+    markup + &escaped(rest)
 }
 
 /// Returns round numbers within a range, about `count` of them, with their text.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::axes::{number, ticks, write_text, write_upwards};
+use crate::axes::{label, number, ticks, write_text, write_upwards};
 use crate::escaped;
 use crate::plot::{Look, Scale, Series};
 
@@ -91,7 +91,7 @@ impl Frame<'_> {
         // an area of one place and size has one name, so that several on a page may share it
         let name = format!("area-{left:.0}-{right:.0}-{top:.0}-{bottom:.0}");
         let mut labels = String::new();
-        let [x_label, y_label] = self.labels.map(escaped);
+        let [x_label, y_label] = self.labels.map(label);
         write_text(&mut labels, [0.5 * (left + right), self.size[1] - 8.0], "middle", &x_label);
         write_upwards(&mut labels, [17.0, 0.5 * (top + bottom)], &y_label);
         format!(

@@ -85,8 +85,9 @@ pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table 
     table.done()
 }
 
-/// Fractiles over the runs at a level, and the largest value.
-const FRACTILES: [(&str, f64); 4] = [("16", 0.16), ("50", 0.5), ("84", 0.84), ("max", 1.0)];
+/// Fractiles of a tie's demands over the runs at a level: the median, that of the mean and one standard
+/// deviation of a normal sample, and the largest value. An anchor is not designed for less.
+const FRACTILES: [(&str, &str, f64); 3] = [("50", "50 %", 0.5), ("84", "84 %", 0.84), ("max", "max", 1.0)];
 
 /// The ties of a wall that may yield, with every model: in how many runs they yielded and broke, and
 /// fractiles of their force and elongation, at each level where all records share these, or else over all
@@ -102,12 +103,12 @@ fn ties(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         .number("runs", "runs", three, |row| row.demands.len())
         .number("yielded", "yielded", three, |row| row.count(|tie| tie.elongation > 0.0))
         .number("broken", "broken", three, |row| row.count(|tie| tie.broken));
-    for (name, part) in FRACTILES {
-        let column = Column::number(format!("tie_force_{name}_n"), format!("N {name}\n[kN]"), three);
+    for (name, heading, part) in FRACTILES {
+        let column = Column::number(format!("tie_force_{name}_n"), format!("N {heading}\n[kN]"), three);
         table = table.column(column.shown(1e-3), move |row| row.fractile(|tie| tie.force, part));
     }
-    for (name, part) in FRACTILES {
-        let column = Column::number(format!("tie_elongation_{name}_m"), format!("p {name}\n[mm]"), three);
+    for (name, heading, part) in FRACTILES {
+        let column = Column::number(format!("tie_elongation_{name}_m"), format!("p {heading}\n[mm]"), three);
         table = table.column(column.shown(1e3), move |row| row.fractile(|tie| tie.elongation, part));
     }
     table.done()

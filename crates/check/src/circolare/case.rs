@@ -42,12 +42,7 @@ impl<'a> Case<'a> {
     /// [`CheckError`] of statements that are missing or do not fit the wall.
     pub(super) fn new(statement: &'a Statement, subject: Subject<'a>) -> Result<Self, CheckError> {
         let mut parameters = statement.with_bar(subject.parameters)?;
-        match statement.table.rocking {
-            None => {}
-            Some(Rocks::TwoSided) => parameters.rocking = Rocking::TwoSided,
-            Some(Rocks::OneSidedPositive) => parameters.rocking = Rocking::OneSidedPositive,
-            Some(Rocks::OneSidedNegative) => parameters.rocking = Rocking::OneSidedNegative,
-        }
+        parameters.rocking = statement.table.rocking.map_or(parameters.rocking, Rocks::rocking);
         // in the check a tie without a plastic elongation is brittle
         if parameters.tie_strength > 0.0 && parameters.tie_ultimate < 0.0 {
             parameters.tie_ultimate = 0.0;

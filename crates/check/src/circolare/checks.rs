@@ -1,5 +1,6 @@
 //! The static checks of a side, and what governs a wall.
 
+use report::number;
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Body, Warning};
 
@@ -84,9 +85,13 @@ impl Statement {
         warnings.splice(0..0, of_statement.into_iter().chain(of_demands));
         let of_sides = sides.iter().flat_map(|(_, side)| super::warnings::of_side(side, self, &demands));
         warnings.extend(of_sides.collect::<Vec<_>>());
+        warnings.extend(super::warnings::of_untied_side(&case, &sides, governs.side));
         warnings.extend(super::warnings::of_periods(&sides));
         warnings.extend(super::warnings::of_verdict(&case, &sides, passed));
-        warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(&case)));
+        if let Some(dynamic) = &dynamic {
+            warnings.extend(super::warnings::of_rocking(self, subject.parameters));
+            warnings.extend(dynamic.warnings(&case));
+        }
         let mut seen = std::collections::BTreeSet::new();
         warnings.retain(|warning| seen.insert(warning.clone()));
         let alike = case.alike;
@@ -172,7 +177,8 @@ impl Checks {
         if let (Some(slv), Some(slc)) = (slv, slc)
             && slc.d < slv.d
         {
-            let message = format!("SLC comes before SLV: d_SLC = {} m is below d_SLV = {} m", slc.d, slv.d);
+            let [slc, slv] = [slc.d, slv.d].map(|d| number(1e3 * d, 4));
+            let message = format!("SLC comes before SLV: d_SLC = {slc} mm is below d_SLV = {slv} mm");
             return Err(CheckError::value(&["SLC", "displacement"], message));
         }
         Ok(Self { sld, slv_q, slv, slc })
@@ -257,8 +263,10 @@ pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<
     let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
     if yields > limit {
         return refused(format!(
-            "at_activation = \"yield\": the tie reaches its strength at u_y = {yields} m, beyond {SOFTEST} \
-             u_0 = {limit} m; a tie so soft does not act at the activation"
+            "at_activation = \"yield\": the tie reaches its strength at u_y = {} mm, beyond {SOFTEST} \
+             u_0 = {} mm; a tie so soft does not act at the activation",
+            number(1e3 * yields, 4),
+            number(1e3 * limit, 4)
         ));
     }
     Ok(tie.lever * strength)
@@ -270,8 +278,8 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
     if given.state == LimitState::Slc {
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
         if !(local > 0.0 && local < curve.zero) {
-            let message =
-                format!("SLC.displacement = {local} m must be above 0 and below u_0 = {} m", curve.zero);
+            let zero = number(curve.zero, 4);
+            let message = format!("SLC.displacement = {local} m must be above 0 and below u_0 = {zero} m");
             return Err(CheckError::value(&["SLC", "displacement"], message));
         }
         return Ok((of_curve.min(local), false));
@@ -298,8 +306,10 @@ fn displacement(
     let (elastic, end) = (curve.elastic.displacement, fraction * curve.d0());
     if end <= elastic {
         return Err(CheckError::wall(format!(
-            "{state}: the elastic branch ends at d_y = {elastic} m, beyond {fraction:.2} d_0 = {end} m: \
-             lower a1 or raise E"
+            "{state}: the elastic branch ends at d_y = {} mm, beyond {fraction:.2} d_0 = {} mm: lower a1 or \
+             raise E",
+            number(1e3 * elastic, 4),
+            number(1e3 * end, 4)
         )));
     }
     let period = Curve::period(period_factor, d, a);

@@ -33,7 +33,7 @@ const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
 const HALVINGS: u32 = 10;
 
-/// Thresholds of both sides; infinite on one to which the wall cannot rock \[m\].
+/// Thresholds of both sides; those of limit states are infinite on a side that is not checked \[m\].
 #[derive(Clone, Copy, Debug)]
 struct Thresholds {
     limit: [f64; 2],
@@ -65,16 +65,17 @@ impl Thresholds {
             [(1.0, &sides.positive), (-1.0, &sides.negative)]
                 .map(|(sign, side)| side.as_ref().and_then(|side| value(sign, side)).unwrap_or(f64::INFINITY))
         };
-        let end = |sign: f64, side: &SideVerdict| {
-            Some(side.d0.min(side.d_per_u * wall.body().instability.of(sign)))
-        };
+        // runs rock as the scene does: they may fall to a side that the static checks leave out, too
+        let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
+        let falls = |sign: f64| stretch * wall.body().instability.of(sign);
+        let [positive, negative] = each(&|_, side| Some(side.d0));
         let strength = |sign: f64, side: &SideVerdict| {
             let tie = wall.tie().filter(|tie| tie.holds(sign))?;
             Some(side.d_per_u * tie.strength_displacement()?)
         };
         Self {
             limit: each(&|_, side| limit(side)),
-            end: each(&end),
+            end: [positive.min(falls(1.0)), negative.min(falls(-1.0))],
             strength: each(&strength),
             tie_is_end: wall.tie().and_then(Tie::fracture_displacement).is_none(),
         }

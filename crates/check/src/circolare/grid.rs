@@ -227,14 +227,13 @@ fn less(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// Whether the origin is in a convex quadrangle, or on its edge, whose corners go round once.
+/// Whether the origin is in a convex quadrangle, or on its edge, whose corners go round it once to the left.
 fn surrounds(corners: [[f64; 2]; 4]) -> bool {
     let turn = |k: usize| {
         let [a, b] = [corners[k], corners[(k + 1) % 4]];
         a[0] * b[1] - a[1] * b[0]
     };
-    let turns = [0, 1, 2, 3].map(turn);
-    turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0)
+    (0..4).all(|k| turn(k) >= 0.0)
 }
 
 #[cfg(test)]

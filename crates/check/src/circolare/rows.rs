@@ -178,12 +178,6 @@ impl Checked<'_> {
             if check.limited_by_tie {
                 notes.push(format!("the tie breaks at d_{state}."));
             }
-            if check.raised {
-                notes.push(format!(
-                    "{}.",
-                    remark(if state == "SLV" { LimitState::Slv } else { LimitState::Slc }, &check)
-                ));
-            }
             if let Some(tie) = check.tie {
                 notes.push(format!(
                     "the tie has {} kN at d_{state} ({}), {} kN at the demand ({}).",
@@ -389,6 +383,14 @@ impl Details for Checked<'_> {
 
     fn overview(&self) -> Vec<(String, String)> {
         super::report::overview::of(self)
+    }
+
+    fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
+        super::report::site::section(self)
+    }
+
+    fn readings(&self) -> Vec<String> {
+        super::report::readings::of(self)
     }
 
     fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {

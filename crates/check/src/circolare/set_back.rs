@@ -3,6 +3,7 @@
 //! A rectangular block of depth N/(κ `f_d` `b_w`) carries the force N of a hinge, which is in its middle: t =
 //! N/(2 κ `f_d` `b_w`). k₀ does not change, so that F falls parallel to itself.
 
+use report::number;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Body, Parameters};
 use serde::Serialize;
@@ -63,14 +64,17 @@ impl SetBack {
         for (place, force) in forces {
             if 2.0 * depth(force) >= b {
                 return refused(format!(
-                    "the masonry at the {place} is crushed by N = {force} N alone: its stress block would be \
-                     {} m deep, the wall is b = {b} m thick; check masonry_strength (Pa)",
-                    2.0 * depth(force)
+                    "the masonry at the {place} is crushed by N = {} kN alone: its stress block would be {} \
+                     mm deep, the wall is b = {} mm thick; check masonry_strength (Pa)",
+                    number(1e-3 * force, 4),
+                    number(2e3 * depth(force), 4),
+                    number(1e3 * b, 4)
                 ));
             }
         }
         if force <= 0.0 {
-            return refused(format!("with hinges set back the wall has no strength: F0 = {force} N"));
+            let force = number(1e-3 * force, 4);
+            return refused(format!("with hinges set back the wall has no strength: F0 = {force} kN"));
         }
         Ok((set_back, force))
     }

@@ -78,7 +78,7 @@ fn searched(
 pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<String>), CheckError> {
     let statement = case.statement;
     let (curve, checks) = by_rule(case, sign, case.rule)?;
-    let mut warnings = super::warnings::of_curve(&curve, case, sign);
+    let mut warnings = super::warnings::of_curve(&curve, case);
     let beside = case.rule.map(|rule| beside(case, sign, rule, &checks, &mut warnings));
     let least_alpha0 = beside.transpose()?.flatten();
     let hinge = curve.hinge;

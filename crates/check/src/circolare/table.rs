@@ -1,6 +1,7 @@
 //! The table `[check]` of a scene or a study.
 
 use rocking_wall::scene::{Described, Schema, one_of, with};
+use rocking_wall::variables::Rocking;
 use rocking_wall::{choices, tables};
 use run::records::RecordsTable;
 use serde::Deserialize;
@@ -271,6 +272,13 @@ pub enum Rocks {
     OneSidedPositive,
     /// u < 0.
     OneSidedNegative,
+}
+
+impl Rocks {
+    /// Returns the same as a parameter of a wall.
+    pub(super) fn rocking(self) -> Rocking {
+        [Rocking::TwoSided, Rocking::OneSidedPositive, Rocking::OneSidedNegative][self as usize]
+    }
 }
 
 /// What bounds accelerations at a height up to T₁.

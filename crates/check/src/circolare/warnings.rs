@@ -122,7 +122,7 @@ pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String
 }
 
 /// What the curve of a side leaves to be known.
-pub(super) fn of_curve(curve: &Curve, case: &Case<'_>, sign: f64) -> Vec<String> {
+pub(super) fn of_curve(curve: &Curve, case: &Case<'_>) -> Vec<String> {
     let statement = case.statement;
     let mut warnings = Vec::new();
     if curve.tie().is_some_and(|tie| tie.strength_displacement().is_none()) {
@@ -133,11 +133,15 @@ pub(super) fn of_curve(curve: &Curve, case: &Case<'_>, sign: f64) -> Vec<String>
     if makes(LimitState::Sld) || makes(LimitState::Slv) {
         warnings.extend(of_tie(case, curve));
     }
-    let one_tied = case.parameters.tie_stiffness > 0.0 && curve.tie().is_none();
-    if one_tied {
-        warnings.push(format!("{}: no tie holds this side", case.name(Side::of(sign))));
-    }
     warnings
+}
+
+/// A side that the tie of the wall does not hold, and whether it governs.
+pub(super) fn of_untied_side(case: &Case<'_>, sides: &SideVerdicts, governs: Side) -> Option<String> {
+    let has_tie = case.parameters.tie_stiffness > 0.0;
+    let (untied, _) = sides.iter().find(|(_, side)| has_tie && side.tie.is_none())?;
+    let which = if untied == governs { "; the side without a tie governs" } else { "" };
+    Some(format!("{}: no tie holds this side{which}", case.name(untied)))
 }
 
 /// What the tie leaves out at the activation.
@@ -155,6 +159,19 @@ fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<String> {
         ),
         AtActivation::Yield => None,
     }
+}
+
+/// Where runs rock as the scene does, and the static checks do not.
+pub(super) fn of_rocking(statement: &Statement, scene: &Parameters) -> Option<String> {
+    let stated = statement.table.rocking?.rocking();
+    (stated != scene.rocking).then(|| {
+        format!(
+            "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state the \
+             same in [impact]",
+            stated.name(),
+            scene.rocking.name()
+        )
+    })
 }
 
 /// Where a spectrum at a height is below that of the ground at T0.

@@ -56,7 +56,7 @@ impl Found {
             let stroke = Series::stroke(COLORS[index % COLORS.len()], 2.0, below(&points, top));
             let look = if found.decides { Look::Solid } else { Look::Dotted };
             let informs = if found.decides { "" } else { " (for information)" };
-            Series { name: format!("{symbol}, {}{informs}", found.check), look, ..stroke }
+            Series { name: format!("{}{informs}", found.check), look, ..stroke }
         };
         let mut series: Vec<_> = lines.into_iter().enumerate().map(line).collect();
         let top = top * room_for_legend(SIZE[1], series.len() + usize::from(value.is_some()));

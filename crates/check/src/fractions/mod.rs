@@ -253,20 +253,20 @@ const RESULTS: [Named; 2] = [
     ("displacement", |side| side.displacement_ratio, ["within the capacity", "beyond the capacity"]),
 ];
 
-/// A name, a unit, and the number of a side.
-type Line = (&'static str, &'static str, fn(&SideCheck) -> f64);
+/// A name, a unit for people, the factor to it from SI units, and the number of a side.
+type Line = (&'static str, &'static str, f64, fn(&SideCheck) -> f64);
 
 const NUMBERS: [Line; 10] = [
-    ("onset a0*", "m/s2", |side| side.onset_acceleration),
-    ("zero of F d0*", "m", |side| side.zero_displacement),
-    ("capacity d_u*", "m", |side| side.displacement_capacity),
-    ("secant d_s*", "m", |side| side.secant[0]),
-    ("secant a_s*", "m/s2", |side| side.secant[1]),
-    ("secant period T_s", "s", |side| side.secant_period),
-    ("demand Sa(0)", "m/s2", |side| side.peak_acceleration),
-    ("demand Sd(T_s)", "m", |side| side.displacement_demand),
-    ("a0*/Sa(0)", "-", |side| side.acceleration_ratio),
-    ("d_u*/Sd(T_s)", "-", |side| side.displacement_ratio),
+    ("onset a0*", "m/s2", 1.0, |side| side.onset_acceleration),
+    ("zero of F d0*", "mm", 1e3, |side| side.zero_displacement),
+    ("capacity d_u*", "mm", 1e3, |side| side.displacement_capacity),
+    ("secant d_s*", "mm", 1e3, |side| side.secant[0]),
+    ("secant a_s*", "m/s2", 1.0, |side| side.secant[1]),
+    ("secant period T_s", "s", 1.0, |side| side.secant_period),
+    ("demand Sa(0)", "m/s2", 1.0, |side| side.peak_acceleration),
+    ("demand Sd(T_s)", "mm", 1e3, |side| side.displacement_demand),
+    ("a0*/Sa(0)", "-", 1.0, |side| side.acceleration_ratio),
+    ("d_u*/Sd(T_s)", "-", 1.0, |side| side.displacement_ratio),
 ];
 
 impl Checked<'_> {
@@ -320,7 +320,7 @@ impl Checked<'_> {
             let worst = governing(&self.sides, ratio);
             let side = if self.wall.has_equal_sides() { "both sides alike" } else { name(worst) };
             let verdict = if ratio(worst) >= 1.0 { holds } else { fails };
-            notes.push(format!("{what}: {verdict}, ratio {} ({side})", significant(ratio(worst), 6)));
+            notes.push(format!("{what}: {verdict}, ratio {} ({side})", significant(ratio(worst), 4)));
         }
         for (side, _) in self.shown().filter(|(_, side)| side.limited_by_tie) {
             notes.push(format!("{side}: the strength of the tie limits d_u*"));
@@ -377,9 +377,9 @@ impl Details for Checked<'_> {
     }
 
     fn numbers(&self) -> Table {
-        let mut table = numbers(self.shown().map(|(name, _)| name), Digits::Significant(6));
-        for (name, unit, value) in NUMBERS {
-            let values = self.shown().map(|(_, side)| value(side).into());
+        let mut table = numbers(self.shown().map(|(name, _)| name), Digits::Significant(4));
+        for (name, unit, factor, value) in NUMBERS {
+            let values = self.shown().map(|(_, side)| (factor * value(side)).into());
             table.row([name.into(), Cell::from(unit)].into_iter().chain(values));
         }
         table

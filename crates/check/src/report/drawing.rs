@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::markup::{formula, kilonewtons, millimetres, stated};
+use super::markup::{formula, kilonewtons, millimetres, shown, stated};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
 const SIZE: [f64; 2] = [500.0, 410.0];
@@ -214,11 +214,7 @@ impl Drawing<'_> {
         }
         let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
         for (index, text) in texts.iter().enumerate() {
-            // there is no low y
-            let text = text.replace(
-                "N_y",
-                "N<tspan font-size=\"10\" dy=\"3\">y</tspan><tspan dy=\"-3\">&#8203;</tspan>",
-            );
+            let text = ::report::label(text);
             // one line above the tie, the others below it
             let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
             self.text([x + 4.0, y], "start", &text);
@@ -238,7 +234,8 @@ impl Drawing<'_> {
     fn height(&mut self, x: f64, height: f64, name: &str) {
         let y = self.y(height);
         self.dimension([x, FOOT], [x, y]);
-        let text = format!("{name} = {} m", stated(height));
+        // one that is searched has all its digits
+        let text = format!("{name} = {} m", shown(height));
         self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
     }
 

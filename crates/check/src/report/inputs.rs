@@ -15,8 +15,8 @@ const SMALL: [&str; 2] = ["tie_slack", "tie_ultimate"];
 const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 
 impl Origin<'_> {
-    /// Returns where a number of the bar of the tie comes from.
-    fn of_bar(&self, number: &BarNumber) -> &'static str {
+    /// Returns where a number of the bar of the tie comes from; `is_usual` says that it is the default.
+    fn of_bar(&self, number: &BarNumber, is_usual: bool) -> &'static str {
         let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(number.usual.name);
         if self.file.states(&["check", "tie", "bar", number.key]) {
             "[check] tie"
@@ -24,7 +24,7 @@ impl Origin<'_> {
             "--set"
         } else if self.file.states(&["tie", "bar", number.key]) {
             "scene"
-        } else if self.wall.is_some() {
+        } else if self.wall.is_some() && !is_usual {
             "file"
         } else {
             "default"
@@ -88,7 +88,8 @@ fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
         let unit = if number.key == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
         let text = number.text.split("; ").next().unwrap_or_default();
         let name = format!("{} <small translate=\"no\">{}</small>", escaped(text), number.usual.name);
-        Some([name, value_in(given, unit), origin.of_bar(number).to_owned()])
+        let is_usual = Bar::default().get(index) == Some(given);
+        Some([name, value_in(given, unit), origin.of_bar(number, is_usual).to_owned()])
     };
     numbers.filter_map(row).collect()
 }

@@ -3,12 +3,14 @@
 //! Reports are written in English. Whatever a reader sees of one passes this table, a fragment of text at a
 //! time: what stands between two tags other than those of formulas. `{}` in a phrase stands for anything,
 //! such as a number, and is translated in turn. What the user writes is marked `translate="no"` and stays.
+//! Numbers of an Italian report have decimal commas.
 
 use std::borrow::Cow;
 
 use ::report::escaped;
 use serde::Deserialize;
 
+use super::decimals::with_commas;
 use super::markup::formula;
 
 /// The language of a report.
@@ -68,7 +70,7 @@ pub(crate) fn translated(page: String, language: Language) -> String {
     walk(&page, |part| {
         text.push_str(&match part {
             Part::Markup(markup) => phrases.labels(markup),
-            Part::Text(fragment) => phrases.fragment(fragment),
+            Part::Text(fragment) => with_commas(&phrases.fragment(fragment)).into(),
         });
     });
     text.replacen("<html lang=\"en\"", &format!("<html lang=\"{}\"", language.name()), 1)
@@ -101,7 +103,7 @@ fn symbols(fragment: &str, text: &mut String) {
         let word = word.trim_end_matches(',');
         rest = &rest[word.len()..];
         match word {
-            "zeta_E" => *text += &formula("ζ_E"),
+            "zeta_E" | "ζ_E" => *text += &formula("ζ_E"),
             "alpha0" | "α0" => *text += &formula("α0"),
             _ if SYMBOLS.contains(&word) => *text += &formula(word),
             _ => text.push_str(word),
@@ -149,6 +151,7 @@ fn skipped(rest: &str) -> Option<usize> {
         .or_else(|| ends("<span translate=\"no\"", "</span>"))
         .or_else(|| ends("<small translate=\"no\"", "</small>"))
         .or_else(|| ends("<title", "</title>"))
+        .or_else(|| ends("<tspan", "</tspan>"))
 }
 
 /// Where the text that begins here ends.
@@ -189,7 +192,8 @@ impl Phrases {
     fn labels<'a>(&self, markup: &'a str) -> Cow<'a, str> {
         let Some((before, after)) = markup.split_once(" aria-label=\"") else { return markup.into() };
         let Some((label, after)) = after.split_once('"') else { return markup.into() };
-        format!("{before} aria-label=\"{}\"{after}", self.fragment(label)).into()
+        let label = with_commas(&self.fragment(label));
+        format!("{before} aria-label=\"{label}\"{after}").into()
     }
 
     /// Translates a fragment; what the table does not hold stays.

@@ -1,5 +1,6 @@
 //! The report of a check for a calculation file, in one page: what the reports of all codes share.
 
+mod decimals;
 pub(crate) mod drawing;
 pub(crate) mod inputs;
 pub(crate) mod language;
@@ -72,7 +73,7 @@ impl Figure {
     }
 }
 
-/// Makes the page of a report: the verdict, the sections of its code, warnings and the fingerprints of what
+/// Makes the page of a report: the verdict, warnings, the sections of its code, and the fingerprints of what
 /// was read.
 ///
 /// # Errors
@@ -82,26 +83,70 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
-    // a signature does not stand alone on its page
-    let page = sheet(page, verdict, origin)?.text("<div class=\"together\">");
-    let page = page.section("Document", &document(origin)?).text(SIGNED).text("</div>");
+    let page = sections(sheet_head(page, verdict, origin), verdict.details.site()?);
+    let page = sections(page, verdict.details.sections(origin)?);
+    let page = end(page, &verdict.details.readings(), origin)?;
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(with_symbols(&translated(page, origin.report.language)))
+    Ok(finished(page, origin))
 }
 
-/// Adds the sections about a wall: verdict, those of the code, warnings.
-fn sheet(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<Page, CheckError> {
-    // the lines of single runs, which are indented, have a table of their own
-    let notes: Vec<_> = verdict.notes.iter().filter(|note| !note.starts_with("  ")).cloned().collect();
-    let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&notes));
-    let mut page = page.section("Verdict", &checks);
-    for (heading, markup) in verdict.details.sections(origin)? {
-        page = page.section(&heading, &markup);
+/// Returns a page in its language, with its symbols as formulas and the files of the user as they are named.
+fn finished(page: String, origin: &Origin<'_>) -> String {
+    let mut page = with_symbols(&translated(page, origin.report.language));
+    for (index, path) in origin.records.files.iter().enumerate() {
+        page = page.replace(&mark(index), &as_written(&file_name(path)));
     }
-    let warnings: Vec<_> = verdict.warnings.iter().chain(&origin.records.warnings).cloned().collect();
+    page
+}
+
+/// Stands for the name of a file until a page is translated: no word, symbol or number.
+fn mark(index: usize) -> String {
+    format!("\u{e000}{index}\u{e001}")
+}
+
+/// The name of a file; folders are the machine's.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+impl Records {
+    /// Returns a text with a mark in place of each file of the records.
+    fn marked(&self, text: &str) -> String {
+        let files = self.files.iter().enumerate();
+        files.fold(text.to_owned(), |text, (index, path)| {
+            text.replace(&path.display().to_string(), &mark(index))
+        })
+    }
+}
+
+/// Adds the verdict on a wall and its warnings.
+fn sheet_head(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Page {
+    // the lines of single runs, which are indented, have a table of their own
+    let notes = verdict.notes.iter().filter(|note| !note.starts_with("  "));
+    let notes: Vec<_> = notes.map(|note| origin.records.marked(note)).collect();
+    let checks = format!("<div class=\"checks\">{}</div>{}", verdict.html(), list(&notes));
+    let warnings = verdict.warnings.iter().chain(&origin.records.warnings);
+    let warnings: Vec<_> = warnings.map(|warning| origin.records.marked(warning)).collect();
     let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
-    Ok(page.section("Warnings", &warnings))
+    page.section("Verdict", &checks).section("Warnings", &warnings)
+}
+
+fn sections(page: Page, sections: Vec<(String, String)>) -> Page {
+    sections.into_iter().fold(page, |page, (heading, markup)| page.section(&heading, &markup))
+}
+
+/// Adds what ends a report: the readings of the code, what was read, and the box for stamp and signature. The
+/// box does not stand alone on its page.
+fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page, CheckError> {
+    if !readings.is_empty() {
+        let items = readings.iter().map(|reading| ["<li>", reading, "</li>\n"].concat());
+        let items = items.collect::<String>();
+        let introduced = "<p>Where the code can be read in two ways, this check takes:</p>";
+        page = page.section("Readings of the code", &format!("{introduced}\n<ul>\n{items}</ul>\n"));
+    }
+    let page = page.text("<div class=\"together\">").section("Document", &document(origin)?);
+    Ok(page.text(&signed(origin)).text("</div>"))
 }
 
 /// The headline of a verdict as markup.
@@ -111,8 +156,12 @@ fn head(verdict: &Verdict<'_>) -> String {
     format!("<p class=\"verdict {passed}\">{headline}</p>")
 }
 
-/// The box for stamp and signature.
-const SIGNED: &str = "<div class=\"signed\"><p>Date</p><p>Stamp and signature</p></div>";
+/// The box for stamp and signature of the designer.
+fn signed(origin: &Origin<'_>) -> String {
+    let designer = origin.report.designer.as_deref();
+    let designer = designer.map_or_else(String::new, |name| format!("<br>{}", as_written(name)));
+    format!("<div class=\"signed\"><p>Date</p><p>Stamp and signature{designer}</p></div>")
+}
 
 impl Origin<'_> {
     /// The code and the date as markup.
@@ -132,16 +181,14 @@ impl Origin<'_> {
 
 /// Program, version, date, and the fingerprints of what was read.
 fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
-    // names of folders are the machine's
-    let name = |path: &Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let own = name(Path::new(origin.file.name()));
+    let own = file_name(Path::new(origin.file.name()));
     let mut files = vec![(own, fingerprint(origin.file.text().as_bytes()))];
     for path in &origin.records.files {
         let bytes = std::fs::read(path).map_err(|error| SceneError::File {
             file: path.display().to_string(),
             reason: format!("{error}; the file could be read earlier in this run"),
         })?;
-        files.push((name(path), fingerprint(&bytes)));
+        files.push((file_name(path), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
     let inputs: Vec<&str> =

@@ -6,10 +6,9 @@ use ::report::escaped;
 use ::report::page::Page;
 use run::walls::NamedWall;
 
-use super::language::{translated, with_symbols};
 use super::markup::table;
 use super::project::as_written;
-use super::{Origin, SIGNED, document, head, sheet};
+use super::{Origin, end, finished, head, sections, sheet_head};
 use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
@@ -56,19 +55,25 @@ pub fn page_of_walls(
     if !project.is_empty() {
         page = page.section("Project", &project);
     }
-    page = page.section("Summary of the walls", &cover).text(SIGNED);
+    page = sections(page.section("Summary of the walls", &cover), worst.details.site()?);
     for (name, verdict) in checked() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
         let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
         let own =
             Origin { title: name, file: own.as_ref().unwrap_or(origin.file), wall: Some(wall), ..*origin };
         page = page.text(&format!("<div class=\"sheet\"><h1>{}</h1>{}", as_written(name), head(verdict)));
-        page = sheet(page, verdict, &own)?.text("</div>");
+        page = sections(sheet_head(page, verdict, &own), verdict.details.sections(&own)?).text("</div>");
     }
-    let page = page.section("Document", &document(origin)?);
+    let mut readings: Vec<String> = Vec::new();
+    for reading in checked().flat_map(|(_, verdict)| verdict.details.readings()) {
+        if !readings.contains(&reading) {
+            readings.push(reading);
+        }
+    }
+    let page = end(page, &readings, origin)?;
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
-    Ok(with_symbols(&translated(page, origin.report.language)))
+    Ok(finished(page, origin))
 }
 
 /// The data of the walls and the numbers of their governing sides: a row a wall.

@@ -34,27 +34,34 @@ fn runs_under_records() {
         // on soil B the soil factor is capped at these a_g, so that the peaks follow a_g
         assert_eq!(verdict.passed, passes, "at {factor} of the lowest factor that fails");
     }
+    let seven = checked(&table(0.15, "7")).unwrap();
+    let state = seven.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
+    let mean = state.runs.iter().map(|run| run.d[0].max(run.d[1])).sum::<f64>() / 7.0;
+    near(state.d, mean, "of seven records the mean");
     let six = checked(&table(0.15, "6")).unwrap();
     let state = six.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
     let largest = state.runs.iter().map(|run| run.d[0].max(run.d[1])).fold(0.0, f64::max);
     near(state.d, largest, "of six records the least favourable");
 }
 
-/// FC divides forces and not masses: the wall with FC = 1 and its gravity over 1.35 has the same runs.
+/// FC divides forces, not masses: with FC = 1 and gravity, load and tie over 1.35 the runs are the same.
 #[test]
 fn the_confidence_factor_divides_forces() {
-    let table = |gravity: f64, factor: &str| {
+    let table = |over: f64, factor: &str| {
+        let [gravity, load, stiffness, strength] = [9.81, 2e3, 4e5, 800.0].map(|force| force / over);
         format!(
-            "{PARAPET}gravity = {gravity}\n[force_law]\na1 = 0.03\n[damping]\ndamping_model = \
+            "{PARAPET}gravity = {gravity}\noverburden = {load}\n[tie]\ntie_height = 3\n\
+             tie_stiffness = {stiffness}\ntie_strength = {strength}\ntie_ultimate = 0.05\n\
+             [force_law]\na1 = 0.03\n[damping]\ndamping_model = \
              \"constant_coefficient\"\nxi = 0.05\n [check]\ncode = \"circolare-2019\"\n\
-             before_activation = \"law\"\nsoil = \"B\"\n{factor}\n\
+             before_activation = \"law\"\nsoil = \"B\"\noverburden_mass = 0\n{factor}\n\
              record_scale = \"none\"\nmethod = \"dynamic\"\n\
              records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
-    let with = checked(&table(9.81, "confidence_factor = 1.35")).unwrap();
+    let with = checked(&table(1.0, "confidence_factor = 1.35")).unwrap();
     let unity = "confidence_factor = 1\ncompression_considered = true";
-    let without = checked(&table(9.81 / 1.35, unity)).unwrap();
+    let without = checked(&table(1.35, unity)).unwrap();
     let runs = |verdict: &check::circolare::Outcome| {
         verdict.dynamic.as_ref().unwrap().slv.as_ref().unwrap().runs.clone()
     };
@@ -121,6 +128,10 @@ fn records_are_scaled_to_the_spectrum() {
         near(found.largest_at, largest_at, "its period");
         assert!(found.compatible);
     }
+    // over a range in which their mean is above 0.9 they are scaled by their own factors alone
+    let narrow = under_records(3, "record_scale = \"spectrum\"\nrecord_range = [0.5, 0.51]");
+    let found = narrow.dynamic.unwrap().slv.unwrap().compatibility.unwrap();
+    assert!(found.least > 0.95 && found.largest < 1.05 && found.compatible, "{found:?}");
     let outcome = under_records(3, "record_scale = \"none\"");
     let found = outcome.dynamic.unwrap().slv.unwrap().compatibility.unwrap();
     assert!(found.largest < 1.3 && found.compatible == (found.least >= 0.9), "{found:?}");
@@ -159,4 +170,41 @@ fn both_signs_of_a_record_run() {
     for (both, one) in same {
         assert_eq!(both, one);
     }
+}
+
+/// Runs rock as the scene does: one that falls to a side that the static checks leave out fails.
+#[test]
+fn a_fall_to_a_side_that_is_not_checked_fails() {
+    let table = |ag: f64| {
+        format!(
+            "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+             rocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
+             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = {ag}, F0 = 2.45, TC = 0.32 }}\n"
+        )
+    };
+    let outcome = checked(&table(0.6)).unwrap();
+    let said = "the static checks take rocking = one_sided_positive of [check], the runs rocking = two_sided";
+    assert!(outcome.warnings.iter().any(|warning| warning.contains(said)), "{:?}", outcome.warnings);
+    let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
+    let fallen = state.runs.iter().filter(|run| run.d[1] > 0.2).count();
+    assert!(fallen > 0 && !state.passed, "{:?}", state.runs);
+    assert!(state.runs.iter().all(|run| run.beyond_d0 == (run.d[0] > 0.2 || run.d[1] > 0.2)));
+}
+
+/// Records are held against the spectrum up to 2 s, or to 2 `T_1` of a soft building.
+#[test]
+fn the_range_of_a_soft_building_is_longer() {
+    let last = |period: f64| {
+        let text = format!(
+            "{PARAPET}[[storeys]]\nperiod = {period}\n[check]\ncode = \"circolare-2019\"\n\
+             before_activation = \"rigid\"\nsoil = \"B\"\nmethod = \"dynamic\"\n\
+             records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
+             SLV = {{ ag = 0.1, F0 = 2.45, TC = 0.32, building_damping = 0.1 }}\n"
+        );
+        let state = checked(&text).unwrap().dynamic.unwrap().slv.unwrap();
+        state.compatibility.unwrap().ratios.last().unwrap().0
+    };
+    // T_SLV of this wall is 2.26 s
+    near(last(0.3), 2.26079, "T_SLV");
+    near(last(1.5), 3.0, "2 T_1");
 }

@@ -95,8 +95,8 @@ fn walls_that_do_not_go_with_the_statements_are_refused() {
     let rigid = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n";
     let trilinear = "[force_law]\nforce_law = \"trilinear\"\na1 = 0.03\na3 = 1\nd1 = 0.7\n";
     let full = format!("kinematics = \"trigonometric\"\n{rigid}[impact]\nimpact = \"restitution\"\n");
-    let first = "SLC comes before SLV: d_SLC = 0.05 m is below d_SLV = 0.08";
-    let slow = "SLV: the elastic branch ends at d_y = 0.1";
+    let first = "SLC comes before SLV: d_SLC = 50 mm is below d_SLV = 80 mm";
+    let slow = "SLV: the elastic branch ends at d_y = 100 mm";
     for (wall, table, message) in [
         ("overburden = 5e3\n", with(""), "state whether the overburden's mass moves along"),
         (strip, with("overburden_mass = 1"), "the top of a strip wall is held"),

@@ -176,6 +176,9 @@ fn what_the_hinge_and_a1_change() {
     let side = negative(&outcome);
     near_all(&zetas(side).0, &[2.45573, 2.60430, 0.978529, 1.02206], "least alpha0");
     near(side.slv.unwrap().ratio, 0.774090, "SLV by displacement");
+    for hinge in zetas(side).1 {
+        assert!((hinge - 0.660745).abs() < HINGE, "{hinge}");
+    }
     near(side.least_alpha0.unwrap().zeta.unwrap(), 0.978529, "what it gives");
     near(side.least_alpha0.unwrap().worst.unwrap(), 0.947685, "what the least favourable one gives");
     // without load the upper end
@@ -215,10 +218,11 @@ fn hinges_that_are_set_back() {
          0\n masonry_strength = 1.2e6\nconfidence_factor = 1.2\nSLD = {site}\nSLV = {site}\n"
     ))
     .unwrap();
-    for (side, expected) in [
-        (positive(&outcome), [0.841674, 0.128854, 0.106676, 0.596545, 1.37137, 0.732291]),
-        (negative(&outcome), [0.871405, 0.164248, 0.135979, 0.760409, 1.37137, 0.933444]),
+    for (side, edges, expected) in [
+        (positive(&outcome), 0.153092, [0.841674, 0.128854, 0.106676, 0.596545, 1.37137, 0.732291]),
+        (negative(&outcome), 0.188487, [0.871405, 0.164248, 0.135979, 0.760409, 1.37137, 0.933444]),
     ] {
+        near(side.alpha0 / side.a3, edges, "alpha0 with the hinges at the edges");
         let slv = displaced(side.slv);
         let found = [side.a3, side.alpha0, side.d0, side.sld.unwrap().ratio, slv.period, slv.zeta];
         near_all(&found, &expected, "parapet");

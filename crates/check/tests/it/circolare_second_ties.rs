@@ -2,6 +2,7 @@
 //! program computed. Their numbers have six digits.
 #![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
 
+use check::circolare::SideVerdict;
 use check::{CheckFile, Found, Sought, find, read};
 use rocking_wall::scene::Scene;
 
@@ -92,11 +93,19 @@ fn ties_that_yield() {
     let side = positive(&outcome);
     near_all(&[side.sld.unwrap().ratio, side.slv_q.unwrap().ratio], &[2.13421, 1.97321], "bar at activation");
     let (slv, slc) = (displaced(side.slv), displaced(side.slc));
+    // u_y = N_y/K h/(2 y), u_r − u_y = e_p h/(2 y)
+    let (tie, lever) = (side.tie.unwrap(), 2.0 * 6.8 / 7.0);
+    let [yields, breaks] = [tie.yields, tie.breaks].map(Option::unwrap);
+    let stiffness = tie.strength.unwrap() / (lever * yields);
+    let numbers = [stiffness, tie.strength.unwrap(), lever * (breaks - yields)];
+    near_all(&numbers, &[2.34572e6, 15749.9, 0.113286], "K, N_y and e_p of the bar");
     near_all(&[side.tie.unwrap().breaks.unwrap(), slv.d, slv.zeta], &[0.0617647, 0.0713609, 1.15475], "bar");
     near_all(&[slc.ratio, slc.zeta], &[0.556940, 0.664546], "bar, SLC");
     let outcome = bar(", anchor_capacity = 30e3");
-    let slv = displaced(positive(&outcome).slv);
-    near_all(&[slv.ratio, slv.zeta], &[0.418495, 0.584854], "a weak anchor");
+    let side = positive(&outcome);
+    let (slv, tie) = (displaced(side.slv), side.tie.unwrap());
+    near_all(&[slv.ratio, slv.zeta, tie.strength.unwrap()], &[0.418495, 0.584854, 10e3], "a weak anchor");
+    assert_eq!(tie.yields, tie.breaks, "it does not stretch");
 }
 
 /// Example 14: ties that break while the wall is on its elastic branch, and limit states on that branch.
@@ -181,4 +190,57 @@ fn a_side_without_a_tie_blocks() {
         let text = text.replace("diameter = 0.016", &format!("diameter = {}", diameter * factor));
         assert_eq!(checked(&text).unwrap().passed, passes, "{factor} of {diameter}");
     }
+}
+
+/// A beam with the T0 of a bilinear law has its elastic branch, also where a tie breaks on it.
+#[test]
+fn a_beam_is_the_law_of_its_period() {
+    for tie in [
+        "tie_stiffness = 2.4e6\ntie_strength = 8e3",
+        "tie_stiffness = 1e5\ntie_strength = 500",
+        "tie_stiffness = 1e5\ntie_strength = 8e3",
+    ] {
+        let text = parapet(tie, "");
+        let of_law = checked(&text).unwrap();
+        let law = positive(&of_law);
+        // [C8.7.1.7]: E = ρ (κ h²/(b T0))²
+        let modulus = 1800.0 * (6.2 * 1.2 * 1.2 / (0.3 * law.t0)).powi(2);
+        let beam = format!("before_activation = \"beam\"\nyoung_modulus = {modulus:e}");
+        let of_beam = checked(&text.replace("before_activation = \"law\"", &beam)).unwrap();
+        let beam = positive(&of_beam);
+        let numbers = |side: &SideVerdict| {
+            let slv = displaced(side.slv);
+            let loss = side.tie.unwrap().loss.unwrap();
+            [side.t0, side.dy, side.ay, loss, slv.d, slv.a, slv.demand, slv.zeta, displaced(side.slc).zeta]
+        };
+        for (beam, law) in numbers(beam).into_iter().zip(numbers(law)) {
+            // some roundings
+            assert!((beam - law).abs() <= 1e-12 * law.abs(), "{beam} for {law}: {tie}");
+        }
+    }
+}
+
+/// Of given points the largest S_d from T0 on counts: that of wall and tie, or with slack that of the wall.
+#[test]
+fn a_slack_tie_does_not_shorten_the_period_of_the_demand() {
+    let of = |slack: f64| {
+        let tie = format!("tie_stiffness = 2.4e6\ntie_strength = 8e3\ntie_slack = {slack}");
+        let text = parapet(&tie, "");
+        let (wall, _) = text.split_once("[check]").unwrap();
+        // a peak at 0.1 s and a plateau up to 0.3 s, between T0 with the tie, 0.061 s, and without, 0.356 s
+        let table = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\n\
+                     SLC = { ag = 0.2, spectrum = [[0, 0.2], [0.0999, 0.2], [0.1, 900], [0.1001, 0.2], \
+                     [0.2, 0.2], [0.2001, 90], [0.3, 90], [0.3001, 0.2], [9, 0.1]], \
+                     spectrum_damping = 0.1 }\n";
+        let outcome = checked(&format!("{wall}{table}")).unwrap();
+        let (t0, slc) = (positive(&outcome).t0, displaced(positive(&outcome).slc));
+        (t0, slc.demand, slc.acceleration * (slc.period / std::f64::consts::TAU).powi(2))
+    };
+    let [(t0, tight, _), (same, slack, at_the_end)] = [0.0, 1e-6].map(of);
+    near(t0, 0.356487, "T0 of the wall");
+    assert_eq!(t0, same);
+    // 900 g at 0.1 s
+    near(tight, 900.0 * 9.81 * (0.1 / std::f64::consts::TAU).powi(2), "the peak");
+    // beyond 0.3 s S_d rises
+    near(slack, at_the_end, "S_d at T_SLC");
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
@@ -343,6 +343,8 @@ class Wall(Given):
         ultimate: ArrayLike | None = None,
         bar_diameter: ArrayLike | None = None,
         scale: float = 1.0,
+        level: str | None = None,
+        check: Mapping[str, Any] | None = None,
         both_polarities: bool = False,
         threads: int | None = None,
     ) -> TieStudy:
@@ -359,10 +361,14 @@ class Wall(Given):
             elastic.
         :param bar_diameter: Diameters of the bar of the tie [m] instead.
         :param scale: Factor on the records.
+        :param level: "SLD", "SLV" or "SLC": bring the records to the level of that limit state, as the
+            dynamic check does.
+        :param check: The statements of the check, as those of `check()`, such as `SLV` and `soil`.
         :param both_polarities: Run each motion with both signs.
         :param threads: Number of threads; by default one for each core.
 
-        Raises `ValueError` for a wall without a tie or a motion, or a value beyond its limits.
+        Raises `ValueError` for a wall without a tie or a motion, a value beyond its limits, or a limit state
+        that `check` does not state.
 
         >>> from rocking_wall import synthetic_record
         >>> wall = Wall(height=3, thickness=0.25, tie_height=3)
@@ -372,18 +378,29 @@ class Wall(Given):
         given = [records] if isinstance(records, Record) else records
         if scale != 1.0 and len(given) == 0:
             raise ValueError("scale needs records beside it")
+        if (level is None) != (check is None):
+            raise ValueError("level and check go together: a limit state, and what states its level")
+        if level is not None and len(given) == 0:
+            raise ValueError("level needs records beside it, whose level that is")
         motions = [scaled(motion_of(record), scale, "scale") for record in given]
+        of_check = None
+        if level is not None:
+            table = {"code": "circolare-2019", **(check or {}), "records": {}}
+            names = [getattr(record, "name", "") for record in given]
+            of_check = (level, "[check]\n" + toml_lines(table), list(zip(names, motions, strict=True)))
         ties = {"stiffness": stiffness, "strength": strength, "slack": slack}
         ties |= {"height": height, "ultimate": ultimate, "bar_diameter": bar_diameter}
         chosen = [name for name, values in ties.items() if values is not None] or ["stiffness"]
         if len(chosen) > 1:
             raise ValueError(f"{' and '.join(chosen)} are given; give one of them")
         varied = chosen[0] if chosen[0] == "bar_diameter" else f"tie_{chosen[0]}"
-        values, table, picture, is_alike = _native.tie_of_wall(
-            self._native, motions, (varied, ties[chosen[0]]), both_polarities, threads
+        values, found, picture, is_alike, warnings = _native.tie_of_wall(
+            self._native, motions, of_check, (varied, ties[chosen[0]]), both_polarities, threads
         )
+        for warning in warnings:
+            warn(warning, stacklevel=2)
         return TieStudy(
-            varied, **values, table=Table(table), alike_on_both_sides=is_alike, _picture=picture
+            varied, **values, table=Table(found), alike_on_both_sides=is_alike, _picture=picture
         )
 
     def calibrate(

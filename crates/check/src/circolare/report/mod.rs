@@ -5,9 +5,9 @@ mod hinges;
 mod inputs;
 mod limit_states;
 pub(super) mod overview;
-mod readings;
+pub(super) mod readings;
 mod runs;
-mod site;
+pub(super) mod site;
 mod ties;
 
 use super::table::{Activation, Hinge};
@@ -36,14 +36,12 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(S
     let mut sections = vec![
         one("Statements of the engineer", inputs::statements(case, origin)),
         one("The wall", the_wall(&case.wall, &case.parameters, origin, &is_used)),
-        one("Site and building", site::values(case)),
-        one("Spectra", site::figures(case)?),
+        one("Demand at the wall", site::at_wall(case)?),
     ];
     sections.extend(hinges::section(case).map(|markup| one("Hinges", markup)));
     sections.push(one("Capacity curve", capacity::section(case)?));
     sections.extend(ties::section(case).map(|markup| one("The tie", markup)));
     sections.extend(limit_states::sections(case));
     sections.extend(runs::section(case).map(|markup| one("Runs under records C8.7.1.2.1.9", markup)));
-    sections.push(one("Readings of the code", readings::section(case)));
     Ok(sections)
 }

@@ -93,14 +93,9 @@ const READINGS: [Reading; 13] = [
     ),
 ];
 
-/// The readings that bear on this check, as a list.
-pub(super) fn section(case: &Checked<'_>) -> String {
-    let taken = READINGS.into_iter().filter(|(bears, _)| bears(case));
-    let items: Vec<_> = taken.map(|(_, text)| format!("<li>{}</li>\n", filled(text))).collect();
-    format!(
-        "<p>Where the code can be read in two ways, this check takes:</p>\n<ul>\n{}</ul>\n",
-        items.concat()
-    )
+/// The readings that bear on this check, as markup.
+pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<String> {
+    READINGS.into_iter().filter(|(bears, _)| bears(case)).map(|(_, text)| filled(text)).collect()
 }
 
 /// The text with the formulas in its braces as markup.

@@ -1,9 +1,9 @@
-//! The site, the building and their spectra.
+//! The site, what acts at the wall, and their spectra.
 
 use crate::circolare::figure::{DEMAND, Drawn, color, spectra};
 use crate::circolare::{
-    BuildingTable, CheckTable, Checked, Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM,
-    Mode, Source, StateStatement, Topography,
+    BuildingTable, CheckTable, Checked, Demand, DisplacementCheck, FloorSpectrum, GroundSpectrum, LimitState,
+    MEAN_COUNTS_FROM, Mode, Source, StateStatement, Topography,
 };
 use crate::error::CheckError;
 use crate::report::Figure;
@@ -53,60 +53,94 @@ const GROUND: [OfGround; 10] = [
     ("T_E", "Tab. 3.2.VII", "s", |ground| ground.t_e),
 ];
 
-/// The numbers of the site and of the building, one column a limit state.
-pub(super) fn values(case: &Checked<'_>) -> String {
-    let states: Vec<_> = checked(case).collect();
-    let mut rows = Vec::new();
-    let mut row =
-        |name: &str, source: &str, unit: &str, value: &dyn Fn(&(&StateStatement, &Demand)) -> String| {
-            let values: Vec<_> = states.iter().map(value).collect();
-            if values.iter().any(|value| value != "–") {
-                let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
-                let name = format!("{}{unit} <small>{source}</small>", formula(name));
-                rows.push([name, values.join("</td><td>")]);
-            }
-        };
-    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), shown);
-    row("a_g", "[check]", "g", &|(given, _)| shown(given.ag));
-    for (name, source, unit, value) in GROUND {
-        row(name, source, unit, &|(_, demand)| some(ground(demand).map(value)));
+/// A limit state that is checked, with its demand.
+type Stated<'a> = (&'a StateStatement, &'a Demand);
+
+/// Rows of numbers, one column a limit state.
+struct Rows<'a> {
+    states: Vec<Stated<'a>>,
+    rows: Vec<[String; 2]>,
+}
+
+impl<'a> Rows<'a> {
+    fn new(case: &'a Checked<'_>) -> Self {
+        Self { states: checked(case).collect(), rows: Vec::new() }
     }
-    row("a_g S", "[3.2.2]", "m/s²", &|(_, demand)| {
+
+    /// Adds a row: symbol, source, unit and values, unless no limit state has one.
+    fn row(&mut self, [name, source, unit]: [&str; 3], value: impl Fn(&Stated<'a>) -> String) {
+        let values: Vec<_> = self.states.iter().map(value).collect();
+        if values.iter().any(|value| value != "–") {
+            let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+            let name = format!("{}{unit} <small>{source}</small>", formula(name));
+            self.rows.push([name, values.join("</td><td>")]);
+        }
+    }
+
+    fn table(self) -> String {
+        let heads: Vec<_> = self.states.iter().map(|(given, _)| given.state.to_string()).collect();
+        let heads: Vec<&str> = std::iter::once("").chain(heads.iter().map(String::as_str)).collect();
+        table(&heads, &self.rows)
+    }
+}
+
+fn some(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), shown)
+}
+
+/// The section of the site: its numbers, and the spectra of its ground.
+pub(in crate::circolare) fn section(case: &Checked<'_>) -> Result<Vec<(String, String)>, CheckError> {
+    let mut rows = Rows::new(case);
+    rows.row(["a_g", "[check]", "g"], |(given, _)| shown(given.ag));
+    for (name, source, unit, value) in GROUND {
+        rows.row([name, source, unit], |(_, demand)| some(ground(demand).map(value)));
+    }
+    rows.row(["a_g S", "[3.2.2]", "m/s²"], |(_, demand)| {
         some(ground(demand).map(|ground| ground.acceleration(0.0, 0.05)))
     });
-    row("ξ", "C8.7.1.2.1.5, .8", "", &|(given, _)| shown(given.damping));
+    Ok(vec![("Site hazard".to_owned(), ground_of(case) + &rows.table() + &of_ground(case)?)])
+}
+
+/// What acts at the place of the wall: its numbers, and its spectra.
+pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
+    let mut rows = Rows::new(case);
+    rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| shown(given.damping));
     let each = |values: &[f64]| values.iter().copied().map(shown).collect::<Vec<_>>().join("; ");
     let modes = |demand: &Demand, value: fn(&Mode) -> f64| {
         let values = |floor: &FloorSpectrum| each(&floor.modes().iter().map(value).collect::<Vec<_>>());
         floor(demand).map_or_else(|| "–".to_owned(), values)
     };
-    row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, |mode| mode.period));
-    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| modes(demand, |mode| mode.participation));
-    row("ξ_k", "C8.7.1.2.1.4", "", &|(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
-    row("a_Z,k", "[C7.2.7]", "m/s²", &|(_, demand)| {
+    rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |mode| mode.period));
+    rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |mode| mode.participation));
+    rows.row(["ξ_k", "C8.7.1.2.1.4", ""], |(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
+    rows.row(["a_Z,k", "[C7.2.7]", "m/s²"], |(_, demand)| {
         floor(demand).map_or_else(|| "–".to_owned(), |floor| each(floor.mode_accelerations()))
     });
-    row("a_Z", "[C7.2.8]", "m/s²", &|(_, demand)| some(floor(demand).map(FloorSpectrum::printed_peak)));
-    row("A_k", "[C7.2.9]", "", &|(given, demand)| {
+    rows.row(["a_Z", "[C7.2.8]", "m/s²"], |(_, demand)| {
+        some(floor(demand).map(FloorSpectrum::printed_peak))
+    });
+    rows.row(["A_k", "[C7.2.9]", ""], |(given, demand)| {
         some(floor(demand).map(|floor| floor.amplification(given.damping)))
     });
-    let heads: Vec<_> = states.iter().map(|(given, _)| given.state.to_string()).collect();
-    let heads: Vec<&str> = std::iter::once("").chain(heads.iter().map(String::as_str)).collect();
-    place(case) + &table(&heads, &rows)
+    Ok(place(case) + &rows.table() + &spectra_at_wall(case)?)
+}
+
+/// Soil and topography.
+fn ground_of(case: &Checked<'_>) -> String {
+    let CheckTable { soil, topography, .. } = &case.statement.table;
+    let Some(soil) = soil else { return String::new() };
+    let topography = match topography {
+        None => "T1 (default)".to_owned(),
+        Some(Topography::Category(name)) => name.clone(),
+        Some(Topography::Factor(factor)) => shown(*factor),
+    };
+    format!("<p>{}.</p>\n", ::report::escaped(&format!("Soil {soil}, topography {topography}")))
 }
 
 /// Describes where the wall stands.
 fn place(case: &Checked<'_>) -> String {
     let mut said = Vec::new();
-    let CheckTable { soil, topography, building, .. } = &case.statement.table;
-    if let Some(soil) = soil {
-        let topography = match topography {
-            None => "T1 (default)".to_owned(),
-            Some(Topography::Category(name)) => name.clone(),
-            Some(Topography::Factor(factor)) => shown(*factor),
-        };
-        said.push(::report::escaped(&format!("Soil {soil}, topography {topography}")));
-    }
+    let building = &case.statement.table.building;
     if let Some(BuildingTable {
         storeys: Some(storeys),
         period: Some(period),
@@ -116,17 +150,17 @@ fn place(case: &Checked<'_>) -> String {
     {
         let [period, ratio] = [*period, *ratio].map(shown);
         said.push(format!(
-            "building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
+            "Building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
              {} = {ratio}",
             formula("T_1"),
             formula("z/H")
         ));
     } else if building.is_some() {
-        said.push("modes of the building as given in [check.building]".into());
+        said.push("Modes of the building as given in [check.building]".into());
     } else if let Some(floors) = case.floors {
-        said.push(format!("the motion of the ground is {}", ::report::escaped(&floors.note())));
+        said.push(format!("The motion of the ground is {}", ::report::escaped(&floors.note())));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {
-        said.push("the wall stands on the ground".into());
+        said.push("The wall stands on the ground".into());
     }
     for given in case.statement.states.iter().flatten() {
         let state = given.state;
@@ -149,50 +183,57 @@ fn combined(case: &Checked<'_>) -> &'static str {
     if enough { "mean spectrum" } else { "envelope of the spectra" }
 }
 
-/// The spectra of the site, and those at the wall's place with the periods of the governing side.
-pub(super) fn figures(case: &Checked<'_>) -> Result<String, CheckError> {
-    let Some(side) = case.governing() else { return Ok(String::new()) };
-    let period = |state: LimitState| match state {
-        LimitState::Sld => side.sld.map(|_| side.t0),
-        LimitState::Slv => side.slv.map(|check| check.period),
-        LimitState::Slc => side.slc.map(|check| check.period),
-    };
-    let last = LimitState::ALL.into_iter().filter_map(period).fold(1.0, f64::max);
-    let last = (1.15 * last).max(1.5);
-    let (mut of_ground, mut at_wall) = (Vec::new(), Vec::new());
+/// The period of the governing side in each limit state; 0 for a rigid wall, `None` without a check \[s\].
+fn periods(case: &Checked<'_>) -> [Option<f64>; 3] {
+    let Some(side) = case.governing() else { return [None; 3] };
+    let displaced = |check: Option<DisplacementCheck>| check.map(|check| check.period);
+    [side.sld.map(|_| side.t0), displaced(side.slv), displaced(side.slc)]
+}
+
+/// Where the axis of periods ends \[s\].
+fn last_period(case: &Checked<'_>) -> f64 {
+    (1.15 * periods(case).into_iter().flatten().fold(1.0, f64::max)).max(1.5)
+}
+
+/// The spectra of the ground; empty where none is by the code.
+fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
     let grounds: Vec<_> = checked(case)
         .filter_map(|(given, demand)| Some((given.state, Demand::Ground(*ground(demand)?))))
         .collect();
-    for (state, demand) in &grounds {
-        of_ground.push(Drawn { state: *state, demand, damping: LimitState::Sld.damping(), period: None });
+    let damping = LimitState::Sld.damping();
+    let drawn = grounds.iter().map(|(state, demand)| Drawn { state: *state, demand, damping, period: None });
+    let drawn: Vec<_> = drawn.collect();
+    if drawn.is_empty() {
+        return Ok(String::new());
     }
-    for (given, demand) in checked(case) {
-        let state = given.state;
-        // points of another damping have no value for a check that is not made
-        if let Some(period) = period(state) {
-            at_wall.push(Drawn { state, demand, damping: given.damping, period: Some(period) });
-        }
+    let caption = format!("Site: {} at 5 % damping [3.2.2]. {}", formula("S_e(T)"), key(&drawn, false));
+    Ok(Figure { caption, plot: spectra(&drawn, "S_e (m/s²)", last_period(case))? }.html())
+}
+
+/// The spectra at the wall's place with the periods of the governing side.
+fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
+    let periods = periods(case);
+    // points of another damping have no value for a check that is not made
+    let drawn = checked(case).filter_map(|(given, demand)| {
+        let (state, damping) = (given.state, given.damping);
+        Some(Drawn { state, demand, damping, period: Some(periods[state as usize]?) })
+    });
+    let drawn: Vec<_> = drawn.collect();
+    if drawn.is_empty() {
+        return Ok(String::new());
     }
-    let mut text = String::new();
-    if !of_ground.is_empty() {
-        let caption =
-            format!("Site: {} at 5 % damping [3.2.2]. {}", formula("S_e(T)"), key(&of_ground, false));
-        text += &Figure { caption, plot: spectra(&of_ground, "S_e (m/s²)", last)? }.html();
-    }
-    if !at_wall.is_empty() {
-        let at_height = at_wall.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
-        let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
-        let source = if of_ground.is_empty() { "as given" } else { source };
-        let caption = format!(
-            "At the wall: {} {source} at the damping of the mechanism; {} of the governing side. {}",
-            formula(&format!("{symbol}(T, ξ)")),
-            formula("T0, T_SLV, T_SLC"),
-            key(&at_wall, true)
-        );
-        let plot = spectra(&at_wall, &format!("{symbol} (m/s²)"), last)?;
-        text += &Figure { caption, plot }.html();
-    }
-    Ok(text)
+    let is_of_code = checked(case).any(|(_, demand)| ground(demand).is_some());
+    let at_height = drawn.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
+    let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
+    let source = if is_of_code { source } else { "as given" };
+    let caption = format!(
+        "At the wall: {} {source} at the damping of the mechanism; {} of the governing side. {}",
+        formula(&format!("{symbol}(T, ξ)")),
+        formula("T0, T_SLV, T_SLC"),
+        key(&drawn, true)
+    );
+    let plot = spectra(&drawn, &format!("{symbol} (m/s²)"), last_period(case))?;
+    Ok(Figure { caption, plot }.html())
 }
 
 /// The colours of spectra.

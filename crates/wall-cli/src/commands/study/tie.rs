@@ -3,10 +3,10 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use anyhow::{Context as _, Result, bail};
-use check::{CheckFile, Level, Subject, read};
+use anyhow::{Context as _, Result};
+use check::{CheckFile, read};
 use clap::Args;
-use ground_motion::{GroundMotion, RecordOptions, Unit};
+use ground_motion::{RecordOptions, Unit};
 use report::{counted, number};
 use rocking_wall::scene::{Scene, read_text};
 use rocking_wall::variables::TieSide;
@@ -16,7 +16,9 @@ use run::polarity::Polarities;
 use run::records::NamedRecord;
 use serde_json::json;
 use study::tie::figure::picture;
-use study::tie::{BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
+use study::tie::{
+    AtLevel, BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, at_level, table,
+};
 
 use crate::args::{SceneArguments, read_record, short_name};
 use crate::commands::check::MAX_FILE_BYTES;
@@ -82,11 +84,12 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
     let named = records(console, arguments)?;
-    let (records, factors, both_signs) = match &arguments.level {
-        Some(state) => at_level(console, arguments, &mut scene, named, state)?,
-        None => (named.into_iter().map(|record| record.motion).collect(), Vec::new(), false),
+    let AtLevel { scene, motions, factors, both_signs, .. } = if let Some(state) = &arguments.level {
+        of_check(console, arguments, &scene, named, state)?
+    } else {
+        AtLevel::as_given(scene, named.into_iter().map(|record| record.motion).collect())
     };
-    let study = TieStudy::new(scene, varied(arguments), records, arguments.both_polarities || both_signs);
+    let study = TieStudy::new(scene, varied(arguments), motions, arguments.both_polarities || both_signs);
     let study = arguments.scene.named(study)?;
     let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
     console.picture(arguments.plot.as_ref(), || Ok(picture(&study, &rows)))?;
@@ -123,38 +126,22 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.print(&format!("{title}, tie{place} against {side}, {motions}{level}\n\n{table}{note}{written}"))
 }
 
-/// The records at the level of a limit state of the check, their factors, and whether the check runs both
-/// signs; gives the wall the tie and the building that the check has there.
-fn at_level(
+/// The wall and its records at the level of a limit state of the check in the scene's file.
+fn of_check(
     console: &Console<'_>,
     arguments: &Arguments,
-    scene: &mut Scene,
+    scene: &Scene,
     named: Vec<NamedRecord>,
     state: &str,
-) -> Result<(Vec<GroundMotion>, Vec<f64>, bool)> {
+) -> Result<AtLevel> {
     let path = arguments.scene.scene.as_ref().context("--level needs a scene with a table [check]")?;
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     let file = CheckFile::parse(&name, &text)?.with_records(named);
-    let located = |error| file.located(error);
-    let code = read(&file).map_err(located)?;
+    let code = read(&file).map_err(|error| file.located(error))?;
     let assumed = file.assumed(&arguments.scene.set);
-    let subject = Subject { assumed: &assumed, ..(&*scene).into() };
-    let Some(Level { factors, floors, both_signs, warnings }) =
-        code.level(subject, state).map_err(located)?
-    else {
-        bail!(
-            "{name}: --level: code = {:?} has no limit states with runs; use code = \"circolare-2019\", or \
-             --scale",
-            code.entry().name
-        );
-    };
-    code.records().warnings.iter().chain(&warnings).for_each(|warning| console.warn(warning));
-    let motions = code.records().named.iter().zip(&factors);
-    let motions = motions.map(|(record, factor)| record.motion.checked_scaled(*factor));
-    let motions = motions.collect::<Result<_, _>>()?;
-    scene.parameters = code.prepared(&scene.parameters).map_err(located)?;
-    scene.floors = floors;
-    Ok((motions, factors, both_signs))
+    let found = at_level(&*code, scene, &assumed, state).map_err(|error| file.located(error))?;
+    found.warnings.iter().for_each(|warning| console.warn(warning));
+    Ok(found)
 }
 
 /// What is varied, and its values.
