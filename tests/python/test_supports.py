@@ -213,7 +213,7 @@ def stored(wall, law, u, u_ins, f0):
 
 @pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
 def test_power_through_the_supports(unpacked, shape):
-    """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 2.5e-7 of the energy exchanged.
+    """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 2.5e-7 of what is exchanged.
 
     Simpson's rule over 1.2e-4 s has an error at each corner of the force: about (ω₁ h)²/30 of the energy that
     passes within the step, which is 2.5e-7 of it. The drift is linear within the unit's steps; its error is
