@@ -26,8 +26,8 @@ from unit import Unit
 MANIFEST = Path(fmpy.__file__).parent / "schema/fmi3/fmi3LayeredStandardManifest.xsd"
 MISSING = "not run: the units have no WebAssembly component; `rustup target add wasm32-wasip2`, build again"
 # steps of a reference case: enough for its motion, few enough for calls from Python
-STEPS = 1000
-CALLS = 100_000
+STEPS = 400
+CALLS = 30_000
 
 
 @pytest.fixture(scope="module", autouse=True)

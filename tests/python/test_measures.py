@@ -67,22 +67,24 @@ def largest(function):
 
 def pseudo_velocity(samples, period):
     """Largest ω |u| of an oscillator with 5 % damping, from rest."""
-    omega, parts = 2 * np.pi / period, 4
-    refined = np.interp(np.arange((len(samples) - 1) * parts + 1) / parts, np.arange(len(samples)), samples)
-    step = STEP / parts
-    refined = np.concatenate([refined, np.zeros(int(np.ceil(period / step)))])
+    omega = 2 * np.pi / period
+    padded = np.concatenate([samples, np.zeros(int(np.ceil(period / STEP)))])
     matrix = np.array([[0, 1], [-(omega**2), -0.1 * omega]])
     system = (matrix, np.array([[0], [-1]]), np.eye(2), np.zeros((2, 1)))
-    _, states, _ = lsim(system, refined, step * np.arange(len(refined)))
+    # exact at the samples, because the motion is linear between them
+    _, states, _ = lsim(system, padded, STEP * np.arange(len(padded)))
     # u, u̇, a and its slope
     whole = np.zeros((4, 4))
     whole[:2, :2], whole[1, 2], whole[2, 3] = matrix, -1, 1
     best = np.abs(states[:, 0]).max()
     turns = np.flatnonzero(states[:-1, 1] * states[1:, 1] < 0)
-    # a piece that turns exceeds its ends by far less than a hundredth
-    for turn in turns[np.abs(states[turns, 0]) > 0.97 * best]:
-        start = [*states[turn], refined[turn], (refined[turn + 1] - refined[turn]) / step]
-        at = brentq(lambda t, s=start: (expm(whole * t) @ s)[1], 0, step, xtol=1e-15)
+    # from its peak to the nearer end of its piece |u| falls by h²/8 |ü|, where |ü| is ω² |u| + |a| at most;
+    # twice that has room for the change of ü
+    fall = STEP**2 / 4 * (omega**2 * best + np.abs(samples).max())
+    ends = np.maximum(np.abs(states[turns, 0]), np.abs(states[turns + 1, 0]))
+    for turn in turns[ends > best - fall]:
+        start = [*states[turn], padded[turn], (padded[turn + 1] - padded[turn]) / STEP]
+        at = brentq(lambda t, s=start: (expm(whole * t) @ s)[1], 0, STEP, xtol=1e-15)
         best = max(best, abs((expm(whole * at) @ start)[0]))
     return omega * best
 

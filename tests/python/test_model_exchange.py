@@ -318,7 +318,7 @@ def test_a_scenes_record_is_exact_between_events(scenes):
     with Unit(scene) as steps, Exchange(scene) as exchange:
         steps.start()
         exchange.run()
-        for time in np.arange(0.0, 2.0, 0.1):
+        for time in np.arange(0.0, 1.5, 0.1):
             steps.step(0.1)
             exchange.integrate(time + 0.1, 1e-8)
             assert exchange.states()[0] == pytest.approx(steps.get("u"), abs=1e-12)

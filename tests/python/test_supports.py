@@ -213,17 +213,17 @@ def stored(wall, law, u, u_ins, f0):
 
 @pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
 def test_power_through_the_supports(unpacked, shape):
-    """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 1e-8 of the energy exchanged.
+    """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 2.5e-7 of what is exchanged.
 
-    Simpson's rule over 2.4e-5 s has an error at each corner of the force: about (ω₁ h)²/30 of the energy that
-    passes within the step, which is 1e-8 of it. The drift is linear within the unit's steps; its error is h²
-    a/8, 1e-10 m.
+    Simpson's rule over 1.2e-4 s has an error at each corner of the force: about (ω₁ h)²/30 of the energy that
+    passes within the step, which is 2.5e-7 of it. The drift is linear within the unit's steps; its error is
+    h² a/8, 3e-9 m.
     """
     parapet, drift = shape == "parapet", shape.endswith("drift")
     law = LAWS["rocking"] | {"damping_model": "constant_coefficient", "overburden_eccentricity": 0.0}
     with Unit(unpacked) as unit:
         unit.start(**(PARAPET if parapet else STRIP) | law)
-        wall, supports = facts(unit), Supports(1.2e-5, drift, factor_of(shape, "rocking"))
+        wall, supports = facts(unit), Supports(6e-5, drift, factor_of(shape, "rocking"))
         u_ins, f0, xi, omega = unit.get("u_ins", "F0", "xi", "omega1")
         h, h1 = wall["height"], wall["hinge_ratio"] * wall["height"]
         part = 1.0 if parapet else 0.5
@@ -252,7 +252,7 @@ def test_power_through_the_supports(unpacked, shape):
         u, power, loss = rates()
         start, work, dissipated, exchanged = energy(u, unit.get("u_dot")), 0.0, 0.0, 0.0
         corners = 0
-        for _ in range(30_000):
+        for _ in range(6_000):
             powers, losses, places = [power], [loss], [u]
             for _ in range(2):
                 drive(unit, supports, parapet)
@@ -267,4 +267,4 @@ def test_power_through_the_supports(unpacked, shape):
             corners += (abs(places[0]) - law["a1"] * u_ins) * (abs(places[2]) - law["a1"] * u_ins) < 0
         change = energy(u, unit.get("u_dot")) - start
         assert corners >= 2 and dissipated > 0.0
-        assert work == pytest.approx(change + dissipated, abs=1e-8 * (exchanged + dissipated))
+        assert work == pytest.approx(change + dissipated, abs=2.5e-7 * (exchanged + dissipated))

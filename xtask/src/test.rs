@@ -122,6 +122,8 @@ fn build() -> Command {
 pub(crate) fn pytest(python: &Environment, folder: &str, sharing: Option<&str>) -> Command {
     let mut pytest = python.program("python");
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", folder]);
+    // threads of numpy's linear algebra wait for each other longer than small matrices take
+    pytest.env("OPENBLAS_NUM_THREADS", "1");
     pytest.args(sharing.map(|sharing| ["-n", "2", "--dist", sharing]).into_iter().flatten());
     pytest
 }

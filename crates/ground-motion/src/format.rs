@@ -92,8 +92,17 @@ impl Format {
     pub(crate) fn states_direction(self) -> bool {
         match self {
             Self::At2 | Self::Csv | Self::Numbers => false,
-            Self::Esm | Self::Knet | Self::KnetCsv | Self::Cosmos | Self::Csmip | Self::Smc => true,
-            Self::Geonet | Self::Afad | Self::Cwa | Self::Unam | Self::Volume1 => true,
+            Self::Esm
+            | Self::Knet
+            | Self::KnetCsv
+            | Self::Cosmos
+            | Self::Csmip
+            | Self::Smc
+            | Self::Geonet
+            | Self::Afad
+            | Self::Cwa
+            | Self::Unam
+            | Self::Volume1 => true,
         }
     }
 }
