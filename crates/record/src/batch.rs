@@ -194,14 +194,22 @@ impl Batch<'_> {
             return Ok(Vec::new());
         }
         let lanes = Lanes::new(&given, end, NoObserver);
-        let outcomes = match &self.side_by_side {
-            #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx2(simd), steps)) => in_lanes(*simd, steps, lanes),
-            #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx512(simd), steps)) => in_lanes(*simd, steps, lanes),
-            _ => lanes.one_by_one(),
-        };
-        outcomes.into_iter().collect()
+        let side_by_side = self.side_by_side.as_ref();
+        follow(side_by_side.map(|(vectors, steps)| (*vectors, steps)), lanes).into_iter().collect()
+    }
+}
+
+/// Follows runs, side by side with some vectors or one by one.
+pub(crate) fn follow(
+    side_by_side: Option<(Vectors, &SideBySide)>,
+    lanes: Lanes<'_, NoObserver>,
+) -> Vec<Result<Outcome, SolverError>> {
+    match side_by_side {
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx2(simd), steps)) => in_lanes(simd, steps, lanes),
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx512(simd), steps)) => in_lanes(simd, steps, lanes),
+        _ => lanes.one_by_one(),
     }
 }
 

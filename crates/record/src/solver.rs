@@ -119,4 +119,9 @@ impl<'a> RecordSolver<'a> {
         let passage_factor = motion.wall().passage_factor();
         Self { motion, step, table: Table::new(motion, step), passage_factor }
     }
+
+    /// Returns the length of the steps \[s\].
+    pub fn step(&self) -> f64 {
+        self.step
+    }
 }

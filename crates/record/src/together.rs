@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::SolverError;
 
-use crate::batch::{SideBySide, Vectors, in_lanes};
+use crate::batch::{SideBySide, Vectors, follow};
 use crate::lanes::Lanes;
 use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd};
 use crate::table::{LONGEST, Law, Stepping};
@@ -94,14 +94,7 @@ pub(crate) fn run_together_on(
             Kind::Affine { .. } => SideBySide::Affine(None),
             Kind::Curved { law, .. } => SideBySide::Curved(law),
         });
-        let of_kind = match (vectors, &steps) {
-            #[cfg(target_arch = "x86_64")]
-            (Some(Vectors::Avx2(simd)), Some(steps)) => in_lanes(simd, steps, lanes),
-            #[cfg(target_arch = "x86_64")]
-            (Some(Vectors::Avx512(simd)), Some(steps)) => in_lanes(simd, steps, lanes),
-            _ => lanes.one_by_one(),
-        };
-        outcomes.extend(numbers.into_iter().zip(of_kind));
+        outcomes.extend(numbers.into_iter().zip(follow(vectors.zip(steps.as_ref()), lanes)));
     }
     outcomes.sort_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
