@@ -120,6 +120,11 @@ impl<'a> RecordSolver<'a> {
         Self { motion, step, table: Table::new(motion, step), passage_factor }
     }
 
+    /// Returns the motion whose steps are prepared.
+    pub fn motion(&self) -> &'a Motion {
+        self.motion
+    }
+
     /// Returns the length of the steps \[s\].
     pub fn step(&self) -> f64 {
         self.step

@@ -126,23 +126,24 @@ impl<'a> Shaking<'a> {
 
 /// A run of a wall through a record, among others.
 #[derive(Clone, Copy, Debug)]
-pub struct Shaken<'a> {
+pub struct Shaken<'s, 'a> {
     /// The wall and the record.
-    pub shaking: &'a Shaking<'a>,
+    pub shaking: &'s Shaking<'a>,
     /// u \[m\] and u̇ \[m/s\] at the start of the record.
     pub start: [f64; 2],
     /// Factor on the record \[-\].
     pub factor: f64,
 }
 
-/// Runs any walls through any records, and returns what became of each, in their order. `end` is
-/// [`AtOverturning`](RunEnd::AtOverturning) for runs as of [`Shaking::runs`], [`AtPeaks`](RunEnd::AtPeaks) for
-/// [`Shaking::peaks`] and [`OfRecord`](RunEnd::OfRecord) for [`Shaking::runs_to_the_end`], with the same bits.
+/// Runs any walls through any records, and returns what became of each, in their order, with the same bits as
+/// [`Shaking::runs`] for [`RunEnd::AtOverturning`], [`Shaking::peaks`] for [`RunEnd::AtPeaks`] and
+/// [`Shaking::runs_to_the_end`] for [`RunEnd::OfRecord`].
 ///
-/// Many factors of one wall and record are faster there, runs at a few factors of many walls and records here.
-pub fn together<'a>(runs: &[Shaken<'a>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {
+/// Many factors of one wall and record are faster there; few factors of many walls and records are faster
+/// here.
+pub fn together(runs: &[Shaken<'_, '_>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {
     // each record is prepared once, for all of its walls
-    let (mut records, mut places): (Vec<Blocks<'a>>, HashMap<_, usize>) = Default::default();
+    let (mut records, mut places) = (Vec::new(), HashMap::new());
     let mut of_run = Vec::with_capacity(runs.len());
     for Shaken { shaking: Shaking { record, .. }, .. } in runs {
         let place = *places.entry(std::ptr::from_ref(*record)).or_insert(records.len());
