@@ -116,8 +116,8 @@ impl Vectors {
 /// The steps that runs take side by side.
 #[derive(Debug)]
 pub(crate) enum SideBySide {
-    /// Steps on every branch, by affine maps of several steps at once: of one wall and record by the responses
-    /// of its branches, of others by the samples of their records.
+    /// Steps on every branch, by affine maps of several steps at once: of one wall and record by the
+    /// responses of its branches, of others by the samples of their records.
     Affine(Option<Responses>),
     /// Steps on branches with secant damping, by Taylor series.
     Curved(Law),

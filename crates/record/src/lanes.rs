@@ -72,7 +72,7 @@ pub(crate) struct Rows {
     pub(crate) limit: Row,
     /// The factor of the forcing.
     pub(crate) factor: Row,
-    /// The factor on u̇ at an impact, and the least |u̇| there after which the wall does not come to rest \[m/s\].
+    /// The factor on u̇ at an impact, and the |u̇| after it below which the wall may come to rest \[m/s\].
     pub(crate) passage_factor: Row,
     pub(crate) rest_speed: Row,
     pub(crate) u: Row,

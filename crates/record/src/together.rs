@@ -39,10 +39,10 @@ impl Kind {
 
 /// Moves walls through records, each run as if it were alone; returns what became of each, in their order.
 ///
-/// Walls, records and factors may all differ. Runs go side by side where they have the same law of damping and
-/// step, and about the same stiffness for their step; so many runs are faster in one call than in several. A
-/// run never depends on the others: with constant damping it has the bits of [`RecordSolver::run`], with
-/// secant damping those of a [`Batch`](crate::Batch).
+/// Walls, records and factors may all differ. Runs go side by side where they have the same law of damping
+/// and step, and about the same stiffness for their step; so many runs are faster in one call than in
+/// several. A run never depends on the others: with constant damping it has the bits of
+/// [`RecordSolver::run`], with secant damping those of a [`Batch`](crate::Batch).
 ///
 /// Many factors of one wall and record are faster still in a [`Batch`](crate::Batch).
 ///

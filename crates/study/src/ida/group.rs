@@ -10,8 +10,8 @@ use super::polarity::worse;
 use super::{Collapse, Curve, IdaError, Levels, Run, Study};
 
 impl Study {
-    /// Splits some combinations into those that [`curves`](Self::curves) takes together: at few levels those of
-    /// one wall and model, else each by itself.
+    /// Splits some combinations into those that [`curves`](Self::curves) takes together: at few levels those
+    /// of one wall and model, else each by itself.
     pub fn groups(&self, cases: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let size = if self.levels.few(0.0).is_some() { self.records.len() } else { 1 };
         let Range { start: mut first, end } = cases;

@@ -117,8 +117,8 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
-/// At few levels the runs of all records go together, also of records with other steps, with both signs and to
-/// the end of the tail. No curve changes a bit, nor does one among fewer others.
+/// At few levels the runs of all records go together, also of records with other steps, with both signs and
+/// to the end of the tail. No curve changes a bit, nor does one among fewer others.
 #[test]
 fn curves_together_are_those_by_themselves() {
     let other_step = SyntheticMotion { seed: 7, step: 0.005, duration: 12.0, peak: 3.0 };
