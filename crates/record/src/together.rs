@@ -52,13 +52,13 @@ impl Kind {
 /// use rocking_wall::wall::{Parameters, Support};
 ///
 /// // walls of 1 and 2 m, each through a record of its own
-/// let motions = [1.0, 2.0].map(|height| {
+/// let motion = |height| {
 ///     let parameters = Parameters { height, u_start: 0.0, ..Parameters::default() };
 ///     Motion::of(&parameters, parameters.tolerance)
-/// });
-/// let motions = [motions[0].as_ref()?, motions[1].as_ref()?];
+/// };
+/// let motions = [motion(1.0)?, motion(2.0)?];
 /// let samples = [0.06, 0.03].map(|rate| (0..500).map(|n| (rate * f64::from(n)).sin()).collect::<Vec<_>>());
-/// let solvers = motions.map(|motion| RecordSolver::new(motion, 0.01));
+/// let solvers = motions.each_ref().map(|motion| RecordSolver::new(motion, 0.01));
 /// let records = [0, 1].map(|n| Blocks::new(Forcing::Samples(&samples[n])));
 /// let runs = [0, 1].map(|n| {
 ///     let start = RunStart { state: motions[n].start(0.0, 0.0, Support::default()), factor: 0.5 };
