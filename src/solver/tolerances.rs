@@ -4,21 +4,21 @@ use super::scaled::Number;
 
 /// The largest terms in u \[m\] and in u̇ \[m/s\] that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerances {
+pub struct Tolerances<N = f64> {
     /// Of u \[m\].
-    pub displacement: f64,
+    pub displacement: N,
     /// Of u̇ \[m/s\].
-    pub velocity: f64,
+    pub velocity: N,
 }
 
-impl Tolerances {
+impl<N: Number> Tolerances<N> {
     /// Returns the one dimensionless tolerance that meets both, for x = u/u₀ and for ẋ with time in lengths
     /// L: the smaller of the two, from 1/u₀ \[1/m\] and L \[s\].
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "measured: part of one piece of straight code")]
-    pub fn over<T: Number>(self, inverse: T, length: T) -> T {
+    pub fn over(self, inverse: N, length: N) -> N {
         // min(a, b) = −max(−a, −b)
-        let smaller = -(length * -self.velocity).max(length.like(-self.displacement));
+        let smaller = -(length * -self.velocity).max(-self.displacement);
         smaller * inverse.abs()
     }
 }

@@ -80,6 +80,42 @@ def test_a_batch(record):
             assert peaks.u_ratio_max[index] == pytest.approx(run.u_ratio_max, rel=1e-9)
 
 
+def test_many_walls_and_records_have_their_own_peaks(record):
+    """Arrays are broadcast, and each run has the bits of a batch of its own, with any number of threads."""
+    ratio = SET | {"damping_model": "constant_ratio"}
+    walls = [rw.Wall(**SET), rw.Wall(**ratio), rw.Wall(**SET).on_storeys([rw.Storey(period=0.3)])]
+    coarser = rw.Record(0.01, np.asarray(rw.synthetic_record(5))[::2])
+    records, factors = [record, coarser], [0.3, 1.0, 20.0]
+    grid = [[[wall]] for wall in walls], [[each] for each in records], factors
+    found = rw.simulate_many(*grid, threads=1)
+    assert found.u_max.shape == found.overturned.shape == (3, 2, 3)
+    assert repr(found).startswith("Peaks(18 runs")
+    assert 2 < found.overturned.sum() < 16 and len(found.table.rows()) == 18
+    for n, wall in enumerate(walls):
+        for m, record in enumerate(records):
+            alone = wall.peaks(record, factors)
+            for name in ("factor", "u_max", "u_ratio_max", "overturn_time"):
+                np.testing.assert_array_equal(getattr(found, name)[n, m], getattr(alone, name))
+    again = rw.simulate_many(*grid, threads=3)
+    np.testing.assert_array_equal(again.u_max, found.u_max)
+    one = rw.simulate_many(walls[1], records[0], 0.3)
+    assert one.u_max.shape == () and one.u_max == found.u_max[1, 0, 0]
+    assert rw.simulate_many(walls[:2], records).u_max.tolist() == found.u_max[[0, 1], [0, 1], 1].tolist()
+    assert rw.simulate_many([], record).u_max.shape == (0,)
+
+
+def test_many_runs_that_cannot_be(record):
+    wall = rw.Wall(**SET)
+    with pytest.raises(ValueError, match=r"\(2,\), \(3,\) and \(\), which do not fit"):
+        rw.simulate_many([wall] * 2, [record] * 3)
+    with pytest.raises(TypeError, match=r"walls\[1\] must be a Wall"):
+        rw.simulate_many([wall, 3.0], record)
+    with pytest.raises(TypeError, match=r"rw.read_record\('x.AT2'\)"):
+        rw.simulate_many(wall, "x.AT2")
+    with pytest.raises(ValueError, match="a factor is inf"):
+        rw.simulate_many(wall, record, [1.0, float("inf")])
+
+
 def test_parts_of_a_long_batch_are_the_whole(record):
     wall, factors = rw.Wall(**SET), np.linspace(0.1, 1.0, 1500)
     whole, part = wall.peaks(record, factors), wall.peaks(record, factors[1400:])

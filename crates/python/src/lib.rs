@@ -14,6 +14,7 @@
 //! | `variables` | the parameters of the model description, the schema of studies |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
+//! | `many` | runs of many walls through many records |
 //! | `jobs` | checks by codes, rocking spectra, ties of any stiffness, damping that matches restitution |
 //! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
@@ -28,6 +29,7 @@ mod buildings;
 mod errors;
 mod folders;
 mod jobs;
+mod many;
 mod motions;
 mod responses;
 mod studies;
@@ -48,6 +50,7 @@ mod _native {
             calibrate_wall, check_report, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
             verify_formulas,
         },
+        many::simulate_many,
         motions::{
             average_sa, displacement, housner, in_si, intensities, picture, pulse, read_channels, scaled,
             scaled_to, spectrum, synthetic, trimmed, velocity, warnings_of_channel,

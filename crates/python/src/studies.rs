@@ -85,8 +85,8 @@ impl Study {
         }
         let bytes = py.detach(|| {
             let study = &self.loaded.study;
-            let curve = |index| study.curve(study.case(index));
-            let curves = contents.part(part).map(curve).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+            let groups = study.groups(contents.part(part)).map(|group| study.curves(group));
+            let curves = groups.collect::<Result<Vec<_>, _>>().map_err(failed)?.concat();
             encode(contents, fingerprint, part, &curves).map_err(failed)
         })?;
         Ok(PyBytes::new(py, &bytes))

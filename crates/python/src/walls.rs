@@ -8,14 +8,14 @@ use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use record::{Outcome, RecordSolver};
+use record::RecordSolver;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
     parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::{Method, Motion as Solved};
+use rocking_wall::solver::Method;
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::{Curve, plot};
 use run::shaking::Shaking;
@@ -24,6 +24,7 @@ use scene_fmu::General;
 
 use crate::arrays::{Motion, Numbers, samples};
 use crate::errors::{failed, of_file, of_scene, refused};
+use crate::many::{Prepared, check_factor};
 use crate::responses;
 
 /// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
@@ -242,40 +243,18 @@ impl Wall {
     ) -> PyResult<[Numbers<'py>; 3]> {
         let (Motion(record), factors) = (record, samples(factors)?);
         check_tail(tail).map_err(of_scene)?;
-        let pga = record.peak();
-        if let Some(factor) = factors.iter().find(|factor| !(*factor * pga).is_finite()) {
-            return Err(refused(format!(
-                "a factor is {factor}; give finite factors that keep the record finite"
-            )));
-        }
-        let mut parameters = self.scene.parameters.clone();
-        parameters.u_start = self.start.unwrap_or(0.0);
-        let motion = Solved::of(&parameters, parameters.tolerance).map_err(refused)?;
-        motion.wall().check_start(parameters.u_start).map_err(refused)?;
-        // a wall on storeys feels the floors until the tail ends
-        let record = match &self.scene.floors {
-            None => record,
-            Some(floors) => {
-                let end = record.duration() + tail;
-                let ground = Excitation::new(record, None);
-                let supports = floors.motion(parameters.mechanism, &ground, end).map_err(of_scene)?;
-                supports.effective(self.equation.body()).map_err(failed)?
-            }
-        };
-        let solver = RecordSolver::new(&motion, record.step());
-        let shaking = Shaking::new(&motion, &solver, &record, tail);
-        let start = [parameters.u_start, parameters.u_dot_start];
+        factors.iter().try_for_each(|factor| check_factor(&record, *factor))?;
+        let prepared = Prepared::new(self)?;
+        let felt = prepared.felt(&record, tail).map_err(of_scene)?;
+        let solver = RecordSolver::new(&prepared.motion, felt.step());
+        let shaking = Shaking::new(&prepared.motion, &solver, &felt, tail);
         let mut outcomes = Vec::with_capacity(factors.len());
         for factors in factors.chunks(RUNS_AT_ONCE) {
-            outcomes.extend(py.detach(|| shaking.runs(start, factors)).map_err(failed)?);
+            outcomes.extend(py.detach(|| shaking.peaks(prepared.start, factors)).map_err(failed)?);
             py.check_signals()?;
         }
-        let instability = self.equation.body().instability;
-        let peak =
-            |outcome: &Outcome| outcome.state.reported_peak(instability, outcome.overturning.is_some());
-        let [largest, ratio] = [0, 1].map(|part| outcomes.iter().map(move |outcome| peak(outcome)[part]));
-        let time = outcomes.iter().map(|outcome| outcome.overturning.unwrap_or(f64::NAN));
-        Ok([PyArray1::from_iter(py, largest), PyArray1::from_iter(py, ratio), PyArray1::from_iter(py, time)])
+        let peaks: Vec<_> = outcomes.iter().map(|outcome| prepared.peaks(outcome)).collect();
+        Ok([0, 1, 2].map(|part| PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks[part]))))
     }
 
     /// Writes the FMU of the scene, made from the general one at `base`; returns the number of its variables.

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
-use record::{Forcing, RecordSolver, RunStart};
+use record::{BatchRun, Blocks, Forcing, RecordSolver, RunEnd, RunStart, run_together};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
@@ -40,6 +40,19 @@ fn main() {
         record.duration(),
         1e3 * record.step(),
     );
+    for (name, damping_model) in [
+        ("constant coefficient", DampingModel::ConstantCoefficient),
+        ("constant ratio", DampingModel::ConstantRatio),
+    ] {
+        one_level(name, |size| Parameters {
+            height: 6.0 * size,
+            thickness: 0.6,
+            a1: 0.018,
+            damping_model,
+            u_start: 0.0,
+            ..Parameters::default()
+        });
+    }
     for (number, height, thickness, a1) in
         [(6, 6.0, 0.6, 0.018), (5, 3.0, 0.6, 0.0024), (2, 1.5, 0.3, 0.0012)]
     {
@@ -63,6 +76,51 @@ fn main() {
             }
         }
     }
+}
+
+/// Measures 64 runs at one level, of eight walls through eight records of the embedded kind, beside batches
+/// of 64 factors about that level, one of each wall and record.
+fn one_level(model: &str, wall: impl Fn(f64) -> Parameters) {
+    let walls: Vec<_> = (0..8).map(|n| wall(1.0 + 0.02 * f64::from(n))).collect();
+    let motions = walls.iter().map(|wall| Motion::of(wall, 1e-8).expect("a valid wall")).collect::<Vec<_>>();
+    let record = |seed| SyntheticMotion { seed, ..SyntheticMotion::default() }.motion().expect("a motion");
+    let records: Vec<_> = (1..=8).map(record).collect();
+    let forcings: Vec<_> = records.iter().map(|record| Forcing::Samples(record.samples())).collect();
+    let start = |motion: &Motion, factor: f64| {
+        let participation = motion.wall().body().forcing(Support::rigid(1.0));
+        RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: factor * participation }
+    };
+    let step = records[0].step();
+    let pairs = || motions.iter().flat_map(|motion| forcings.iter().map(move |forcing| (motion, *forcing)));
+    let together = least_of(20, BATCH, || {
+        let solvers: Vec<_> = motions.iter().map(|motion| RecordSolver::new(motion, step)).collect();
+        let blocks: Vec<_> = forcings.iter().map(|forcing| Blocks::new(*forcing)).collect();
+        let of = |solver| blocks.iter().map(move |record| (solver, record));
+        let run = |(solver, record)| BatchRun { solver, record, start: start(solver.motion(), 1.0) };
+        let runs: Vec<_> = solvers.iter().flat_map(of).map(run).collect();
+        run_together(&runs, RunEnd::AtOverturning).len() as f64
+    });
+    // the least of each pair, as another program may take its time from a longer measurement
+    let of_pair = |factors: &[f64]| {
+        let least = |(motion, forcing): (&Motion, Forcing<'_>)| {
+            let starts: Vec<_> = factors.iter().map(|factor| start(motion, *factor)).collect();
+            least_of(20, factors.len(), || {
+                let outcomes = RecordSolver::new(motion, step).batch(forcing).run(&starts, true);
+                outcomes.expect("bounded motions").len() as f64
+            })
+        };
+        pairs().map(least).sum::<f64>() / BATCH as f64
+    };
+    let alone = of_pair(&[1.0]);
+    let about: Vec<_> = (0..BATCH).map(|n| 0.9 + 0.2 * n as f64 / (BATCH - 1) as f64).collect();
+    let factors = of_pair(&about);
+    println!(
+        "at one level, 8 walls and 8 records, {model}: {:.1} us a run together, {:.2} times one of {BATCH} \
+         factors; {:.2} times each by itself",
+        1e-3 * together,
+        together / factors,
+        alone / factors,
+    );
 }
 
 fn measure(
@@ -123,10 +181,15 @@ fn oscillator(record: &[f64]) -> f64 {
 }
 
 /// Nanoseconds per unit, the least of several runs after a warm-up.
-fn least(units: usize, mut run: impl FnMut() -> f64) -> f64 {
+fn least(units: usize, run: impl FnMut() -> f64) -> f64 {
+    least_of(RUNS, units, run)
+}
+
+/// Nanoseconds per unit, the least of some runs after a warm-up.
+fn least_of(runs: usize, units: usize, mut run: impl FnMut() -> f64) -> f64 {
     black_box(run());
     let mut least = f64::INFINITY;
-    for _ in 0..RUNS {
+    for _ in 0..runs {
         let start = Instant::now();
         black_box(run());
         least = least.min(start.elapsed().as_secs_f64());

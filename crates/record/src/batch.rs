@@ -10,7 +10,7 @@ use crate::forcing::{Blocks, Forcing};
 use crate::lanes::Lanes;
 use crate::number::{Eight, WIDTH};
 use crate::responses::Responses;
-use crate::solver::{NoObserver, Observer, Outcome, RecordSolver, RunStart};
+use crate::solver::{BatchRun, NoObserver, Observer, Outcome, RecordSolver, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
@@ -72,8 +72,9 @@ impl RecordSolver<'_> {
         until_overturning: bool,
         observer: impl Observer,
     ) -> Result<Outcome, SolverError> {
-        let outcomes = Lanes::new(self, record, &[start], until_overturning, observer).one_by_one()?;
-        Ok(outcomes[0])
+        let given = [BatchRun { solver: self, record, start }];
+        let mut outcomes = Lanes::new(&given, RunEnd::until(until_overturning), observer).one_by_one();
+        outcomes.swap_remove(0)
     }
 
     /// Prepares a record for many runs, with the widest vectors of this processor. A large record may take
@@ -115,19 +116,20 @@ impl Vectors {
 /// The steps that runs take side by side.
 #[derive(Debug)]
 pub(crate) enum SideBySide {
-    /// Steps on every branch, by affine maps of several steps at once.
-    Affine(Responses),
+    /// Steps on every branch, by affine maps of several steps at once: of one wall and record by the
+    /// responses of its branches, of others by the samples of their records.
+    Affine(Option<Responses>),
     /// Steps on branches with secant damping, by Taylor series.
-    Curved,
+    Curved(Law),
 }
 
 impl SideBySide {
     pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
         let RecordSolver { motion, table, .. } = solver;
         if table.steppings.contains(&Stepping::Curved) {
-            return Some(Self::Curved);
+            return Some(Self::Curved(table.law));
         }
-        Responses::new(motion, table, forcing).map(Self::Affine)
+        Responses::new(motion, table, forcing).map(|responses| Self::Affine(Some(responses)))
     }
 }
 
@@ -172,7 +174,7 @@ impl Batch<'_> {
     /// # Errors
     /// [`SolverError`] of the first start that could not be followed, as of [`RecordSolver::run`].
     pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
-        self.follow(Lanes::new(self.solver, &self.record, starts, until_overturning, NoObserver))
+        self.follow(starts, RunEnd::until(until_overturning))
     }
 
     /// Moves walls as [`run`](Self::run) does up to overturning, and no further than to where the rest of the
@@ -182,18 +184,32 @@ impl Batch<'_> {
     /// # Errors
     /// As [`run`](Self::run).
     pub fn run_to_the_peaks(&self, starts: &[RunStart]) -> Result<Vec<Outcome>, SolverError> {
-        let lanes = Lanes::new(self.solver, &self.record, starts, true, NoObserver);
-        self.follow(Lanes { ends_at_peaks: true, ..lanes })
+        self.follow(starts, RunEnd::AtPeaks)
     }
 
-    fn follow(&self, lanes: Lanes<'_, NoObserver>) -> Result<Vec<Outcome>, SolverError> {
-        match &self.side_by_side {
-            #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx2(simd), steps)) => in_lanes(*simd, steps, lanes),
-            #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx512(simd), steps)) => in_lanes(*simd, steps, lanes),
-            _ => lanes.one_by_one(),
+    fn follow(&self, starts: &[RunStart], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
+        let given = |&start| BatchRun { solver: self.solver, record: &self.record, start };
+        let given: Vec<_> = starts.iter().map(given).collect();
+        if given.is_empty() {
+            return Ok(Vec::new());
         }
+        let lanes = Lanes::new(&given, end, NoObserver);
+        let side_by_side = self.side_by_side.as_ref();
+        follow(side_by_side.map(|(vectors, steps)| (*vectors, steps)), lanes).into_iter().collect()
+    }
+}
+
+/// Follows runs, side by side with some vectors or one by one.
+pub(crate) fn follow(
+    side_by_side: Option<(Vectors, &SideBySide)>,
+    lanes: Lanes<'_, NoObserver>,
+) -> Vec<Result<Outcome, SolverError>> {
+    match side_by_side {
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx2(simd), steps)) => in_lanes(simd, steps, lanes),
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx512(simd), steps)) => in_lanes(simd, steps, lanes),
+        _ => lanes.one_by_one(),
     }
 }
 
@@ -202,24 +218,29 @@ pub(crate) fn in_lanes<S: Simd>(
     simd: S,
     steps: &SideBySide,
     lanes: Lanes<'_, NoObserver>,
-) -> Result<Vec<Outcome>, SolverError> {
+) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
-        || match (steps, lanes.solver.table.law) {
-            (SideBySide::Affine(responses), _) => lanes.side_by_side(
+        || match steps {
+            SideBySide::Affine(Some(responses)) => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S>>(simd, 0, busy, Some(responses)),
+                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy, Some(responses)),
             ),
-            (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(
+            SideBySide::Affine(None) => lanes.side_by_side(
+                Stepping::Affine,
+                #[inline(always)]
+                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy, None),
+            ),
+            SideBySide::Curved(Law::Ratio) => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S>, ByRatio>(simd, 0, busy),
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
             ),
-            (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(
+            SideBySide::Curved(Law::Stiffness) => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S>, ByStiffness>(simd, 0, busy),
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
             ),
         },
     )

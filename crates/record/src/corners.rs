@@ -2,9 +2,9 @@
 
 use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, Line};
-use crate::number::{Number, Row, index};
+use crate::number::{BranchRow, Number, Row, index};
 use crate::solver::{Observer, RecordSolver};
-use crate::table::end_kind;
+use crate::table::{Table, end_kind};
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
@@ -159,21 +159,20 @@ impl<O: Observer> Lanes<'_, O> {
         first: usize,
         mut part: Part<N>,
     ) -> Arrival<N> {
-        let (rows, table, zero) = (&self.rows, &self.solver.table, N::splat(token, 0.0));
+        let (terms, zero) = (self.solvers[first].table.terms, N::splat(token, 0.0));
         let mut arrival = Arrival::none(&part);
         for corners in 1..=MOST_CORNERS {
             if N::bits(part.lanes) == 0 {
                 break;
             }
             let curved;
-            let ahead = self.ahead(token, &part);
-            let passage = part.find(ahead[0], table.terms);
-            (part, curved) = self.cross(token, &part, ahead, passage);
+            let ahead = self.ahead(token, first, &part);
+            let passage = part.find(ahead[0], terms);
+            (part, curved) = self.cross(token, first, &part, ahead, passage);
             if N::bits(curved) != 0 {
                 arrival.take(curved, &part, [part.from[0], part.from[1]], corners, part.length);
             }
-            let Course { stays, leaves } =
-                part.course(&Bounds::look_up(token, table, rows, first, part.branch));
+            let Course { stays, leaves } = part.course(&self.bounds(token, first, part.branch));
             arrival.take(part.lanes & stays, &part, part.to, corners, zero);
             part.lanes = part.lanes & leaves;
         }
@@ -182,12 +181,14 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Returns the corner by which lanes leave their branch, and how they do.
     #[inline(always)]
-    pub(crate) fn ahead<N: Number>(&self, token: N::Token, part: &Part<N>) -> [N; 2] {
-        let (table, branches) = (&self.solver.table, part.branch.branches());
+    pub(crate) fn ahead<N: Number>(&self, token: N::Token, first: usize, part: &Part<N>) -> [N; 2] {
+        let branches = self.branches(first, part.branch);
         let upwards = part.from[0].below(part.to[0]);
-        [&table.ends, &table.exits].map(|[lower, upper]| {
-            N::select(upwards, N::look_up(token, upper, branches), N::look_up(token, lower, branches))
-        })
+        let at = |row: fn(&Table) -> &[BranchRow; 2]| {
+            let [lower, upper] = branches.look_up_all(token, row);
+            N::select(upwards, upper, lower)
+        };
+        [at(|table| &table.ends), at(|table| &table.exits)]
     }
 
     /// Goes on beyond the corner ahead, where it is found and open, from the time and u̇ there. Returns the
@@ -196,26 +197,27 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn cross<N: Number>(
         &self,
         token: N::Token,
+        first: usize,
         part: &Part<N>,
         [corner, exit]: [N; 2],
         (found, time, velocity): (N::Mask, N, N),
     ) -> (Part<N>, N::Mask) {
-        let (table, zero) = (&self.solver.table, N::splat(token, 0.0));
+        let (rows, zero) = (&self.rows, N::splat(token, 0.0));
         let upwards = part.from[0].below(part.to[0]);
         // kinds of exits rise: closed, ordinary, curved, impact
         let beyond = |kind: f64| N::splat(token, kind).below(exit);
         let impact = beyond(end_kind::CURVED);
         let ordinary = beyond(end_kind::CLOSED) & !impact;
-        let velocity = N::select(impact, velocity * self.solver.passage_factor, velocity);
-        let rest_speed = N::splat(token, self.solver.motion.rest_speed());
+        let velocity = N::select(impact, velocity * N::load(token, &rows.passage_factor, first), velocity);
+        let rest_speed = N::load(token, &rows.rest_speed, first);
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
         let branch = N::select(lanes, other, part.branch);
-        let line = Line::look_up(token, table, branch.branches());
+        let line = Line::look_up(token, &self.branches(first, branch));
         let forcing = part.forcing + part.rate * time;
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
-        let [u, v, _] = line.after(table.terms, length, from, part.rate);
+        let [u, v, _] = line.after(self.solvers[first].table.terms, length, from, part.rate);
         let impacts = part.impacts + N::select(lanes & impact, N::splat(token, 1.0), zero);
         let curved = lanes & ordinary & beyond(end_kind::ORDINARY);
         let lanes = lanes & !curved;
@@ -227,7 +229,7 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn arrive<N: Number>(&mut self, token: N::Token, first: usize, arrival: &Arrival<N>) {
         let Arrival { lanes, end, branch, corners, impacts, left } = *arrival;
         let (rows, zero) = (&mut self.rows, N::splat(token, 0.0));
-        let share = -(left * (1.0 / self.solver.step)) + 1.0;
+        let share = -(left * (1.0 / self.solvers[first].step)) + 1.0;
         // a remainder below the rounding of the share counts as none
         let whole = left.at_most(zero) | N::splat(token, 1.0).at_most(share);
         let put = |row: &mut Row, value: N| {
@@ -253,11 +255,11 @@ impl<O: Observer> Lanes<'_, O> {
     /// Returns what is left of the step of a lane, on the branch that it is on.
     #[inline(always)]
     pub(crate) fn rest<N: Number>(&self, token: N::Token, first: usize) -> Part<N> {
-        let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solver);
+        let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solvers[first]);
         let load = |row| N::load(token, row, first);
         let (branch, share) = (load(&rows.branch), load(&rows.share));
-        let line = Line::look_up(token, table, branch.branches());
-        let samples = self.record.forcing.from(index(rows.index[first]), 2);
+        let line = Line::look_up(token, &self.branches(first, branch));
+        let samples = self.records[first].forcing.from(index(rows.index[first]), 2);
         let [p0, p1] = [load(&rows.factor) * samples[0], load(&rows.factor) * samples[1]];
         let (length, rate) = (load(&rows.share) * -step + *step, (p1 - p0) * (1.0 / step));
         let now = [load(&rows.u), load(&rows.v)];
@@ -272,7 +274,7 @@ impl<O: Observer> Lanes<'_, O> {
     #[inline(always)]
     pub(crate) fn rest_of_step<N: Number>(&mut self, token: N::Token, first: usize) -> Waiting {
         let (part, zero) = (self.rest(token, first), N::splat(token, 0.0));
-        let bounds = Bounds::look_up(token, &self.solver.table, &self.rows, first, part.branch);
+        let bounds = self.bounds(token, first, part.branch);
         let Course { stays, leaves } = part.course(&bounds);
         let mut arrival = self.pass_corners(token, first, Part { lanes: leaves, ..part });
         arrival.take(stays, &part, part.to, 0, zero);

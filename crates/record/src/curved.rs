@@ -4,10 +4,11 @@ use rocking_wall::solver::secant::{
     ByRatio, ByStiffness, ORDER, Scaled, SecantBranch, SecantLaw, Start, excess,
 };
 
+use crate::branches::law;
 use crate::lanes::{Lanes, Rows, Waiting, each};
 use crate::number::{BranchRow, Number, Row, WIDTH, index};
 use crate::regularised::Regularised;
-use crate::solver::Observer;
+use crate::solver::{Observer, RecordSolver};
 use crate::table::{Law, Table, end_kind, get};
 
 /// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a
@@ -158,20 +159,6 @@ fn end_of_part<N: Number, L: OneLane>(token: N::Token, start: Start<N>, most: N)
     (series.end::<10>(), within)
 }
 
-/// Returns the law of the branch of each lane, looked up by `look_up`.
-#[inline(always)]
-fn law<N>(table: &Table, look_up: impl Fn(&BranchRow) -> N) -> SecantBranch<N> {
-    let SecantBranch { anchor, force, stiffness, own, force_at_zero, factor } = &table.secant;
-    SecantBranch {
-        anchor: look_up(anchor),
-        force: look_up(force),
-        stiffness: look_up(stiffness),
-        own: [look_up(&own[0]), look_up(&own[1]), look_up(&own[2])],
-        force_at_zero: look_up(force_at_zero),
-        factor: look_up(factor),
-    }
-}
-
 /// What lanes have come to on their branches.
 #[derive(Clone, Copy)]
 struct Reached<N> {
@@ -249,7 +236,7 @@ impl<O: Observer> Lanes<'_, O> {
         first: usize,
         busy: u8,
     ) -> Waiting {
-        let (h, tolerances) = (self.solver.step, self.solver.motion.tolerances());
+        let (h, tolerances) = (self.solvers[first].step, self.tolerances::<N>(token, first));
         let (law, bounds) = self.laws::<N>(token, first);
         let mut reached = Reached::<N>::load(token, &self.rows, first);
         let (zero, one) = (N::splat(token, 0.0), N::splat(token, 1.0));
@@ -317,7 +304,7 @@ impl<O: Observer> Lanes<'_, O> {
         if self.is_at_end(lane) {
             return false;
         }
-        let samples = self.record.forcing.from(index(self.rows.index[lane]), 2);
+        let samples = self.records[lane].forcing.from(index(self.rows.index[lane]), 2);
         for (row, sample) in ends.iter_mut().zip(samples) {
             row[place] = self.rows.factor[lane] * sample;
         }
@@ -327,25 +314,29 @@ impl<O: Observer> Lanes<'_, O> {
     /// Looks up the law and the bounds of the branch of each lane.
     #[inline(always)]
     fn laws<N: Number>(&self, token: N::Token, first: usize) -> (SecantBranch<N>, Bounds<N>) {
-        let (rows, table) = (&self.rows, &self.solver.table);
+        let rows = &self.rows;
         // one lane after the other, for any number of branches: this is not done often
-        let look_up =
-            |row: &BranchRow| N::of_lanes(token, |lane| get(row, index(rows.branch[(first + lane) % WIDTH])));
+        let look_up = |row: fn(&Table) -> &BranchRow| {
+            N::of_lanes(token, |lane| {
+                let lane = (first + lane) % WIDTH;
+                get(row(&self.solvers[lane].table), index(rows.branch[lane]))
+            })
+        };
         let load = |row| N::load(token, row, first);
         let bounds = Bounds {
             driving: load(&rows.driving),
-            damping: look_up(&table.damping),
-            growth: look_up(&table.growth),
-            lower: look_up(&table.ends[0]).max(load(&rows.limits[0])),
-            upper: look_up(&table.ends[1]).min(load(&rows.limits[1])),
+            damping: look_up(|table| &table.damping),
+            growth: look_up(|table| &table.growth),
+            lower: look_up(|table| &table.ends[0]).max(load(&rows.limits[0])),
+            upper: look_up(|table| &table.ends[1]).min(load(&rows.limits[1])),
         };
-        (law(table, look_up), bounds)
+        (law(look_up), bounds)
     }
 
     /// Takes a lane along a branch with secant damping to the end of the step or to the corner ahead, where
     /// u̇ keeps its sign until then; returns whether it does.
     pub(crate) fn pass_curved_corner(&mut self, lane: usize) -> bool {
-        match self.solver.table.law {
+        match self.solvers[lane].table.law {
             Law::Ratio => self.follow_to_corner::<ByRatio>(lane),
             Law::Stiffness => self.follow_to_corner::<ByStiffness>(lane),
         }
@@ -353,7 +344,8 @@ impl<O: Observer> Lanes<'_, O> {
     }
 
     fn follow_to_corner<L: OneLane>(&mut self, lane: usize) -> Option<()> {
-        let (rows, table, step) = (&self.rows, &self.solver.table, self.solver.step);
+        let (rows, solver) = (&self.rows, self.solvers[lane]);
+        let RecordSolver { table, step, .. } = solver;
         let (u, v, share) = (rows.u[lane], rows.v[lane], rows.share[lane]);
         let branch = rows.branch[lane].branches();
         let side = usize::from(v > 0.0);
@@ -362,12 +354,12 @@ impl<O: Observer> Lanes<'_, O> {
             return None;
         }
         let rest = (1.0 - share) * step;
-        let samples = self.record.forcing.from(index(rows.index[lane]), 2);
+        let samples = self.records[lane].forcing.from(index(rows.index[lane]), 2);
         let [p0, p1] = [samples[0], samples[1]].map(|p| rows.factor[lane] * p);
-        let law = law(table, |row| get(row, branch));
+        let law = law(|row| get(row(table), branch));
         let (forcing, rate) = (p0 + (p1 - p0) * share, (p1 - p0) / step);
         let (start, inverse) = law.start::<L>([u, v], [forcing, rate * rest], rest);
-        let tolerance = self.solver.motion.tolerances().over(inverse, rest);
+        let tolerance = solver.motion.tolerances().over(inverse, rest);
         let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
         let share = share + part * (1.0 - share);
         let (end, finished) = if share < 1.0 {

@@ -7,6 +7,9 @@ pub(crate) const BLOCK: usize = 256;
 /// Most plain steps taken at once. The last ones of a block may end beyond it, by one step less than this.
 pub(crate) const MOST_AT_ONCE: usize = 4;
 
+/// Samples that a lane may read from where it is: those of a block, and of the last plain steps beyond it.
+pub(crate) const AHEAD: usize = BLOCK + MOST_AT_ONCE + 1;
+
 /// Forcing of a wall at the samples of a record, linear in between.
 ///
 /// The forcing of a run is p = s × sample \[m/s²\], with s the run's [`factor`](crate::RunStart::factor). The
@@ -23,7 +26,7 @@ pub enum Forcing<'a> {
 /// Samples without motion, as many as are ever asked for at once.
 static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
 
-impl Forcing<'_> {
+impl<'a> Forcing<'a> {
     /// Returns the number of samples.
     pub(crate) fn count(&self) -> usize {
         match self {
@@ -34,7 +37,7 @@ impl Forcing<'_> {
 
     /// Returns the forcing at `count` samples from `index` on.
     #[inline(always)]
-    pub(crate) fn from(&self, index: usize, count: usize) -> &[f64] {
+    pub(crate) fn from(self, index: usize, count: usize) -> &'a [f64] {
         match self {
             Self::Samples(samples) => &samples[index..][..count],
             Self::Still(_) => &STILL[..count],
@@ -67,18 +70,22 @@ impl Forcing<'_> {
     }
 }
 
-/// A forcing and its bounds, block by block.
+/// A forcing and its bounds, block by block: prepared once for the runs of any walls
+/// ([`run_together`](crate::run_together)).
 #[derive(Debug)]
-pub(crate) struct Blocks<'a> {
+pub struct Blocks<'a> {
     pub(crate) forcing: Forcing<'a>,
     /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
     largest: Vec<f64>,
     /// Sum of |p| from the start of each block to the end of the record \[m/s²\].
     rest: Vec<f64>,
+    /// The last [`AHEAD`] samples, and after them zeros.
+    tail: Vec<f64>,
 }
 
 impl<'a> Blocks<'a> {
-    pub(crate) fn new(forcing: Forcing<'a>) -> Self {
+    /// Prepares a forcing, in a fraction of the time of a run.
+    pub fn new(forcing: Forcing<'a>) -> Self {
         let last = forcing.count().saturating_sub(1);
         let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + MOST_AT_ONCE - 1).min(last) + 1;
         let largest: Vec<f64> = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
@@ -87,7 +94,30 @@ impl<'a> Blocks<'a> {
             sum += forcing.sum(block * BLOCK..end);
             (*rest, end) = (sum, block * BLOCK);
         }
-        Self { forcing, largest, rest }
+        let Forcing::Samples(samples) = forcing else {
+            return Self { forcing, largest, rest, tail: Vec::new() };
+        };
+        let mut tail = vec![0.0; 2 * AHEAD];
+        let known = samples.len().min(AHEAD);
+        tail[AHEAD - known..AHEAD].copy_from_slice(&samples[samples.len() - known..]);
+        Self { forcing, largest, rest, tail }
+    }
+
+    /// Returns the forcing at [`AHEAD`] samples from `index` on: zeros beyond the end of the record.
+    #[inline(always)]
+    pub(crate) fn ahead(&self, index: usize) -> &[f64; AHEAD] {
+        let (ahead, count) = (index + AHEAD, self.forcing.count());
+        let samples = match self.forcing {
+            Forcing::Samples(_) if ahead > count => &self.tail[ahead - count..],
+            Forcing::Samples(samples) => &samples[index..],
+            Forcing::Still(_) => &STILL,
+        };
+        samples.first_chunk().unwrap_or_else(|| unreachable!("a lane is at a sample of its record"))
+    }
+
+    /// Returns the number of samples.
+    pub(crate) fn count(&self) -> usize {
+        self.forcing.count()
     }
 
     /// Returns the bound on |p| in the block of a sample \[m/s²\].

@@ -5,7 +5,7 @@ use rocking_wall::wall::TieMemory;
 
 use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
 use crate::number::{Row, WIDTH, index};
-use crate::solver::{Observer, Outcome, RecordSolver, RunStart};
+use crate::solver::{BatchRun, Observer, Outcome, RecordSolver, RunEnd};
 use crate::table::Stepping;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
@@ -72,6 +72,9 @@ pub(crate) struct Rows {
     pub(crate) limit: Row,
     /// The factor of the forcing.
     pub(crate) factor: Row,
+    /// The factor on u̇ at an impact, and the |u̇| after it below which the wall may come to rest \[m/s\].
+    pub(crate) passage_factor: Row,
+    pub(crate) rest_speed: Row,
     pub(crate) u: Row,
     pub(crate) v: Row,
     pub(crate) branch: Row,
@@ -113,8 +116,9 @@ pub(crate) struct Waiting {
 
 /// Runs in lanes.
 pub(crate) struct Lanes<'a, O> {
-    pub(crate) solver: &'a RecordSolver<'a>,
-    pub(crate) record: &'a Blocks<'a>,
+    /// The wall and the record of each lane. Those side by side are of one kind.
+    pub(crate) solvers: [&'a RecordSolver<'a>; WIDTH],
+    pub(crate) records: [&'a Blocks<'a>; WIDTH],
     pub(crate) rows: Rows,
     pub(crate) observer: O,
     pub(crate) pass: Pass,
@@ -124,16 +128,16 @@ pub(crate) struct Lanes<'a, O> {
     pub(crate) together: Option<Stepping>,
     /// The run of each lane that has had one.
     pub(crate) runs: Vec<Run>,
-    pub(crate) starts: &'a [RunStart],
-    /// The next start to take up.
+    pub(crate) given: &'a [BatchRun<'a>],
+    /// The next of them to take up.
     pub(crate) next: usize,
     /// Blocks in which u may have gone beyond the extremes known.
     pub(crate) candidates: Vec<Block>,
     pub(crate) outcomes: Vec<Outcome>,
     /// The extremes found between samples.
     pub(crate) extremes: Vec<Peaks>,
-    /// The first run that could not be followed.
-    pub(crate) failure: Option<(usize, SolverError)>,
+    /// Runs that could not be followed, in the order in which they failed.
+    pub(crate) failures: Vec<(usize, SolverError)>,
 }
 
 /// Lists lanes by their bits.
@@ -142,34 +146,30 @@ pub(crate) fn each(bits: u8) -> impl Iterator<Item = usize> {
 }
 
 impl<'a, O: Observer> Lanes<'a, O> {
-    pub(crate) fn new(
-        solver: &'a RecordSolver<'a>,
-        record: &'a Blocks<'a>,
-        starts: &'a [RunStart],
-        until_overturning: bool,
-        observer: O,
-    ) -> Self {
-        let outcome = |start: &RunStart| Outcome {
+    /// Takes up runs, of which there is at least one.
+    pub(crate) fn new(given: &'a [BatchRun<'a>], end: RunEnd, observer: O) -> Self {
+        let BatchRun { solver, record, .. } = given[0];
+        let outcome = |BatchRun { start, .. }: &BatchRun<'_>| Outcome {
             state: start.state,
             overturning: start.state.overturned.then_some(0.0),
             work: Work::default(),
             put_to_rest: false,
         };
         Self {
-            solver,
-            record,
+            solvers: [solver; WIDTH],
+            records: [record; WIDTH],
             rows: Rows::default(),
             observer,
-            pass: Pass::Motion { until_overturning },
-            ends_at_peaks: false,
+            pass: Pass::Motion { until_overturning: end != RunEnd::OfRecord },
+            ends_at_peaks: end == RunEnd::AtPeaks,
             together: None,
             runs: Vec::new(),
-            starts,
+            given,
             next: 0,
             candidates: Vec::new(),
-            outcomes: starts.iter().map(outcome).collect(),
-            extremes: starts.iter().map(|_| Peaks::at(0.0)).collect(),
-            failure: None,
+            outcomes: given.iter().map(outcome).collect(),
+            extremes: given.iter().map(|_| Peaks::at(0.0)).collect(),
+            failures: Vec::new(),
         }
     }
 }
@@ -204,7 +204,7 @@ impl<O: Observer> Lanes<'_, O> {
             Pass::Motion { .. } => ((first / BLOCK + 1) * BLOCK).min(run.last),
             Pass::Extremes => run.last,
         };
-        let forcing = self.record.largest(first) * rows.factor[lane].abs();
+        let forcing = self.records[lane].largest(first) * rows.factor[lane].abs();
         run.block = Block { state, first, share: rows.share[lane], end, forcing, ..run.block };
         // the last plain steps may go beyond the block, but not beyond the record
         rows.limit[lane] = end.min((run.last + 1).saturating_sub(MOST_AT_ONCE)) as f64;
@@ -216,7 +216,8 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Estimates the largest |u| in the next steps \[m\].
     fn largest(&self, lane: usize) -> f64 {
-        self.runs[lane].peaks.largest() + self.rows.forcing[lane] * self.solver.step * self.solver.step
+        let step = self.solvers[lane].step;
+        self.runs[lane].peaks.largest() + self.rows.forcing[lane] * step * step
     }
 
     /// Computes anew the bound f̂ on the forces, and the limits that u must not leave.
@@ -225,7 +226,7 @@ impl<O: Observer> Lanes<'_, O> {
         let seeks = self.pass == Pass::Extremes;
         let reach = if seeks { self.runs[lane].peaks.largest() } else { ROOM * self.largest(lane) };
         let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
-        run.force = self.solver.table.largest_force(reach);
+        run.force = self.solvers[lane].table.largest_force(reach);
         rows.driving[lane] = rows.forcing[lane] + run.force;
         let Peaks { positive, negative } = run.peaks;
         let (limits, half_reach) =
@@ -259,7 +260,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Returns whether u may have gone beyond the peaks in a block, |f| being up to `force`
     /// (docs/record-path.md, §5).
     pub(crate) fn may_exceed(&self, block: &Block, peaks: &Peaks, force: f64) -> bool {
-        let Self { solver: RecordSolver { table, step, .. }, .. } = self;
+        let RecordSolver { table, step, .. } = self.given[block.number].solver;
         let driving = block.forcing + force;
         // A L²/8 of plain steps, and of parts on curved branches
         let plain = table.most_growth * (1.0 + table.most_damping) * driving;
@@ -296,12 +297,13 @@ impl<O: Observer> Lanes<'_, O> {
     /// at most its integral (docs/record-path.md, §5). Runs of walls with a tie, and those with steps that
     /// are not prepared, go on.
     fn peaks_are_final(&self, lane: usize) -> bool {
-        let (wall, run) = (self.solver.motion.wall(), &self.runs[lane]);
-        let is_prepared = !self.solver.table.steppings.contains(&Stepping::General);
+        let (solver, run) = (self.solvers[lane], &self.runs[lane]);
+        let wall = solver.motion.wall();
+        let is_prepared = !solver.table.steppings.contains(&Stepping::General);
         if !is_prepared || wall.tie().is_some() {
             return false;
         }
-        let push = self.record.rest(self.sample(lane)) * self.rows.factor[lane].abs() * self.solver.step;
+        let push = self.records[lane].rest(self.sample(lane)) * self.rows.factor[lane].abs() * solver.step;
         let speed = (2.0 * wall.energy(self.rows.u[lane], self.rows.v[lane])).sqrt() + push;
         // a wall that rocks to one side only has no peak on the other
         let mut sides =

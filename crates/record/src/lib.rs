@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # How it works
-//! [`RecordSolver::run`] moves one run, [`Batch`] many.
+//! [`RecordSolver::run`] moves one run, [`Batch`] many of one wall and record, [`run_together`] any.
 //!
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made
 //! once for each branch; so are several steps. A *plain* step applies the map and checks that u at both ends
@@ -19,6 +19,7 @@
 
 mod affine;
 mod batch;
+mod branches;
 mod corners;
 mod curved;
 mod forcing;
@@ -33,8 +34,10 @@ mod solver;
 mod table;
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests;
+mod together;
 mod turns;
 
 pub use batch::{Batch, LANES};
-pub use forcing::Forcing;
-pub use solver::{Outcome, RecordSolver, RunStart};
+pub use forcing::{Blocks, Forcing};
+pub use solver::{BatchRun, Outcome, RecordSolver, RunEnd, RunStart};
+pub use together::run_together;

@@ -1,8 +1,8 @@
 //! The line of a branch with constant damping: the motion along it, and the bounds within which that holds.
 
+use crate::branches::Branches;
 use crate::lanes::Rows;
-use crate::number::{BranchRow, Number};
-use crate::table::Table;
+use crate::number::Number;
 
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 24] = {
@@ -26,13 +26,12 @@ pub(crate) struct Line<N> {
 
 impl<N: Number> Line<N> {
     #[inline(always)]
-    pub(crate) fn look_up(token: N::Token, table: &Table, branches: N::Branches) -> Self {
-        let look_up = |row: &BranchRow| N::look_up(token, row, branches);
+    pub(crate) fn look_up(token: N::Token, branches: &Branches<'_, N>) -> Self {
         Self {
-            c: look_up(&table.damping),
-            k: look_up(&table.stiffness),
-            force_at_zero: look_up(&table.force_at_zero),
-            growth: look_up(&table.growth),
+            c: branches.look_up(token, |table| &table.damping),
+            k: branches.look_up(token, |table| &table.stiffness),
+            force_at_zero: branches.look_up(token, |table| &table.force_at_zero),
+            growth: branches.look_up(token, |table| &table.growth),
         }
     }
 
@@ -116,11 +115,10 @@ pub(crate) struct Bounds<N> {
 
 impl<N: Number> Bounds<N> {
     #[inline(always)]
-    pub(crate) fn look_up(token: N::Token, table: &Table, rows: &Rows, first: usize, branch: N) -> Self {
-        let branches = branch.branches();
-        let [lower, upper] = [0, 1].map(|side| N::look_up(token, &table.ends[side], branches));
+    pub(crate) fn look_up(token: N::Token, branches: &Branches<'_, N>, rows: &Rows, first: usize) -> Self {
+        let [lower, upper] = [0, 1].map(|side| branches.look_up(token, |table| &table.ends[side]));
         let [lowest, highest] = [0, 1].map(|side| N::load(token, &rows.limits[side], first));
-        let share = N::look_up(token, &table.speed_share, branches);
+        let share = branches.look_up(token, |table| &table.speed_share);
         Self {
             ends: [lower, upper],
             within: [lower.max(lowest), upper.min(highest)],

@@ -22,6 +22,8 @@ pub(crate) type BranchRow = [Row; MOST_BRANCHES / WIDTH];
 /// A number of each lane.
 pub(crate) trait Number: secant::Number {
     const LANES: usize;
+    /// Whether the branches of all lanes stand in one table.
+    const ONE_TABLE: bool;
     /// A proof that the processor has these vectors.
     type Token: Copy;
     /// True or false for each lane.
@@ -48,12 +50,15 @@ pub(crate) trait Number: secant::Number {
 
     /// Converts whole numbers of branches, which are below [`MOST_BRANCHES`], in a vector below [`WIDTH`].
     fn branches(self) -> Self::Branches;
+    /// Returns the branch of a lane.
+    fn branch(branches: Self::Branches, lane: usize) -> usize;
     /// Looks up the number that belongs to the branch of each lane.
     fn look_up(token: Self::Token, row: &BranchRow, branches: Self::Branches) -> Self;
 }
 
 impl Number for f64 {
     const LANES: usize = 1;
+    const ONE_TABLE: bool = true;
     type Token = ();
     type Mask = bool;
     type Branches = usize;
@@ -124,6 +129,11 @@ impl Number for f64 {
     }
 
     #[inline(always)]
+    fn branch(branch: usize, _: usize) -> usize {
+        branch
+    }
+
+    #[inline(always)]
     fn look_up((): (), row: &BranchRow, branch: usize) -> Self {
         row.as_flattened()[branch]
     }
@@ -138,11 +148,11 @@ pub(crate) fn index(number: f64) -> usize {
 
 /// Eight numbers side by side.
 #[derive(Clone, Copy)]
-pub(crate) struct Eight<S: Simd>(f64x8<S>);
+pub(crate) struct Eight<S: Simd, const ONE_TABLE: bool>(f64x8<S>);
 
 macro_rules! operators {
     ($($name:ident $function:ident)*) => { $(
-        impl<S: Simd> $name for Eight<S> {
+        impl<S: Simd, const ONE_TABLE: bool> $name for Eight<S, ONE_TABLE> {
             type Output = Self;
 
             #[inline(always)]
@@ -155,7 +165,7 @@ macro_rules! operators {
 
 operators!(Add add Sub sub Mul mul Div div);
 
-impl<S: Simd> Add<f64> for Eight<S> {
+impl<S: Simd, const ONE_TABLE: bool> Add<f64> for Eight<S, ONE_TABLE> {
     type Output = Self;
 
     #[inline(always)]
@@ -164,7 +174,7 @@ impl<S: Simd> Add<f64> for Eight<S> {
     }
 }
 
-impl<S: Simd> Mul<f64> for Eight<S> {
+impl<S: Simd, const ONE_TABLE: bool> Mul<f64> for Eight<S, ONE_TABLE> {
     type Output = Self;
 
     #[inline(always)]
@@ -173,7 +183,7 @@ impl<S: Simd> Mul<f64> for Eight<S> {
     }
 }
 
-impl<S: Simd> Neg for Eight<S> {
+impl<S: Simd, const ONE_TABLE: bool> Neg for Eight<S, ONE_TABLE> {
     type Output = Self;
 
     #[inline(always)]
@@ -182,7 +192,7 @@ impl<S: Simd> Neg for Eight<S> {
     }
 }
 
-impl<S: Simd> secant::Number for Eight<S> {
+impl<S: Simd, const ONE_TABLE: bool> secant::Number for Eight<S, ONE_TABLE> {
     #[inline(always)]
     fn like(self, value: f64) -> Self {
         Self(f64x8::splat(self.0.simd, value))
@@ -211,8 +221,9 @@ pub(crate) struct Places<S: Simd> {
     bytes: u8x64<S>,
 }
 
-impl<S: Simd> Number for Eight<S> {
+impl<S: Simd, const ONE_TABLE: bool> Number for Eight<S, ONE_TABLE> {
     const LANES: usize = WIDTH;
+    const ONE_TABLE: bool = ONE_TABLE;
     type Token = S;
     type Mask = mask64x8<S>;
     type Branches = Places<S>;
@@ -286,6 +297,11 @@ impl<S: Simd> Number for Eight<S> {
         let whole: i64x8<S> = self.0.to_int();
         let bytes = (whole * 0x0808_0808_0808_0808 + 0x0706_0504_0302_0100).to_bytes();
         Places { indices: self.0.to_array().map(index), bytes }
+    }
+
+    #[inline(always)]
+    fn branch(Places { indices, .. }: Places<S>, lane: usize) -> usize {
+        indices[lane % WIDTH]
     }
 
     #[inline(always)]

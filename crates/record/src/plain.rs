@@ -2,13 +2,13 @@
 //! that wait (docs/record-path.md, §2 and §3).
 
 use crate::corners::Part;
-use crate::forcing::MOST_AT_ONCE;
+use crate::forcing::{AHEAD, MOST_AT_ONCE};
 use crate::lanes::{Lanes, Rows, Waiting};
 use crate::line::{Bounds, Line};
-use crate::number::{BranchRow, Number, WIDTH, index};
+use crate::number::{Number, WIDTH, index};
 use crate::responses::{ROWS_AHEAD, Responses};
 use crate::solver::Observer;
-use crate::table::get;
+use crate::table::{Table, get};
 
 /// The number of lanes at which plain steps stop, so that the lanes that wait are served. Serving them costs
 /// as much as some thirty plain steps, however few they are.
@@ -67,25 +67,24 @@ impl<N: Number> Reached<N> {
     }
 }
 
-/// Looks up the numbers of several rows.
-#[inline(always)]
-fn look_up_rows<N: Number, const ROWS: usize>(
-    token: N::Token,
-    rows: &[BranchRow; ROWS],
-    branches: N::Branches,
-) -> [N; ROWS] {
-    let mut found = [N::splat(token, 0.0); ROWS];
-    for (found, row) in found.iter_mut().zip(rows) {
-        *found = N::look_up(token, row, branches);
-    }
-    found
-}
-
 /// Returns the change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
 #[inline(always)]
 fn change<N: Number>([by_u, by_v, by_q0, by_q1]: [N; 4], [u, v]: [N; 2], q: [N; 2]) -> N {
     // adds the products with the state last, because the next step waits for them
     (by_q0 * q[0] + by_q1 * q[1]) + (by_u * u + by_v * v)
+}
+
+/// Returns the forcing of lanes at two samples.
+#[inline(always)]
+fn pair<N: Number>(token: N::Token, ahead: &[&[f64; AHEAD]; WIDTH], at: usize) -> [N; 2] {
+    N::unzip(token, |lane| [ahead[lane][at], ahead[lane][at + 1]])
+}
+
+/// Returns the change of u, or of u̇, by the forcing at five samples, as `Affine::respond` does.
+#[inline(always)]
+fn respond<N: Number>(by: &[[N; 2]; MOST_AT_ONCE + 1], part: usize, p: [N; MOST_AT_ONCE + 1]) -> N {
+    let [a, b, c, d, e] = by;
+    ((a[part] * p[0] + b[part] * p[1]) + (c[part] * p[2] + d[part] * p[3])) + e[part] * p[4]
 }
 
 impl<O: Observer> Lanes<'_, O> {
@@ -102,7 +101,7 @@ impl<O: Observer> Lanes<'_, O> {
             return self.rest_of_step::<N>(token, first);
         }
         let branch = N::load(token, &self.rows.branch, first);
-        let bounds = Bounds::look_up(token, &self.solver.table, &self.rows, first, branch);
+        let bounds = self.bounds(token, first, branch);
         let (range, change) = self.plain_range::<N>(token, first, &bounds);
         let [u, v] = [N::load(token, &self.rows.u, first), N::load(token, &self.rows.v, first)];
         // from this speed on u̇ keeps its sign over the steps: u stays between its values at their ends
@@ -117,7 +116,7 @@ impl<O: Observer> Lanes<'_, O> {
             } else if let Some(responses) = responses {
                 self.plain_in_lanes(token, first, &range, (ready, few), responses)
             } else {
-                N::mask(token, 0)
+                self.plain_by_samples(token, first, &range, (ready, few))
             };
             ready = N::bits(goes & open(&self.rows)) & busy;
         }
@@ -135,12 +134,12 @@ impl<O: Observer> Lanes<'_, O> {
     /// once \[m/s\].
     #[inline(always)]
     fn plain_range<N: Number>(&self, token: N::Token, first: usize, bounds: &Bounds<N>) -> (Range<N>, N) {
-        let (rows, table) = (&self.rows, &self.solver.table);
-        let branches = N::load(token, &rows.branch, first).branches();
+        let (rows, solver) = (&self.rows, self.solvers[first]);
+        let branches = self.branches(first, N::load(token, &rows.branch, first));
         let driving = N::load(token, &rows.driving, first);
-        let bounded = driving + N::look_up(token, &table.damping_share, branches) * driving;
-        let length = table.at_once as f64 * self.solver.step;
-        let most = N::look_up(token, &table.plain_growth, branches) * bounded;
+        let bounded = driving + branches.look_up(token, |table| &table.damping_share) * driving;
+        let length = solver.table.at_once as f64 * solver.step;
+        let most = branches.look_up(token, |table| &table.plain_growth) * bounded;
         let margin = most * (0.125 * length * length);
         let [low, high] = [bounds.within[0] + margin, bounds.within[1] - margin];
         (Range { low, high, speed: bounds.speed }, most * length)
@@ -166,6 +165,45 @@ impl<O: Observer> Lanes<'_, O> {
         })
     }
 
+    /// Takes plain steps side by side, of any walls and records, by the samples of the records.
+    #[inline(always)]
+    fn plain_by_samples<N: Number>(
+        &mut self,
+        token: N::Token,
+        first: usize,
+        range: &Range<N>,
+        ready: (u8, u32),
+    ) -> N::Mask {
+        let (solvers, records) = (self.solvers, self.records);
+        let at_once = solvers[first].table.at_once;
+        let mut ahead = [&[0.0; AHEAD]; WIDTH];
+        let mut maps = [&solvers[first].table.maps[0]; WIDTH];
+        for lane in 0..WIDTH {
+            ahead[lane] = records[lane].ahead(index(self.rows.index[lane]));
+            maps[lane] = &solvers[lane].table.maps[index(self.rows.branch[lane])];
+        }
+        let mut by = [[N::splat(token, 0.0); 2]; MOST_AT_ONCE + 1];
+        for (n, by) in by.iter_mut().enumerate() {
+            *by = N::unzip(token, |lane| maps[lane].of_forcing[n]);
+        }
+        let mut p0 = N::of_lanes(token, |lane| ahead[lane][0]);
+        self.plain_steps(
+            token,
+            first,
+            range,
+            ready,
+            ROWS_AHEAD,
+            #[inline(always)]
+            |row| {
+                let at = (row * at_once).min(AHEAD - MOST_AT_ONCE - 1);
+                let ([p1, p2], [p3, p4]) = (pair(token, &ahead, at + 1), pair(token, &ahead, at + 3));
+                let p = [p0, p1, p2, p3, p4];
+                p0 = if at_once == MOST_AT_ONCE { p4 } else { p2 };
+                [respond(&by, 0, p), respond(&by, 1, p)]
+            },
+        )
+    }
+
     /// Takes plain steps of one lane.
     #[inline(always)]
     fn plain_alone<N: Number>(
@@ -175,9 +213,10 @@ impl<O: Observer> Lanes<'_, O> {
         range: &Range<N>,
         ready: u8,
     ) -> N::Mask {
-        let (rows, record) = (&self.rows, self.record);
+        let (rows, record) = (&self.rows, self.records[first]);
         let branch = index(rows.branch[first]);
-        let (map, at_once) = (self.solver.table.maps[branch], self.solver.table.at_once);
+        let Table { maps, at_once, .. } = &self.solvers[first].table;
+        let (map, at_once) = (maps[branch], *at_once);
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
         let p = record.forcing.from(sample, (count - 1) * at_once + MOST_AT_ONCE + 1);
@@ -197,14 +236,12 @@ impl<O: Observer> Lanes<'_, O> {
         range: &Range<N>,
         (ready, few): (u8, u32),
         count: usize,
-        response: impl Fn(usize) -> [N; 2],
+        mut response: impl FnMut(usize) -> [N; 2],
     ) -> N::Mask {
-        let (rows, table) = (&self.rows, &self.solver.table);
-        let branches = N::load(token, &rows.branch, first).branches();
-        let [[uu, uv, u_force], [vu, vv, v_force]] = [
-            look_up_rows::<N, _>(token, &table.plain_steps[0], branches),
-            look_up_rows::<N, _>(token, &table.plain_steps[1], branches),
-        ];
+        let (rows, at_once) = (&self.rows, self.solvers[first].table.at_once);
+        let branches = self.branches(first, N::load(token, &rows.branch, first));
+        let [uu, uv, u_force] = branches.look_up_all(token, |table| &table.plain_steps[0]);
+        let [vu, vv, v_force] = branches.look_up_all(token, |table| &table.plain_steps[1]);
         let factor = N::load(token, &rows.factor, first);
         let room = N::load(token, &rows.limit, first) - N::load(token, &rows.index, first);
         let started = N::mask(token, ready);
@@ -220,11 +257,11 @@ impl<O: Observer> Lanes<'_, O> {
             goes = goes & range.holds([u, v]) & steps.below(room);
             if O::SEES && N::bits(goes) != 0 {
                 let sample = index(self.rows.index[first] + reached.steps.lane(0));
-                let (from, count) = (reached.now.map(|x| x.lane(0)), table.at_once);
+                let (from, count) = (reached.now.map(|x| x.lane(0)), at_once);
                 self.see_steps(first, sample, from, count - 1);
                 self.see(sample + count, [u.lane(0), v.lane(0)]);
             }
-            steps = steps + table.at_once as f64;
+            steps = steps + at_once as f64;
             reached.take(goes, [u, v], steps);
             if N::bits(goes).count_ones() <= few {
                 break;
@@ -236,15 +273,13 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Shows the observer some single steps of a lane, from u and u̇ at a sample on.
     fn see_steps(&mut self, lane: usize, sample: usize, mut now: [f64; 2], count: usize) {
-        let (table, rows) = (&self.solver.table, &self.rows);
-        let (branch, factor) = (rows.branch[lane].branches(), rows.factor[lane]);
-        let map = [
-            look_up_rows::<f64, _>((), &table.one_step[0], branch),
-            look_up_rows::<f64, _>((), &table.one_step[1], branch),
-        ];
+        let (rows, table) = (&self.rows, &self.solvers[lane].table);
+        let (branch, factor) = (index(rows.branch[lane]), rows.factor[lane]);
+        let map = table.one_step.map(|rows| rows.map(|row| get(&row, branch)));
         for sample in sample..sample + count {
-            let q = [0, 1]
-                .map(|n| factor * self.record.forcing.at(sample + n) - get(&table.force_at_zero, branch));
+            let q = [0, 1].map(|n| {
+                factor * self.records[lane].forcing.at(sample + n) - get(&table.force_at_zero, branch)
+            });
             now = [0, 1].map(|part| now[part] + change(map[part], now, q));
             self.see(sample + 1, now);
         }
@@ -292,23 +327,22 @@ impl<O: Observer> Lanes<'_, O> {
         mut goes: N::Mask,
         reached: &mut Reached<N>,
     ) -> Part<N> {
-        let (rows, table) = (&self.rows, &self.solver.table);
+        let (rows, step) = (&self.rows, self.solvers[first].step);
         let branch = N::load(token, &rows.branch, first);
-        let branches = branch.branches();
-        let [u_by, v_by] = [
-            look_up_rows::<N, _>(token, &table.one_step[0], branches),
-            look_up_rows::<N, _>(token, &table.one_step[1], branches),
-        ];
-        let line = Line::look_up(token, table, branches);
-        let length = N::splat(token, self.solver.step);
-        let furthest = self.record.forcing.count() - 1;
-        // lanes that do not wait may be near the end of the record
+        let branches = self.branches(first, branch);
+        let u_by = branches.look_up_all(token, |table| &table.one_step[0]);
+        let v_by = branches.look_up_all(token, |table| &table.one_step[1]);
+        let line = Line::look_up(token, &branches);
+        let length = N::splat(token, step);
+        let furthest = self.records[first].forcing.count() - 1;
         let most =
             if N::LANES == 1 { MOST_AT_ONCE.min(furthest - index(rows.index[first])) } else { MOST_AT_ONCE };
         let mut ahead: [&[f64]; WIDTH] = [&[]; WIDTH];
         for (lane, ahead) in ahead[..N::LANES].iter_mut().enumerate() {
-            let sample = index(rows.index[(first + lane) % WIDTH]);
-            *ahead = self.record.forcing.from(sample.min(furthest - most), most + 1);
+            let lane = (first + lane) % WIDTH;
+            let (sample, forcing) = (index(rows.index[lane]), self.records[lane].forcing);
+            // lanes that do not wait may be near the end of the record
+            *ahead = forcing.from(sample.min(forcing.count() - 1 - most), most + 1);
         }
         let factor = N::load(token, &rows.factor, first);
         let p = |n: usize| factor * N::of_lanes(token, |lane| ahead[lane][n]);
@@ -331,6 +365,6 @@ impl<O: Observer> Lanes<'_, O> {
             }
             (from, p0) = (to, p1);
         }
-        Part::step(leaving, branch, line, [reached.now, end], forcing, self.solver.step)
+        Part::step(leaving, branch, line, [reached.now, end], forcing, step)
     }
 }

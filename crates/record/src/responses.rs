@@ -10,6 +10,7 @@ use crate::affine::Affine;
 use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
 use crate::number::WIDTH;
 use crate::table::{LONGEST, Stepping, Table};
+use crate::together::FEWEST_SAMPLES;
 
 /// Rows that a lane may read from where it is: those of a block by four steps at once, and one more. By two
 /// it is half a block, and lanes go on in the next round.
@@ -35,7 +36,7 @@ impl Responses {
     /// few or very many samples, many branches, steps without a map, or long beside the wall's period.
     pub(crate) fn new(motion: &Motion, table: &Table, forcing: Forcing<'_>) -> Option<Self> {
         let count = forcing.count();
-        if !(4 * MOST_AT_ONCE..=MOST_SAMPLES).contains(&count)
+        if !(FEWEST_SAMPLES..=MOST_SAMPLES).contains(&count)
             || table.steppings.len() > WIDTH
             || table.longest > LONGEST
             || table.steppings.iter().any(|stepping| *stepping != Stepping::Affine)

@@ -3,19 +3,16 @@
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Level, Simd};
 use rocking_wall::solver::secant::{ByRatio, ByStiffness};
-use rocking_wall::solver::{Memo, Phase, SolverError, State, Work};
+use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
 use crate::number::{WIDTH, index};
-use crate::solver::{Observer, Outcome, RunStart};
+use crate::solver::{BatchRun, Observer, Outcome, RunStart};
 use crate::table::{Law, Stepping};
 
 impl<O: Observer> Lanes<'_, O> {
-    /// Follows all runs to their ends, one after the other.
-    ///
-    /// # Errors
-    /// [`SolverError`] of the first run that could not be followed.
-    pub(crate) fn one_by_one(mut self) -> Result<Vec<Outcome>, SolverError> {
+    /// Follows all runs to their ends, one after the other; returns what became of each.
+    pub(crate) fn one_by_one(mut self) -> Vec<Result<Outcome, SolverError>> {
         // no steps are taken side by side, so that `fill` follows one run after the other to its end
         self.fill(0);
         self.pass = Pass::Extremes;
@@ -24,16 +21,13 @@ impl<O: Observer> Lanes<'_, O> {
     }
 
     /// Runs everything to the end. Runs on the same kind of branch step together (`round`) until one needs
-    /// work of its own.
-    ///
-    /// # Errors
-    /// [`SolverError`] of the first run that could not be followed.
+    /// work of its own. Returns what became of each.
     #[inline(always)]
     pub(crate) fn side_by_side(
         mut self,
         together: Stepping,
         round: impl Fn(&mut Self, u8) -> Waiting,
-    ) -> Result<Vec<Outcome>, SolverError> {
+    ) -> Vec<Result<Outcome, SolverError>> {
         self.together = Some(together);
         for pass in [self.pass, Pass::Extremes] {
             self.pass = pass;
@@ -51,15 +45,18 @@ impl<O: Observer> Lanes<'_, O> {
         self.outcomes()
     }
 
-    fn outcomes(mut self) -> Result<Vec<Outcome>, SolverError> {
-        if let Some((_, error)) = self.failure {
-            return Err(error);
-        }
-        for (outcome, extremes) in self.outcomes.iter_mut().zip(self.extremes) {
+    fn outcomes(self) -> Vec<Result<Outcome, SolverError>> {
+        let include = |(mut outcome, extremes): (Outcome, Peaks)| {
             outcome.state.peaks.include(extremes.positive);
             outcome.state.peaks.include(-extremes.negative);
+            Ok(outcome)
+        };
+        let mut outcomes: Vec<_> = self.outcomes.into_iter().zip(self.extremes).map(include).collect();
+        // of the errors of one run the first counts
+        for (number, error) in self.failures.into_iter().rev() {
+            outcomes[number] = Err(error);
         }
-        Ok(self.outcomes)
+        outcomes
     }
 
     /// Advances the next runs of a lane one by one until one can join the vector steps; returns whether there
@@ -78,16 +75,18 @@ impl<O: Observer> Lanes<'_, O> {
         match self.pass {
             Pass::Motion { .. } => {
                 let number = self.next;
-                let Some(&RunStart { state, factor }) = self.starts.get(number) else { return false };
+                let Some(&BatchRun { record, start, .. }) = self.given.get(number) else { return false };
+                let RunStart { state, factor } = start;
                 self.next += 1;
-                self.start(lane, Block::new(number, factor, state), self.record.forcing.count().max(1) - 1);
+                self.start(lane, Block::new(number, factor, state), record.forcing.count().max(1) - 1);
                 true
             }
             Pass::Extremes => {
                 while let Some(block) = self.candidates.pop() {
                     // the peaks of the motion pass, so that what one block adds does not depend on the others
                     let peaks = self.outcomes[block.number].state.peaks;
-                    if self.may_exceed(&block, &peaks, self.solver.table.largest_force(peaks.largest())) {
+                    let table = &self.given[block.number].solver.table;
+                    if self.may_exceed(&block, &peaks, table.largest_force(peaks.largest())) {
                         let state = State { peaks, ..block.state };
                         self.start(lane, Block { state, ..block }, block.end);
                         return true;
@@ -123,7 +122,11 @@ impl<O: Observer> Lanes<'_, O> {
         } else {
             self.runs.push(run);
         }
+        let BatchRun { solver, record, .. } = self.given[number];
+        (self.solvers[lane], self.records[lane]) = (solver, record);
         let rows = &mut self.rows;
+        rows.passage_factor[lane] = solver.passage_factor;
+        rows.rest_speed[lane] = solver.motion.rest_speed();
         (rows.index[lane], rows.share[lane], rows.factor[lane]) = (first as f64, share, factor);
         (rows.u[lane], rows.v[lane], rows.branch[lane]) = (displacement, velocity, branch as f64);
         (rows.corners[lane], rows.impacts[lane]) = (0.0, 0.0);
@@ -170,15 +173,15 @@ impl<O: Observer> Lanes<'_, O> {
     fn stepping(&self, lane: usize) -> Stepping {
         let run = &self.runs[lane];
         match run.phase {
-            Phase::Moving if run.tie != *self.solver.motion.wall().tie_memory() => Stepping::General,
-            Phase::Moving => self.solver.table.steppings[index(self.rows.branch[lane])],
+            Phase::Moving if run.tie != *self.solvers[lane].motion.wall().tie_memory() => Stepping::General,
+            Phase::Moving => self.solvers[lane].table.steppings[index(self.rows.branch[lane])],
             Phase::Resting | Phase::Landed => Stepping::General,
         }
     }
 
     #[inline(always)]
     fn take_parts_by_law(&mut self, lane: usize) -> Waiting {
-        match self.solver.table.law {
+        match self.solvers[lane].table.law {
             Law::Ratio => self.take_parts::<f64, ByRatio>((), lane, 1),
             Law::Stiffness => self.take_parts::<f64, ByStiffness>((), lane, 1),
         }
@@ -201,23 +204,20 @@ impl<O: Observer> Lanes<'_, O> {
             return true;
         }
         let Err(error) = self.search(lane) else { return true };
-        let number = self.runs[lane].block.number;
-        if self.failure.as_ref().is_none_or(|(first, _)| number < *first) {
-            self.failure = Some((number, error));
-        }
+        self.failures.push((self.runs[lane].block.number, error));
         false
     }
 
     /// Takes the steps through which the wall in a lane rests, up to the end of its block; returns whether
     /// there are any.
     fn rest_on(&mut self, lane: usize) -> bool {
-        let [lowest, highest] = self.solver.motion.rest_band();
+        let [lowest, highest] = self.solvers[lane].motion.rest_band();
         let first = self.sample(lane);
         if self.runs[lane].phase != Phase::Resting {
             return false;
         }
         let holds = |sample: usize| {
-            let p = self.rows.factor[lane] * self.record.forcing.at(sample);
+            let p = self.rows.factor[lane] * self.records[lane].forcing.at(sample);
             lowest < p && p < highest
         };
         let end = self.runs[lane].block.end;
@@ -235,9 +235,9 @@ impl<O: Observer> Lanes<'_, O> {
     fn search(&mut self, lane: usize) -> Result<(), SolverError> {
         self.include_ends(lane);
         let (sample, share) = (self.sample(lane), self.rows.share[lane]);
-        let [from, to] = [0, 1].map(|n| self.rows.factor[lane] * self.record.forcing.at(sample + n));
+        let [from, to] = [0, 1].map(|n| self.rows.factor[lane] * self.records[lane].forcing.at(sample + n));
         let p = [from + (to - from) * share, to];
-        let (solver, step) = (self.solver, self.solver.step);
+        let (solver, step) = (self.solvers[lane], self.solvers[lane].step);
         let mut state = self.state(lane);
         let run = &mut self.runs[lane];
         // parts of the step that were taken before count as the one piece of a step that is not searched
@@ -272,7 +272,7 @@ mod tests {
 
     use super::*;
     use crate::forcing::{Blocks, Forcing};
-    use crate::solver::{NoObserver, RecordSolver};
+    use crate::solver::{NoObserver, RecordSolver, RunEnd};
 
     /// A wall at rest passes over the samples within the band, up to the first beyond it.
     #[test]
@@ -288,8 +288,9 @@ mod tests {
         for (beyond, factor) in [(1.01 * highest, 1.0), (1.01 * lowest, 1.0), (1.01 * highest, -1.0)] {
             let samples: Vec<f64> = (0..100).map(|n| if n < 40 { 0.98 * beyond } else { beyond }).collect();
             let record = Blocks::new(Forcing::Samples(&samples));
-            let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor }];
-            let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
+            let start = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor };
+            let given = [BatchRun { solver: &solver, record: &record, start }];
+            let mut lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
             assert!(lanes.start_next(0) && lanes.in_block(0));
             // the last step within the band ends at sample 39
             assert!(lanes.rest_on(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
@@ -297,20 +298,25 @@ mod tests {
         }
     }
 
-    /// Of runs that fail the first is reported, in whatever order they fail.
+    /// A run that fails has its own error, in whatever order runs fail; the others have their outcomes.
     #[test]
-    fn the_first_run_that_fails_is_kept() {
+    fn each_run_has_its_own_error() {
         let motion = Motion::of(&Parameters { u_start: 0.0, ..Parameters::default() }, 1e-8);
         let motion = motion.expect("a valid wall");
         let samples: Vec<f64> = (0..100).map(f64::from).collect();
         let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Samples(&samples)));
-        let overflows = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1e305 };
-        let starts = [overflows; 3];
-        let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
+        let state = motion.start(0.0, 0.0, Support::default());
+        let given = [1e305, 1e-3, 2e305].map(|factor| {
+            let start = RunStart { state, factor };
+            BatchRun { solver: &solver, record: &record, start }
+        });
+        let mut lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
         assert!((0..3).all(|lane| lanes.start_next(lane)));
-        for (lane, first) in [(1, 1), (0, 0), (2, 0)] {
-            assert!(!lanes.alone(lane));
-            assert_eq!(lanes.failure.as_ref().map(|(number, _)| *number), Some(first));
+        assert!([2, 1, 0].iter().all(|&lane| !lanes.alone(lane)));
+        let failed: Vec<_> = lanes.failures.iter().map(|(number, _)| *number).collect();
+        assert_eq!(failed, [2, 0]);
+        for (given, outcome) in given.iter().zip(lanes.outcomes()) {
+            assert_eq!(outcome, solver.run(given.start, Forcing::Samples(&samples), false));
         }
     }
 
@@ -331,8 +337,9 @@ mod tests {
             };
             let motion = Motion::of(&undamped, 1e-8).expect("a valid wall");
             let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Still(100)));
-            let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1.0 }];
-            let mut lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
+            let start = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1.0 };
+            let given = [BatchRun { solver: &solver, record: &record, start }];
+            let mut lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
             assert!(lanes.start_next(0) && !lanes.rest_on(0) && !lanes.alone(0));
             assert_eq!((lanes.rows.u[0], lanes.rows.v[0], lanes.sample(0)), (0.0, 0.0, 99));
             assert_eq!(lanes.runs[0].steps, searched, "{rocking:?}");

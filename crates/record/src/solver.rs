@@ -2,6 +2,7 @@
 
 use rocking_wall::solver::{Motion, State, Work};
 
+use crate::forcing::Blocks;
 use crate::table::Table;
 
 /// Where a run through a record starts, and what multiplies the record.
@@ -12,6 +13,35 @@ pub struct RunStart {
     pub state: State,
     /// The factor of the [`Forcing`](crate::Forcing) \[-\], of either sign.
     pub factor: f64,
+}
+
+/// Where a run ends, if not in an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunEnd {
+    /// At the last sample.
+    OfRecord,
+    /// At the end of the step in which the wall overturns.
+    AtOverturning,
+    /// At overturning, and no further than to where the rest of the record cannot raise the peaks. These have
+    /// the same bits as if the run went on; the state is that where it ends.
+    AtPeaks,
+}
+
+impl RunEnd {
+    pub(crate) fn until(overturning: bool) -> Self {
+        if overturning { Self::AtOverturning } else { Self::OfRecord }
+    }
+}
+
+/// A run among others of any walls through any records ([`run_together`](crate::run_together)).
+#[derive(Clone, Copy, Debug)]
+pub struct BatchRun<'a> {
+    /// The wall, prepared for steps of the record's length.
+    pub solver: &'a RecordSolver<'a>,
+    /// The record.
+    pub record: &'a Blocks<'a>,
+    /// The start, and the factor of the record.
+    pub start: RunStart,
 }
 
 /// What became of a run.
@@ -88,5 +118,15 @@ impl<'a> RecordSolver<'a> {
     pub fn new(motion: &'a Motion, step: f64) -> Self {
         let passage_factor = motion.wall().passage_factor();
         Self { motion, step, table: Table::new(motion, step), passage_factor }
+    }
+
+    /// Returns the motion whose steps are prepared.
+    pub fn motion(&self) -> &'a Motion {
+        self.motion
+    }
+
+    /// Returns the length of the steps \[s\].
+    pub fn step(&self) -> f64 {
+        self.step
     }
 }

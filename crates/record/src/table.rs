@@ -35,7 +35,7 @@ pub(crate) enum Stepping {
 }
 
 /// How damping follows the secant stiffness, on all branches alike.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Law {
     /// c = 2ξ ω.
     Ratio,

@@ -10,10 +10,11 @@ use crate::batch::{SideBySide, Vectors, in_lanes};
 use crate::forcing::{Blocks, Forcing};
 use crate::lanes::{Block, Lanes};
 use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
-use crate::solver::{NoObserver, Outcome, RecordSolver, RunStart};
+use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd, RunStart};
 
 mod passages;
 mod peaks;
+mod together;
 mod work;
 
 /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
@@ -49,7 +50,9 @@ fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) 
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let steps = SideBySide::new(solver, forcing).expect("a wall for lanes");
     let record = Blocks::new(forcing);
-    in_lanes(simd, &steps, Lanes::new(solver, &record, starts, false, NoObserver)).expect("bounded motions")
+    let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
+    let outcomes = in_lanes(simd, &steps, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
+    outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 
 /// Factors of the forcing, more than there are lanes.
@@ -202,13 +205,14 @@ fn blocks_are_searched_where_their_margin_exceeds_the_peaks() {
     for (model, fastest) in [(DampingModel::ConstantCoefficient, 3.0), (DampingModel::ConstantRatio, 1e3)] {
         let motion = losing(0.018, model, Impact::None);
         let (solver, still) = (RecordSolver::new(&motion, step), Blocks::new(Forcing::Still(2)));
-        let lanes = Lanes::new(&solver, &still, &[], false, NoObserver);
+        let state = motion.start(0.0, 0.0, Support::default());
+        let given = [BatchRun { solver: &solver, record: &still, start: RunStart { state, factor: 1.0 } }];
+        let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
         let table = &solver.table;
         let plain = table.most_growth * 1.25 * (forcing + force);
         let curved = table.curved_growth * (forcing + force + table.curved_damping * fastest);
         assert_eq!(plain > curved, model == DampingModel::ConstantCoefficient);
         let margin = plain.max(curved) * step * step / 8.0;
-        let state = motion.start(0.0, 0.0, Support::default());
         let block = Block { highest: 0.04, lowest: -0.03, fastest, forcing, ..Block::new(0, 1.0, state) };
         let exceeds = |positive: f64, negative: f64| {
             lanes.may_exceed(&block, &Peaks { positive: 0.04 + positive, negative: 0.03 + negative }, force)
@@ -348,7 +352,7 @@ fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
 
 /// Operations on eight numbers give, lane by lane, the bits of those on single ones.
 fn check_lanes<S: Simd>(simd: S) {
-    let eight = operations::<Eight<S>>(simd, 0);
+    let eight = operations::<Eight<S, true>>(simd, 0);
     for lane in 0..WIDTH {
         for (n, (eight, single)) in eight.iter().zip(operations::<f64>((), lane)).enumerate() {
             assert_eq!(eight[lane], single[0], "operation {n} in lane {lane}");

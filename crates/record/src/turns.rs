@@ -80,7 +80,7 @@ impl<O: Observer> Lanes<'_, O> {
         let mut part: Part<f64> = self.rest((), lane);
         let (mut corners, mut is_curved, mut arrival) = (0, false, Arrival::none(&part));
         while corners < MOST_CORNERS {
-            let bounds = Bounds::look_up((), &self.solver.table, &self.rows, lane, part.branch);
+            let bounds = self.bounds((), lane, part.branch);
             match part.turn(&bounds) {
                 Turn::Unclear => break,
                 Turn::Stays => {
@@ -89,9 +89,9 @@ impl<O: Observer> Lanes<'_, O> {
                 }
                 Turn::Leaves => {}
             }
-            let ahead = self.ahead((), &part);
-            let passage = part.find_after_turn(ahead[0], self.solver.table.terms);
-            let (next, curved) = self.cross((), &part, ahead, passage);
+            let ahead = self.ahead((), lane, &part);
+            let passage = part.find_after_turn(ahead[0], self.solvers[lane].table.terms);
+            let (next, curved) = self.cross((), lane, &part, ahead, passage);
             if !(next.lanes || curved) {
                 break;
             }

@@ -1,7 +1,10 @@
 //! Runs of one wall through one record, multiplied by factors.
 
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
 use ground_motion::GroundMotion;
-use record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
+use record::{Batch, BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::Support;
 
@@ -28,7 +31,8 @@ use crate::free_motion::peak_is_final;
 pub struct Shaking<'a> {
     motion: &'a Motion,
     solver: &'a RecordSolver<'a>,
-    batch: Batch<'a>,
+    /// What many factors share, prepared for the first of them.
+    batch: OnceLock<Batch<'a>>,
     record: &'a GroundMotion,
     tail: f64,
 }
@@ -42,8 +46,7 @@ impl<'a> Shaking<'a> {
         record: &'a GroundMotion,
         tail: f64,
     ) -> Self {
-        let batch = solver.batch(Forcing::Samples(record.samples()));
-        Self { motion, solver, batch, record, tail }
+        Self { motion, solver, batch: OnceLock::new(), record, tail }
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. A run stops
@@ -52,7 +55,7 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn runs(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        self.shaken(start, factors, |starts| self.batch.run(starts, true), true)
+        self.shaken(start, factors, RunEnd::AtOverturning)
     }
 
     /// Runs as [`runs`](Self::runs) does, for the peaks and the time of overturning alone, which have the
@@ -61,7 +64,7 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// As [`runs`](Self::runs).
     pub fn peaks(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        self.shaken(start, factors, |starts| self.batch.run_to_the_peaks(starts), true)
+        self.shaken(start, factors, RunEnd::AtPeaks)
     }
 
     /// Runs as [`runs`](Self::runs) does, but to the end of the tail: a wall that is back within `u_ins`
@@ -70,31 +73,35 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// As [`runs`](Self::runs).
     pub fn runs_to_the_end(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        let u_ins = self.motion.wall().body().instability;
-        let fate = |outcome: Outcome| {
-            let u = outcome.state.displacement;
-            Outcome { overturning: outcome.overturning.filter(|_| u.abs() >= u_ins.of(u)), ..outcome }
-        };
-        let outcomes = self.shaken(start, factors, |starts| self.batch.run(starts, false), false)?;
-        Ok(outcomes.into_iter().map(fate).collect())
+        self.shaken(start, factors, RunEnd::OfRecord)
     }
 
-    fn shaken(
-        &self,
-        [u, v]: [f64; 2],
-        factors: &[f64],
-        run: impl FnOnce(&[RunStart]) -> Result<Vec<Outcome>, SolverError>,
-        until_overturning: bool,
-    ) -> Result<Vec<Outcome>, SolverError> {
-        // p = −λ a_g
-        let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
-        let start = |factor: &f64| {
-            let factor = factor * participation;
-            RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
+    fn shaken(&self, start: [f64; 2], factors: &[f64], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
+        let batch = self.batch.get_or_init(|| self.solver.batch(Forcing::Samples(self.record.samples())));
+        let starts: Vec<_> = factors.iter().map(|factor| self.start(start, *factor)).collect();
+        let outcomes = match end {
+            RunEnd::AtPeaks => batch.run_to_the_peaks(&starts)?,
+            RunEnd::AtOverturning => batch.run(&starts, true)?,
+            RunEnd::OfRecord => batch.run(&starts, false)?,
         };
-        let starts: Vec<_> = factors.iter().map(start).collect();
-        let outcomes = run(&starts)?.into_iter();
-        outcomes.map(|outcome| self.free_vibration(outcome, until_overturning)).collect()
+        outcomes.into_iter().map(|outcome| self.finish(outcome, end)).collect()
+    }
+
+    /// Returns the start of a run from u and u̇, with a factor on the record.
+    fn start(&self, [u, v]: [f64; 2], factor: f64) -> RunStart {
+        // p = −λ a_g
+        let factor = factor * self.motion.wall().body().forcing(Support::rigid(1.0));
+        RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
+    }
+
+    /// Follows a run from the end of the record on.
+    fn finish(&self, outcome: Outcome, end: RunEnd) -> Result<Outcome, SolverError> {
+        if end != RunEnd::OfRecord {
+            return self.free_vibration(outcome, true);
+        }
+        let outcome = self.free_vibration(outcome, false)?;
+        let (u, u_ins) = (outcome.state.displacement, self.motion.wall().body().instability);
+        Ok(Outcome { overturning: outcome.overturning.filter(|_| u.abs() >= u_ins.of(u)), ..outcome })
     }
 
     /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
@@ -115,4 +122,41 @@ impl<'a> Shaking<'a> {
         let overturning = outcome.overturning.or(later);
         Ok(Outcome { state: after.state, overturning, ..outcome })
     }
+}
+
+/// A run of a wall through a record, among others.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaken<'s, 'a> {
+    /// The wall and the record.
+    pub shaking: &'s Shaking<'a>,
+    /// u \[m\] and u̇ \[m/s\] at the start of the record.
+    pub start: [f64; 2],
+    /// Factor on the record \[-\].
+    pub factor: f64,
+}
+
+/// Runs any walls through any records, and returns what became of each, in their order, with the same bits as
+/// [`Shaking::runs`] for [`RunEnd::AtOverturning`], [`Shaking::peaks`] for [`RunEnd::AtPeaks`] and
+/// [`Shaking::runs_to_the_end`] for [`RunEnd::OfRecord`].
+///
+/// Many factors of one wall and record are faster there; few factors of many walls and records are faster
+/// here.
+pub fn together(runs: &[Shaken<'_, '_>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {
+    // each record is prepared once, for all of its walls
+    let (mut records, mut places) = (Vec::new(), HashMap::new());
+    let mut of_run = Vec::with_capacity(runs.len());
+    for Shaken { shaking: Shaking { record, .. }, .. } in runs {
+        let place = *places.entry(std::ptr::from_ref(*record)).or_insert(records.len());
+        if place == records.len() {
+            records.push(Blocks::new(Forcing::Samples(record.samples())));
+        }
+        of_run.push(place);
+    }
+    let mut given = Vec::with_capacity(runs.len());
+    for (Shaken { shaking, start, factor }, place) in runs.iter().zip(of_run) {
+        let start = shaking.start(*start, *factor);
+        given.push(BatchRun { solver: shaking.solver, record: &records[place], start });
+    }
+    let outcomes = run_together(&given, end).into_iter().zip(runs);
+    outcomes.map(|(outcome, run)| run.shaking.finish(outcome?, end)).collect()
 }

@@ -17,6 +17,7 @@ from warnings import warn
 from . import dask, options
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
 from ._folders import ReliabilityResults, StudyResults, merge, read_results
+from ._many import simulate_many
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -70,6 +71,7 @@ __all__ = [
     "read_record",
     "read_results",
     "ricker",
+    "simulate_many",
     "sine_cycle",
     "synthetic_record",
     "verify",

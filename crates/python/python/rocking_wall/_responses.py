@@ -157,7 +157,10 @@ class Response:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Peaks(Tabular):
-    """Peaks of a wall under a record multiplied by factors, one for each."""
+    """Peaks of runs: of a wall under a record multiplied by factors, or of many walls and records.
+
+    All arrays have the shape of the runs.
+    """
 
     factor: Array
     """The factors."""
@@ -169,7 +172,7 @@ class Peaks(Tabular):
     """Time of overturning [s]; NaN for none."""
 
     def __repr__(self) -> str:
-        return f"Peaks({len(self.factor)} runs, {int(self.overturned.sum())} overturned)"
+        return f"Peaks({self.factor.size} runs, {int(self.overturned.sum())} overturned)"
 
     def __len__(self) -> int:
         return len(self.factor)
@@ -181,9 +184,9 @@ class Peaks(Tabular):
 
     @property
     def table(self) -> Table:
-        """All of it as a table."""
+        """All of it as a table, a row for each run in the order of `ravel`."""
         columns = ("factor", "u_max", "u_ratio_max", "overturned", "overturn_time")
-        return Table({name: getattr(self, name) for name in columns})
+        return Table({name: getattr(self, name).ravel() for name in columns})
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_()

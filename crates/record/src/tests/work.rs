@@ -29,24 +29,27 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
     let (solver, forcing) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
     let (record, starts) = (Blocks::new(forcing), starts(&motion));
-    let lanes = Lanes::new(&solver, &record, &starts, false, NoObserver);
+    let given = |start: &RunStart| BatchRun { solver: &solver, record: &record, start: *start };
+    let given: Vec<_> = starts.iter().map(given).collect();
+    let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
     let (rounds, stuck) = (Cell::new(0), Cell::new(0));
     let count = |waiting: Waiting| {
         rounds.set(rounds.get() + 1);
         stuck.set(stuck.get() + waiting.stuck.count_ones());
         waiting
     };
-    let outcomes = match (SideBySide::new(&solver, forcing).expect("a wall for lanes"), solver.table.law) {
-        (SideBySide::Affine(responses), _) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
-            count(lanes.affine_steps::<Eight<_>>(simd, 0, busy, Some(&responses)))
+    let outcomes = match SideBySide::new(&solver, forcing).expect("a wall for lanes") {
+        SideBySide::Affine(responses) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+            count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy, responses.as_ref()))
         }),
-        (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            count(lanes.take_parts::<Eight<_>, ByRatio>(simd, 0, busy))
+        SideBySide::Curved(Law::Ratio) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+            count(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
         }),
-        (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            count(lanes.take_parts::<Eight<_>, ByStiffness>(simd, 0, busy))
+        SideBySide::Curved(Law::Stiffness) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+            count(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
         }),
     };
+    let outcomes: Result<Vec<_>, _> = outcomes.into_iter().collect();
     let outcomes = outcomes.expect("bounded motions");
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {

@@ -37,22 +37,21 @@ pub fn compute(
     threads: usize,
     done: impl Fn(Case, &Curve) -> ControlFlow<()> + Sync,
 ) -> Result<(), ComputeError> {
-    let size = study.part_size();
-    // only the last part may have fewer combinations, and it comes last
-    let short = parts.last().map_or(0, |&last| size - study.part(last).len());
+    let groups: Vec<_> = parts
+        .iter()
+        .flat_map(|&part| study.groups(study.part(part)).map(move |group| (part, group)))
+        .collect();
     let open: Mutex<BTreeMap<usize, Vec<(usize, Curve)>>> = Mutex::default();
-    parallel::each(parts.len() * size - short, threads, |place| {
-        let part = parts[place / size];
-        let range = study.part(part);
-        let index = range.start + place % size;
-        let curve = study.curve(study.case(index))?;
-        if done(study.case(index), &curve).is_break() {
+    parallel::each(groups.len(), threads, |place| {
+        let (part, group) = groups[place].clone();
+        let computed: Vec<_> = group.clone().zip(study.curves(group)?).collect();
+        if computed.iter().any(|(index, curve)| done(study.case(*index), curve).is_break()) {
             return Err(ComputeError::Stopped);
         }
         let mut open = open.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let curves = open.entry(part).or_default();
-        curves.push((index, curve));
-        if curves.len() < range.len() {
+        curves.extend(computed);
+        if curves.len() < study.part(part).len() {
             return Ok(());
         }
         let mut curves = open.remove(&part).unwrap_or_default();

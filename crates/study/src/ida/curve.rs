@@ -1,6 +1,7 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
-use rocking_wall::solver::State;
+use record::Outcome;
+use rocking_wall::solver::{Motion, State};
 use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +17,15 @@ pub struct Run {
     pub overturning: Option<f64>,
     /// Demand on ties that may yield; `None` where there are none.
     pub tie: Option<TieDemand>,
+}
+
+impl Run {
+    /// Returns the run at a level whose outcome is known.
+    pub(super) fn of(motion: &Motion, intensity: f64, outcome: &Outcome) -> Self {
+        let (wall, Outcome { state, overturning, .. }) = (motion.wall(), outcome);
+        let demand = state.reported_peak(wall.body().instability, overturning.is_some())[1];
+        Self { intensity, demand, overturning: *overturning, tie: TieDemand::of(wall, state) }
+    }
 }
 
 /// Demand of a run on ties that may yield, of the two sides the larger one, up to overturning.

@@ -25,6 +25,7 @@
 
 mod curve;
 mod error;
+mod group;
 mod levels;
 mod measure;
 mod parts;
@@ -34,7 +35,7 @@ mod unit;
 use std::borrow::Cow;
 
 use ground_motion::{GroundMotion, Warning};
-use record::{Outcome, RecordSolver};
+use record::RecordSolver;
 pub use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::scene::SceneError;
 use rocking_wall::simulation::Excitation;
@@ -249,20 +250,25 @@ impl Study {
     /// # Errors
     /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
-        let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record]);
+        let motion = self.motion(case.wall, case.model);
         let support = self.support_motion(case)?;
         let solver = RecordSolver::new(&motion, support.step());
         let shaking = Shaking::new(&motion, &solver, &support, self.tail);
         let runs = self.levels.trace(self.own_level(case.record), |levels| {
-            self.runs(case, &motion, &shaking, levels).map_err(|source| IdaError::Run {
-                wall: self.walls[case.wall].name.clone(),
-                record: record.name.clone(),
-                model: self.models[case.model].name.clone(),
-                level: self.measure.unit().shown(levels[0]),
-                source: Box::new(source),
-            })
+            self.runs(case, &motion, &shaking, levels).map_err(|source| self.failed(case, levels[0], source))
         })?;
         Ok(Curve::new(runs))
+    }
+
+    /// Names the combination and the level of a run that failed.
+    fn failed(&self, case: Case, level: f64, source: SolverError) -> IdaError {
+        IdaError::Run {
+            wall: self.walls[case.wall].name.clone(),
+            record: self.records[case.record].name.clone(),
+            model: self.models[case.model].name.clone(),
+            level: self.measure.unit().shown(level),
+            source: Box::new(source),
+        }
     }
 
     /// Returns the level of a record in a cloud: its intensity times the scale.
@@ -294,7 +300,9 @@ impl Study {
     /// # Errors
     /// The error of the first combination, in their order, whose run fails.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
-        parallel::map(self.count(), threads, |index| self.curve(self.case(index)))
+        let groups: Vec<_> = self.groups(0..self.count()).collect();
+        let curves = parallel::map(groups.len(), threads, |group| self.curves(groups[group].clone()))?;
+        Ok(curves.into_iter().flatten().collect())
     }
 
     /// Runs the record of a combination scaled to each of some levels, in the SI unit of the measure.
@@ -305,28 +313,33 @@ impl Study {
         shaking: &Shaking<'_>,
         levels: &[f64],
     ) -> Result<Vec<Run>, SolverError> {
-        let intensity = self.intensities[case.record];
-        let factors: Vec<_> = levels.iter().map(|level| self.measure.factor(level / intensity)).collect();
-        let instability = motion.wall().body().instability;
-        let run = |(&intensity, outcome): (&f64, Outcome)| Run {
-            intensity,
-            demand: outcome.state.reported_peak(instability, outcome.overturning.is_some())[1],
-            overturning: outcome.overturning,
-            tie: TieDemand::of(motion.wall(), &outcome.state),
-        };
+        let factors: Vec<_> = levels.iter().map(|level| self.factor(case, *level)).collect();
         let of = |factors: &[f64]| {
             let outcomes = match self.collapse {
                 Collapse::Exceeds => shaking.peaks([0.0, 0.0], factors)?,
                 Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], factors)?,
             };
-            Ok::<Vec<Run>, SolverError>(levels.iter().zip(outcomes).map(run).collect())
+            let runs = levels.iter().zip(outcomes);
+            Ok::<Vec<Run>, SolverError>(
+                runs.map(|(level, outcome)| Run::of(motion, *level, &outcome)).collect(),
+            )
         };
         let runs = of(&factors)?;
-        if self.polarity != Polarity::Worst || motion.wall().has_equal_sides() {
+        if !self.takes_the_worse(motion) {
             return Ok(runs);
         }
         let reversed: Vec<_> = factors.iter().map(|factor| -factor).collect();
         Ok(runs.into_iter().zip(of(&reversed)?).map(|(run, reversed)| worse(run, reversed)).collect())
+    }
+
+    /// Returns the factor on a record at a level.
+    fn factor(&self, case: Case, level: f64) -> f64 {
+        self.measure.factor(level / self.intensities[case.record])
+    }
+
+    /// Returns whether a run is the worse of those with both signs of the record.
+    fn takes_the_worse(&self, motion: &Motion) -> bool {
+        self.polarity == Polarity::Worst && !motion.wall().has_equal_sides()
     }
 }
 

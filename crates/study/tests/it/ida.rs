@@ -9,7 +9,7 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use study::ida::{
-    Case, Collapse, Crossing, Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study,
+    Case, Collapse, Crossing, Curve, Exceedance, IdaError, IntensityMeasure, Levels, Polarity, Run, Study,
 };
 
 /// Two walls of Table 5 of the paper.
@@ -115,6 +115,43 @@ fn threads_do_not_change_a_bit() {
     for threads in [2, 5, 64] {
         assert!(study.run(threads).unwrap() == one, "{threads} threads");
     }
+}
+
+/// At few levels the runs of all records go together, also of records with other steps, with both signs and
+/// to the end of the tail. No curve changes a bit, nor does one among fewer others.
+#[test]
+fn curves_together_are_those_by_themselves() {
+    let other_step = SyntheticMotion { seed: 7, step: 0.005, duration: 12.0, peak: 3.0 };
+    let finer = NamedRecord { name: "finer".into(), motion: other_step.motion().unwrap() };
+    let all: Vec<_> = records(9).into_iter().chain([finer]).collect();
+    // a tie on one side
+    let tied = Parameters {
+        tie_height: 2.6,
+        tie_stiffness: 2e5,
+        tie_strength: 3e3,
+        ..walls()[0].parameters.clone()
+    };
+    let walls = || walls().into_iter().chain([NamedWall::new("tied", tied.clone())]).collect();
+    let mut overturned = 0;
+    for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0])] {
+        let measure = IntensityMeasure::default();
+        let study = Study::new(walls(), all.clone(), Model::figure_15(), measure, levels).unwrap();
+        assert!(!study.wall(2, 0).has_equal_sides());
+        let falling = study.clone().with_collapse(Collapse::Falls);
+        for study in [study.clone().with_polarity(Polarity::Worst), study, falling] {
+            let alone: Vec<_> =
+                (0..study.count()).map(|index| study.curve(study.case(index)).unwrap()).collect();
+            overturned += alone.iter().flat_map(Curve::runs).filter(|run| run.overturning.is_some()).count();
+            assert!(study.run(2).unwrap() == alone);
+            // groups are of one wall and model, or of the rest of one
+            let groups: Vec<_> = study.groups(3..study.count() - 2).collect();
+            assert!(groups[0] == (3..10) && groups[1] == (10..20) && groups.len() == 3 * 5);
+            for group in groups {
+                assert!(study.curves(group.clone()).unwrap() == alone[group]);
+            }
+        }
+    }
+    assert!(overturned > 100, "{overturned}");
 }
 
 /// Hunt and fill finds the same collapse as a grid of its resolution, except for windows of collapse below.
