@@ -8,9 +8,9 @@ use std::cell::OnceCell;
 
 use oscillator::KinematicState;
 
-use crate::wall::{Ends, Support, TieAction, Wall};
+use crate::wall::{Branch, Ends, Support, TieAction, Wall};
 
-use super::demand::{Demands, Extremes, Instant, TieDemands};
+use super::demand::{Demands, Extremes, Instant, TieDemands, is_monotone};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
@@ -61,6 +61,80 @@ struct Quantity<F, S> {
 }
 
 impl Watch<'_> {
+    /// Returns what goes on with the wall as its ties are now.
+    pub(super) fn of<'a>(&'a mut self, wall: &'a Wall) -> Watch<'a> {
+        let Self { segment, time, drift, .. } = *self;
+        Watch { demands: self.demands, wall, segment, time, drift }
+    }
+
+    /// Includes a motion on a branch over the whole segment by its ends, from bounds on |ü| and on the jerk,
+    /// and on the second derivative of ü. Returns `false` where it has to be searched. What has been included
+    /// by then is part of it.
+    #[inline]
+    pub(super) fn include_ends(
+        &mut self,
+        branch: &Branch,
+        is_overturned: bool,
+        [from, to]: [KinematicState; 2],
+        (most_acceleration, most_jerk): (f64, f64),
+        most_snap: f64,
+    ) -> bool {
+        if self.demands.tie.is_some() && branch.tie != TieAction::None {
+            return false;
+        }
+        if is_overturned {
+            return true;
+        }
+        let length = self.segment.duration;
+        let (share, times) = (0.125 * length * length, [self.time, self.time + length]);
+        let sag = share * most_acceleration;
+        // no half cycle begins or ends
+        let is_counted = match (self.demands.excursion, branch.is_elastic()) {
+            (None, is_elastic) => is_elastic,
+            (Some(side), true) => side * from.displacement > sag && side * to.displacement > sag,
+            (Some(side), false) => {
+                side == branch.side() && !(self.wall.is_rigid() && from.displacement == 0.0)
+            }
+        };
+        if !is_counted || self.reaches(to.displacement) {
+            return false;
+        }
+        let [by_a, by_u] = self.slopes();
+        let reactions = [self.reactions(self.segment.from, &from), self.reactions(self.segment.to, &to)];
+        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_snap);
+        let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
+            &mut *self.demands;
+        displacement.include_ends([from.displacement, to.displacement], sag, times)
+            && velocity.include_ends([from.velocity, to.velocity], share * most_jerk, times)
+            && acceleration.include_ends([from.acceleration, to.acceleration], share * most_snap, times)
+            && reaction_bottom.include_ends(
+                reactions.map(|ends| ends.bottom),
+                above(by_a.bottom, by_u.bottom),
+                times,
+            )
+            && reaction_top.include_ends(reactions.map(|ends| ends.top), above(by_a.top, by_u.top), times)
+    }
+
+    /// Returns whether a displacement reaches a limit state that was never reached before.
+    #[inline]
+    fn reaches(&self, displacement: f64) -> bool {
+        let u_ins = self.wall.body().instability.of(displacement);
+        let mut crossings = self.demands.crossings.iter();
+        crossings.any(|crossing| crossing.first.is_none() && displacement.abs() >= crossing.fraction * u_ins)
+    }
+
+    #[inline]
+    fn reactions(&self, support: Support, motion: &KinematicState) -> Ends {
+        self.wall.body().reactions(support, motion.acceleration, motion.displacement, self.drift)
+    }
+
+    /// Returns ∂R/∂ü and ∂R/∂u of both reactions.
+    #[inline]
+    fn slopes(&self) -> [Ends; 2] {
+        let (body, still) = (self.wall.body(), Support::default());
+        [body.reactions(still, 1.0, 0.0, self.drift), body.reactions(still, 0.0, 1.0, self.drift)]
+    }
+
     /// Includes a rest between two times within the segment. Forces are linear in between.
     pub(super) fn rest(&mut self, from: f64, to: f64) {
         for offset in [from, to] {
@@ -97,11 +171,9 @@ impl Watch<'_> {
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
     fn forces<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
         let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
+        let [by_a, by_u] = self.slopes();
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
-        // ∂R/∂ü and ∂R/∂u
-        let [by_a, by_u] =
-            [[1.0, 0.0], [0.0, 1.0]].map(|[a, u]| body.reactions(Support::default(), a, u, drift));
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
         let Demands { reaction_bottom, reaction_top, .. } = &mut *self.demands;
         for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
@@ -288,10 +360,11 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         extremes: &mut Extremes,
         quantity: &Quantity<F, S>,
     ) -> Result<(), SearchExhausted> {
-        let [start, end] = [(0.0, &self.ends[0]), (self.length, &self.ends[1])]
-            .map(|(t, motion)| (quantity.value)(t, motion));
-        let most = quantity.above(self.length, self.snap);
-        if start.max(end) + most <= extremes.highest.value && start.min(end) - most >= extremes.lowest.value {
+        let times = [0.0, self.length];
+        let [start, end] = [0, 1].map(|n| (quantity.value)(times[n], &self.ends[n]));
+        let above = quantity.above(self.length, self.snap);
+        let times = times.map(|offset| self.time + (self.from + offset));
+        if extremes.include_ends([start, end], above, times) {
             return Ok(());
         }
         if let Some(instant) = self.highest(1.0, extremes.highest.value, quantity)? {
@@ -345,7 +418,10 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * size.max(found.value.abs());
-            let within = |snap: f64| higher + quantity.above(width, snap) <= found.value + tolerance;
+            let within = |snap: f64| {
+                let above = quantity.above(width, snap);
+                higher + above <= found.value + tolerance || is_monotone([left.value, right.value], above)
+            };
             // the bound between two instants is smaller than that over the whole piece, which is known
             let between = || self.piece.snap([left.offset, right.offset], self.bounds);
             if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
