@@ -142,9 +142,9 @@ impl<'a> Place<'a> {
         Self { record, elapsed, steps, before: (steps + SAMPLE_ROUNDING).floor() }
     }
 
-    /// Returns the time to the next sample; `None` after the last.
+    /// Returns the time to the next sample \[s\]; `None` after the last.
     #[inline]
-    fn to_next(&self) -> Option<f64> {
+    fn to_next(self) -> Option<f64> {
         let next = self.before + 1.0;
         (next < self.record.samples().len() as f64).then(|| next * self.record.step() - self.elapsed)
     }
@@ -172,7 +172,9 @@ impl<'a> Place<'a> {
             let fraction = (steps - before).clamp(0.0, 1.0);
             if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }
         };
-        [value(steps), value((elapsed + duration) / record.step())]
+        // most segments end at the next sample
+        let ends_there = duration >= (before + 1.0) * record.step() - elapsed;
+        [value(steps), if ends_there { high } else { value((elapsed + duration) / record.step()) }]
     }
 }
 

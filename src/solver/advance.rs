@@ -82,15 +82,36 @@ impl Motion {
         duration: f64,
         forcing: [f64; 2],
         memo: &mut Memo,
-        watch: Option<&mut Watch<'_>>,
+        mut watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
         let (motion, propagators) = memo.prepare(self, &state.tie);
-        let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch) else {
-            return (state.phase == Phase::Landed).then(Report::default);
+        let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch.as_deref_mut()) else {
+            return motion.stay(state, duration, forcing, watch);
         };
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
         state.peaks.include(end.displacement);
         Some(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() })
+    }
+
+    /// Passes a segment through which a wall at rest, or one that lies, stays where it is; `None` for another
+    /// segment.
+    fn stay(
+        &self,
+        state: &State,
+        duration: f64,
+        forcing: [f64; 2],
+        watch: Option<&mut Watch<'_>>,
+    ) -> Option<Report> {
+        let [lowest, highest] = self.rest_band;
+        let stays = match state.phase {
+            Phase::Moving => false,
+            Phase::Resting => duration > 0.0 && forcing.iter().all(|p| lowest < *p && *p < highest),
+            Phase::Landed => true,
+        };
+        if let (Phase::Resting, true, Some(watch)) = (state.phase, stays && !state.overturned, watch) {
+            watch.rest(0.0, duration);
+        }
+        stays.then(Report::default)
     }
 
     /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.

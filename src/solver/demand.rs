@@ -61,8 +61,8 @@ impl Extremes {
 
 /// Returns whether a quantity g with these values at the ends of an interval δ is monotone in between.
 ///
-/// With |g̈| ≤ M, g exceeds its values at the ends by `above` = M δ²/8 at most, and ġ differs by M δ/2 at most
-/// from its mean over the interval.
+/// With |g̈| ≤ M, g exceeds its values at the ends by `above` = M δ²/8 at most, and ġ differs by M δ/2 at
+/// most from its mean over the interval.
 pub(super) fn is_monotone([start, end]: [f64; 2], above: f64) -> bool {
     (end - start).abs() > 4.0 * above
 }

@@ -1,6 +1,7 @@
 //! Tests the search for extremes on a motion whose extremes are known. Pins its number of evaluations, too:
 //! only this number shows a search that goes on beyond the stated accuracy.
 
+use super::super::demand::Extremes;
 use super::super::event::tests::Sway;
 use super::*;
 use crate::variables::{Mechanism, TieSide};
