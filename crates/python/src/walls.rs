@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use check::{CheckFile, Subject};
+use check::Subject;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
@@ -18,8 +18,8 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Method, Motion as Solved};
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::{Curve, plot};
-use run::shaking::Shaking;
-use run::walls::assumed;
+use run::shaking::{Shaking, Until};
+use run::walls::{assumed, read_scene};
 use scene_fmu::General;
 
 use crate::arrays::{Motion, Numbers, samples};
@@ -60,9 +60,7 @@ impl Wall {
     /// Reads a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let scene = Scene::read(&path).map_err(of_scene)?;
-        let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path)?);
-        let assumed = CheckFile::parse(&name, &text).map_err(of_scene)?.assumed(&[]);
+        let (scene, assumed) = read_scene(&path).map_err(of_scene)?;
         Self::of(scene, None, assumed, &PyDict::new(py))
     }
 
@@ -267,7 +265,8 @@ impl Wall {
         let start = [parameters.u_start, parameters.u_dot_start];
         let mut outcomes = Vec::with_capacity(factors.len());
         for factors in factors.chunks(RUNS_AT_ONCE) {
-            outcomes.extend(py.detach(|| shaking.runs(start, factors)).map_err(failed)?);
+            let runs = py.detach(|| shaking.runs(start, factors, Until::Overturning));
+            outcomes.extend(runs.map_err(failed)?);
             py.check_signals()?;
         }
         let instability = self.equation.body().instability;

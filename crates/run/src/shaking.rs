@@ -7,6 +7,19 @@ use rocking_wall::wall::Support;
 
 use crate::free_motion::peak_is_final;
 
+/// How far a run goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Until {
+    /// To the end of the step in which the wall overturns, or to the end of the tail.
+    Overturning,
+    /// To overturning, or to where the rest of the record cannot raise the peaks: these and the time of
+    /// overturning have the bits of a run until [`Overturning`](Self::Overturning).
+    Peaks,
+    /// To the end of the tail: a wall that is back within `u_ins` there has no time of overturning. That of
+    /// one that falls is when it first exceeded `u_ins`.
+    End,
+}
+
 /// A wall under a record: what its runs share.
 ///
 /// ```
@@ -14,13 +27,14 @@ use crate::free_motion::peak_is_final;
 /// use record::RecordSolver;
 /// use rocking_wall::solver::Motion;
 /// use rocking_wall::wall::Parameters;
-/// use run::shaking::Shaking;
+/// use run::shaking::{Shaking, Until};
 ///
 /// let record = SyntheticMotion::default().motion()?;
 /// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };
 /// let motion = Motion::of(&parameters, parameters.tolerance)?;
 /// let solver = RecordSolver::new(&motion, record.step());
-/// let runs = Shaking::new(&motion, &solver, &record, 10.0).runs([0.0, 0.0], &[0.1, 100.0])?;
+/// let shaking = Shaking::new(&motion, &solver, &record, 10.0);
+/// let runs = shaking.runs([0.0, 0.0], &[0.1, 100.0], Until::Overturning)?;
 /// assert!(runs[0].overturning.is_none() && runs[1].overturning.is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -46,46 +60,12 @@ impl<'a> Shaking<'a> {
         Self { motion, solver, batch, record, tail }
     }
 
-    /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. A run stops
-    /// where the wall overturns. The time of overturning counts from the start of the record.
+    /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of
+    /// overturning counts from the start of the record.
     ///
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
-    pub fn runs(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        self.shaken(start, factors, |starts| self.batch.run(starts, true), true)
-    }
-
-    /// Runs as [`runs`](Self::runs) does, for the peaks and the time of overturning alone, which have the
-    /// same bits: a run also stops where the rest of the record cannot raise its peaks.
-    ///
-    /// # Errors
-    /// As [`runs`](Self::runs).
-    pub fn peaks(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        self.shaken(start, factors, |starts| self.batch.run_to_the_peaks(starts), true)
-    }
-
-    /// Runs as [`runs`](Self::runs) does, but to the end of the tail: a wall that is back within `u_ins`
-    /// there has no time of overturning. That of one that falls is when it first exceeded `u_ins`.
-    ///
-    /// # Errors
-    /// As [`runs`](Self::runs).
-    pub fn runs_to_the_end(&self, start: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
-        let u_ins = self.motion.wall().body().instability;
-        let fate = |outcome: Outcome| {
-            let u = outcome.state.displacement;
-            Outcome { overturning: outcome.overturning.filter(|_| u.abs() >= u_ins.of(u)), ..outcome }
-        };
-        let outcomes = self.shaken(start, factors, |starts| self.batch.run(starts, false), false)?;
-        Ok(outcomes.into_iter().map(fate).collect())
-    }
-
-    fn shaken(
-        &self,
-        [u, v]: [f64; 2],
-        factors: &[f64],
-        run: impl FnOnce(&[RunStart]) -> Result<Vec<Outcome>, SolverError>,
-        until_overturning: bool,
-    ) -> Result<Vec<Outcome>, SolverError> {
+    pub fn runs(&self, [u, v]: [f64; 2], factors: &[f64], until: Until) -> Result<Vec<Outcome>, SolverError> {
         // p = −λ a_g
         let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
         let start = |factor: &f64| {
@@ -93,15 +73,19 @@ impl<'a> Shaking<'a> {
             RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
         };
         let starts: Vec<_> = factors.iter().map(start).collect();
-        let outcomes = run(&starts)?.into_iter();
-        outcomes.map(|outcome| self.free_vibration(outcome, until_overturning)).collect()
+        let outcomes = match until {
+            Until::Overturning => self.batch.run(&starts, true),
+            Until::Peaks => self.batch.run_to_the_peaks(&starts),
+            Until::End => self.batch.run(&starts, false),
+        }?;
+        outcomes.into_iter().map(|outcome| self.free_vibration(outcome, until)).collect()
     }
 
     /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
     /// followed, unless it has overturned and may come back.
-    fn free_vibration(&self, outcome: Outcome, until_overturning: bool) -> Result<Outcome, SolverError> {
+    fn free_vibration(&self, outcome: Outcome, until: Until) -> Result<Outcome, SolverError> {
         let is_final = match outcome.overturning {
-            Some(_) => until_overturning,
+            Some(_) => until != Until::End,
             None => peak_is_final(self.motion.wall(), &outcome.state),
         };
         if is_final {
@@ -110,9 +94,11 @@ impl<'a> Shaking<'a> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
         let start = RunStart { state: outcome.state, factor: 1.0 };
-        let after = self.solver.run(start, Forcing::Still(count), until_overturning)?;
+        let after = self.solver.run(start, Forcing::Still(count), until != Until::End)?;
         let later = after.overturning.map(|time| self.record.duration() + time);
-        let overturning = outcome.overturning.or(later);
+        let u = after.state.displacement;
+        let comes_back = until == Until::End && u.abs() < self.motion.wall().body().instability.of(u);
+        let overturning = outcome.overturning.or(later).filter(|_| !comes_back);
         Ok(Outcome { state: after.state, overturning, ..outcome })
     }
 }

@@ -21,7 +21,7 @@ use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts}
 use crate::error::CheckError;
 use crate::site::Records;
 use run::bisection::first_true;
-use run::shaking::Shaking;
+use run::shaking::{Shaking, Until};
 
 /// Ratio of factors that follow each other. A failure between two factors at which the wall passes is not
 /// found.
@@ -308,8 +308,8 @@ impl Runs<'_> {
         for (record, factor) in self.records.iter().zip(factors) {
             let signed = levels.iter().flat_map(|level| self.signs.iter().map(move |sign| sign * level));
             let scaled: Vec<f64> = signed.map(|signed| signed * factor).collect();
-            let outcomes =
-                record.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
+            let outcomes = record.runs([0.0, 0.0], &scaled, Until::Overturning);
+            let outcomes = outcomes.map_err(|error| CheckError::wall(error.to_string()))?;
             for (at_level, outcomes) in maxima.iter_mut().zip(outcomes.chunks(self.signs.len())) {
                 let peaks = |outcome: &record::Outcome| {
                     let peaks = outcome.state.peaks;

@@ -43,7 +43,7 @@ use rocking_wall::wall::Wall;
 use run::model::Model;
 use run::parallel;
 use run::records::NamedRecord;
-use run::shaking::Shaking;
+use run::shaking::{Shaking, Until};
 use run::walls::NamedWall;
 
 use polarity::worse;
@@ -315,10 +315,11 @@ impl Study {
             tie: TieDemand::of(motion.wall(), &outcome.state),
         };
         let of = |factors: &[f64]| {
-            let outcomes = match self.collapse {
-                Collapse::Exceeds => shaking.peaks([0.0, 0.0], factors)?,
-                Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], factors)?,
+            let until = match self.collapse {
+                Collapse::Exceeds => Until::Peaks,
+                Collapse::Falls => Until::End,
             };
+            let outcomes = shaking.runs([0.0, 0.0], factors, until)?;
             Ok::<Vec<Run>, SolverError>(levels.iter().zip(outcomes).map(run).collect())
         };
         let runs = of(&factors)?;
