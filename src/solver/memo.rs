@@ -54,7 +54,7 @@ impl Memo {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Propagators {
     last: Propagator,
-    /// Those before, the latest first.
+    /// Those before.
     earlier: [Propagator; 3],
 }
 
