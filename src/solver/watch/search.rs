@@ -1,8 +1,8 @@
 //! Searches a piece of motion for the extremes of a quantity.
 //!
-//! On an interval a quantity g has a bound M on |g̈|, so that between two instants δ apart g ≤ max(g₀, g₁) + M
-//! δ²/8. Intervals whose bound does not exceed the extreme so far, or in which g is monotone, are dropped and
-//! the others halved, until the bound is met within [`ACCURACY`].
+//! On an interval a quantity g has a bound M on |g̈|, so that between two instants δ apart it is at most
+//! max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed the extreme so far, or in which g is monotone,
+//! are dropped and the others halved, until the bound is met within [`ACCURACY`].
 
 use std::cell::OnceCell;
 
