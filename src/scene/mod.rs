@@ -130,8 +130,15 @@ impl Scene {
     /// [`SceneError`], with file, line, value and remedy.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let text = read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)?;
-        Self::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))
+        Self::parse(&name, &Self::text(path)?, path.parent().unwrap_or(Path::new(".")))
+    }
+
+    /// Reads the text of a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`] of a file that cannot be read, is too large or is not UTF-8.
+    pub fn text(path: &Path) -> Result<String, SceneError> {
+        read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)
     }
 
     /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in

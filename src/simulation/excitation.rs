@@ -99,22 +99,17 @@ impl Excitation {
     /// Returns the segment that begins `elapsed` seconds after the start, and lasts `remaining` \[s\] or to
     /// the next sample.
     pub fn segment(&self, elapsed: f64, remaining: f64) -> Segment {
+        let at = |record| Place::of(record, elapsed);
+        let bottom = at(&self.bottom);
+        let (top, drift) = (self.top.as_ref().map(at), self.drift.as_ref().map(at));
         let mut duration = remaining;
-        for record in self.records() {
-            if let Some(next) = next_sample(record, elapsed) {
-                duration = duration.min(next - elapsed);
-            }
+        for place in [Some(&bottom), top.as_ref(), drift.as_ref()].into_iter().flatten() {
+            duration = duration.min(place.to_next().unwrap_or(duration));
         }
-        let ends = |record: &GroundMotion| {
-            if self.held {
-                [sample(record, sample_before(record, elapsed).max(0.0)).unwrap_or(0.0); 2]
-            } else {
-                ends(record, elapsed, duration)
-            }
-        };
-        let [from, to] = ends(&self.bottom);
-        let [from_top, to_top] = self.top.as_ref().map_or([from, to], ends);
-        let [drift, drift_to] = self.drift.as_ref().map_or([0.0; 2], ends);
+        let ends = |place: Place<'_>| if self.held { [place.held(); 2] } else { place.ends(duration) };
+        let [from, to] = ends(bottom);
+        let [from_top, to_top] = top.map_or([from, to], ends);
+        let [drift, drift_to] = drift.map_or([0.0; 2], ends);
         Segment {
             duration,
             from: Support { bottom: from, top: from_top, drift },
@@ -127,35 +122,60 @@ impl Excitation {
 /// this close.
 const SAMPLE_ROUNDING: f64 = 1e-6;
 
-/// Returns the number of the sample at or before a time. A time that falls short of a sample by rounding
-/// counts as the time of that sample.
-fn sample_before(record: &GroundMotion, elapsed: f64) -> f64 {
-    (elapsed / record.step() + SAMPLE_ROUNDING).floor()
+/// A time in a record.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    record: &'a GroundMotion,
+    /// The time \[s\], and over the step of the record \[-\].
+    elapsed: f64,
+    steps: f64,
+    /// Number of the sample at or before the time.
+    before: f64,
 }
 
-/// Returns the time of the next sample; `None` after the last.
-fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
-    let next = sample_before(record, elapsed) + 1.0;
-    (next < record.samples().len() as f64).then(|| next * record.step())
-}
+impl<'a> Place<'a> {
+    /// Returns the place of a time in a record. A time that falls short of a sample by rounding counts as the
+    /// time of that sample.
+    #[inline]
+    fn of(record: &'a GroundMotion, elapsed: f64) -> Self {
+        let steps = elapsed / record.step();
+        Self { record, elapsed, steps, before: (steps + SAMPLE_ROUNDING).floor() }
+    }
 
-/// Returns the sample with a number; `None` outside the record.
-fn sample(record: &GroundMotion, number: f64) -> Option<f64> {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "out of range stays so")]
-    (number >= 0.0).then(|| record.samples().get(number as usize).copied()).flatten()
-}
+    /// Returns the time to the next sample \[s\]; `None` after the last.
+    #[inline]
+    fn to_next(self) -> Option<f64> {
+        let next = self.before + 1.0;
+        (next < self.record.samples().len() as f64).then(|| next * self.record.step() - self.elapsed)
+    }
 
-/// Returns the accelerations at both ends of a segment within one sample interval; zero after the record.
-fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
-    let before = sample_before(record, elapsed);
-    let (Some(low), Some(high)) = (sample(record, before), sample(record, before + 1.0)) else {
-        return [0.0, 0.0];
-    };
-    let value = |time: f64| {
-        let fraction = (time / record.step() - before).clamp(0.0, 1.0);
-        if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }
-    };
-    [value(elapsed), value(elapsed + duration)]
+    /// Returns the sample with a number; `None` outside the record.
+    #[inline]
+    fn sample(&self, number: f64) -> Option<f64> {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "out of range stays so")]
+        (number >= 0.0).then(|| self.record.samples().get(number as usize).copied()).flatten()
+    }
+
+    /// Returns the sample at or before the time, before the record the first; zero after the record.
+    fn held(&self) -> f64 {
+        self.sample(self.before.max(0.0)).unwrap_or(0.0)
+    }
+
+    /// Returns the accelerations at both ends of a segment within one sample interval; zero after the record.
+    #[inline]
+    fn ends(&self, duration: f64) -> [f64; 2] {
+        let Self { record, elapsed, steps, before } = *self;
+        let (Some(low), Some(high)) = (self.sample(before), self.sample(before + 1.0)) else {
+            return [0.0, 0.0];
+        };
+        let value = |steps: f64| {
+            let fraction = (steps - before).clamp(0.0, 1.0);
+            if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }
+        };
+        // most segments end at the next sample
+        let ends_there = duration >= (before + 1.0) * record.step() - elapsed;
+        [value(steps), if ends_there { high } else { value((elapsed + duration) / record.step()) }]
+    }
 }
 
 /// Returns the segment of a motion that may be absent, as [`Excitation::segment`]; without one the supports

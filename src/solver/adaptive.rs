@@ -21,6 +21,9 @@ use super::tolerances::Tolerances;
 pub(super) struct Series<'a> {
     polynomial: Polynomial,
     horizon: f64,
+    /// The motion at the horizon, and the bounds on |ü| and on the jerk up to there.
+    end: KinematicState,
+    bounds: (f64, f64),
     /// What gives ü instead of the series, and bounds it.
     law: Option<Law<'a>>,
 }
@@ -131,13 +134,17 @@ impl<'a> Series<'a> {
                 // the forcing enters the first two terms, and damping one more
                 && order > 3;
             if small && small_before {
-                return Self { polynomial: polynomial(work, order), horizon: remaining, law: None };
+                return Self::of(polynomial(work, order), remaining, None);
             }
             small_before = small;
             power *= remaining;
         }
         let horizon = longest_step(work.displacement(), tolerances).min(remaining);
-        Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon, law: None }
+        Self::of(polynomial(work, HIGHEST_ORDER), horizon, None)
+    }
+
+    fn of(polynomial: Polynomial, horizon: f64, law: Option<Law<'a>>) -> Self {
+        Self { polynomial, horizon, end: polynomial.at(horizon), bounds: polynomial.bounds(horizon), law }
     }
 
     /// Computes the motion on a branch with secant damping under the forcing p₀ + p₁ t.
@@ -150,7 +157,7 @@ impl<'a> Series<'a> {
     ) -> Self {
         let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
         let (polynomial, horizon) = secant.series(now, ends, remaining, tolerances);
-        Self { polynomial, horizon, law: Some(Law { branch, forcing }) }
+        Self::of(polynomial, horizon, Some(Law { branch, forcing }))
     }
 
     /// Makes the cubic motion with a constant d³u/dt³.
@@ -160,7 +167,7 @@ impl<'a> Series<'a> {
         coefficients[1] = start.velocity;
         coefficients[2] = 0.5 * start.acceleration;
         coefficients[3] = acceleration_rate / 6.0;
-        Self { polynomial: Polynomial { coefficients, order: 3 }, horizon, law: None }
+        Self::of(Polynomial { coefficients, order: 3 }, horizon, None)
     }
 }
 
@@ -193,12 +200,12 @@ impl Piece for Series<'_> {
     }
 
     fn at(&self, time: f64) -> KinematicState {
-        self.polynomial.at(time)
+        if time == self.horizon { self.end } else { self.polynomial.at(time) }
     }
 
     fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
         // over the whole piece, which is short
-        self.polynomial.bounds(self.horizon)
+        self.bounds
     }
 
     fn balanced(&self, time: f64) -> KinematicState {
@@ -211,7 +218,10 @@ impl Piece for Series<'_> {
 
     fn snap(&self, between: [f64; 2], (acceleration, _): (f64, f64)) -> f64 {
         match &self.law {
-            Some(law) => law.snap(between, between.map(|time| self.at(time)), acceleration),
+            Some(law) => {
+                let at = |time: f64| if time == 0.0 { self.start() } else { self.at(time) };
+                law.snap(between, between.map(at), acceleration)
+            }
             None => self.polynomial.snap(self.horizon),
         }
     }

@@ -4,7 +4,7 @@ use oscillator::KinematicState;
 
 use super::demand::Demands;
 use super::event::{self, Shape};
-use super::memo::{Memo, Propagator};
+use super::memo::{Memo, Propagators};
 use super::motion::Motion;
 use super::run::Run;
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
@@ -42,13 +42,13 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let forcing = [body.forcing(segment.from), body.forcing(segment.to)];
+        let mut watch =
+            watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
         if !integral
-            && watch.is_none()
-            && let Some(report) = self.pass_quietly(state, segment.duration, forcing, memo)
+            && let Some(report) = self.pass_quietly(state, segment.duration, forcing, memo, watch.as_mut())
         {
             return Ok(report);
         }
-        let watch = watch.map(|(demands, time, drift)| (demands, segment, time, drift));
         self.run(state, segment.duration, forcing, integral, memo, watch)
     }
 
@@ -65,14 +65,15 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         // of a wall as it was at first, records leave here the steps that are not quiet
         if state.tie != *self.wall.tie_memory()
-            && let Some(report) = self.pass_quietly(state, duration, forcing, memo)
+            && let Some(report) = self.pass_quietly(state, duration, forcing, memo, None)
         {
             return Ok(report);
         }
         self.run(state, duration, forcing, false, memo, None)
     }
 
-    /// Moves `state` through a segment without events, with the ties as they are; `None` for another segment.
+    /// Moves `state` through a segment without events, with the ties as they are; `None` for another segment,
+    /// or for one whose demands have to be searched.
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a call would take a tenth of a step")]
     fn pass_quietly(
@@ -81,11 +82,36 @@ impl Motion {
         duration: f64,
         forcing: [f64; 2],
         memo: &mut Memo,
+        mut watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
-        let (motion, propagator) = memo.prepare(self, &state.tie);
-        let end = motion.quiet_end(state, duration, forcing, propagator)?;
+        let (motion, propagators) = memo.prepare(self, &state.tie);
+        let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch.as_deref_mut()) else {
+            return motion.stay(state, duration, forcing, watch);
+        };
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
+        state.peaks.include(end.displacement);
         Some(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() })
+    }
+
+    /// Passes a segment through which a wall at rest, or one that lies, stays where it is; `None` for another
+    /// segment.
+    fn stay(
+        &self,
+        state: &State,
+        duration: f64,
+        forcing: [f64; 2],
+        watch: Option<&mut Watch<'_>>,
+    ) -> Option<Report> {
+        let [lowest, highest] = self.rest_band;
+        let stays = match state.phase {
+            Phase::Moving => false,
+            Phase::Resting => duration > 0.0 && forcing.iter().all(|p| lowest < *p && *p < highest),
+            Phase::Landed => true,
+        };
+        if let (Phase::Resting, true, Some(watch)) = (state.phase, stays && !state.overturned, watch) {
+            watch.rest(0.0, duration);
+        }
+        stays.then(Report::default)
     }
 
     /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.
@@ -96,23 +122,17 @@ impl Motion {
         forcing: [f64; 2],
         integral: bool,
         memo: &mut Memo,
-        mut watch: Option<(&mut Demands, &Segment, f64, bool)>,
+        mut watch: Option<Watch<'_>>,
     ) -> Result<Report, SolverError> {
         let (mut now, mut time, mut report) = (*state, 0.0, Report::default());
         loop {
-            let (motion, propagator) = memo.prepare(self, &now.tie);
+            let (motion, propagators) = memo.prepare(self, &now.tie);
             if now.tie != state.tie {
                 motion.find_branch(&mut now);
             }
-            let mut run = Run::new(motion, now, duration, forcing, integral, propagator);
+            let mut run = Run::new(motion, now, duration, forcing, integral, propagators);
             (run.time, run.report) = (time, report);
-            run.watch = watch.as_mut().map(|&mut (ref mut demands, segment, time, drift)| Watch {
-                demands,
-                wall: &motion.wall,
-                segment,
-                time,
-                drift,
-            });
+            run.watch = watch.as_mut().map(|watch| watch.of(&motion.wall));
             run.finish()?;
             if run.state.tie == *motion.wall.tie_memory() {
                 *state = run.state;
@@ -129,8 +149,9 @@ impl Motion {
         state.branch = self.wall.branch_of(displacement, direction);
     }
 
-    /// Returns the end of a segment without events: one piece in closed form that reaches no corner and no
-    /// new peak. `None` for every other segment. The result is bit for bit that of a [`Run`].
+    /// Returns the end of a segment without events: one piece in closed form that reaches no corner, and no
+    /// new peak before its end. Its ends show the demands on it. `None` for every other segment. The result
+    /// is bit for bit that of a [`Run`].
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a call would take a tenth of a step")]
     fn quiet_end(
@@ -138,7 +159,8 @@ impl Motion {
         state: &State,
         duration: f64,
         [from, to]: [f64; 2],
-        propagator: &mut Propagator,
+        propagators: &mut Propagators,
+        watch: Option<&mut Watch<'_>>,
     ) -> Option<KinematicState> {
         let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
@@ -154,20 +176,30 @@ impl Motion {
         let acceleration = branch.acceleration(displacement, velocity, from);
         let start = KinematicState { displacement, velocity, acceleration };
         let rate = (to - from) / duration;
-        let end = propagator.end(index, oscillator, start, rate, duration);
+        let end = propagators.end(index, oscillator, start, rate, duration);
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
-        let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Shape::Quiet);
+        let goes_on = match event::settle([start, end], duration, most, corners, peaks) {
+            Shape::Quiet => true,
+            Shape::Monotone => (branch.lower..=branch.upper).contains(&end.displacement),
+            Shape::Turning | Shape::Split => false,
+        };
         // if the motion has overflowed, a run reports where
-        (is_quiet && end.displacement.is_finite() && end.velocity.is_finite()).then_some(end)
+        if !goes_on || !end.displacement.is_finite() || !end.velocity.is_finite() {
+            return None;
+        }
+        let is_watched = watch.is_none_or(|watch| {
+            watch.include_ends(branch, state.overturned, [start, end], most, oscillator.snap(most))
+        });
+        is_watched.then_some(end)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::choices::DampingModel;
-    use crate::wall::{Parameters, Support};
+    use crate::choices::{DampingModel, ForceLaw, Impact, Mechanism};
+    use crate::wall::{Ends, Parameters, Support};
 
     /// A short step without events is quiet; a long step is not, nor is a step of a wall at rest.
     #[test]
@@ -178,9 +210,60 @@ mod tests {
         let mut state = motion.start(0.3 * u_ins, 0.0, Support::default());
         state.peaks.include(0.4 * u_ins);
         let quiet = |state: &State, duration: f64| {
-            motion.quiet_end(state, duration, [0.0; 2], &mut Propagator::default()).is_some()
+            motion.quiet_end(state, duration, [0.0; 2], &mut Propagators::default(), None).is_some()
         };
         assert!(quiet(&state, 0.01) && !quiet(&state, 100.0));
         assert!(!quiet(&State { phase: Phase::Resting, ..state }, 0.01));
+    }
+
+    /// Steps by their ends have the state, the work and the demands of a search, bit for bit.
+    #[test]
+    fn steps_by_their_ends_have_the_demands_of_a_search() {
+        let rocking = Parameters {
+            damping_model: DampingModel::ConstantCoefficient,
+            height: 3.0,
+            thickness: 0.25,
+            u_start: 0.0,
+            ..Parameters::default()
+        };
+        let rigid = Parameters {
+            damping_model: DampingModel::None,
+            force_law: ForceLaw::RigidLinear,
+            impact: Impact::Restitution,
+            ..rocking.clone()
+        };
+        let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..rocking.clone() };
+        let tied = Parameters { tie_height: 2.0, tie_stiffness: 3e5, ..rocking.clone() };
+        let acceleration = |t: f64| {
+            let [slow, fast] = [5.0, 43.0].map(|omega: f64| libm::sin(omega * t));
+            0.4 * t.min(4.0) * (slow + 0.4 * fast)
+        };
+        let (step, steps) = (5e-3, 2000);
+        for parameters in [rocking, rigid, strip, tied] {
+            let motion = Motion::of(&parameters, 1e-8).unwrap();
+            let wall = motion.wall();
+            let mut state = motion.start(0.0, 0.0, Support::default());
+            let mut demands = Demands::new(wall, 0.0, [0.0; 3], Ends::default(), 0.0, &[0.1, 0.3]);
+            let (mut memo, mut by_ends) = (Memo::default(), 0);
+            for index in 0..steps {
+                let time = f64::from(index) * step;
+                let [from, to] = [time, time + step].map(|t| Support::rigid(acceleration(t)));
+                let segment = &Segment { duration: step, from, to };
+                let forcing = [wall.body().forcing(from), wall.body().forcing(to)];
+                let (mut searched, mut of_search) = (state, demands.clone());
+                let watch = Watch { demands: &mut of_search, wall, segment, time, drift: false };
+                let memos = &mut Memo::default();
+                let expected = motion.run(&mut searched, step, forcing, false, memos, Some(watch));
+                let watch = &mut Watch { demands: &mut demands, wall, segment, time, drift: false };
+                let found = motion.pass_quietly(&mut state, step, forcing, &mut memo, Some(watch));
+                by_ends += i32::from(found.is_some());
+                if let Some(report) = found {
+                    assert_eq!((Ok(report), state, &demands), (expected, searched, &of_search), "{time} s");
+                } else {
+                    (state, demands) = (searched, of_search);
+                }
+            }
+            assert!(by_ends >= steps / 4, "{by_ends} of {steps} steps by their ends");
+        }
     }
 }

@@ -33,6 +33,22 @@ impl Extremes {
         if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
     }
 
+    /// Includes a quantity between two times from its values there, if it exceeds these by no more than
+    /// `above` in between and no search is needed: no value can be a new extreme, or there is none between
+    /// the ends. Returns `false` where a search is needed.
+    #[inline]
+    pub(super) fn include_ends(&mut self, [start, end]: [f64; 2], above: f64, times: [f64; 2]) -> bool {
+        if start.max(end) + above <= self.highest.value && start.min(end) - above >= self.lowest.value {
+            return true;
+        }
+        if !is_monotone([start, end], above) {
+            return false;
+        }
+        self.include(start, times[0]);
+        self.include(end, times[1]);
+        true
+    }
+
     pub(super) fn include(&mut self, value: f64, time: f64) {
         if value > self.highest.value {
             self.highest = Instant { value, time };
@@ -41,6 +57,14 @@ impl Extremes {
             self.lowest = Instant { value, time };
         }
     }
+}
+
+/// Returns whether a quantity g with these values at the ends of an interval δ is monotone in between.
+///
+/// With |g̈| ≤ M, g exceeds its values at the ends by `above` = M δ²/8 at most, and ġ differs by M δ/2 at
+/// most from its mean over the interval.
+pub(super) fn is_monotone([start, end]: [f64; 2], above: f64) -> bool {
+    (end - start).abs() > 4.0 * above
 }
 
 /// The first time |u| reaches a fraction of `u_ins` of its side.

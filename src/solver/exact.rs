@@ -102,9 +102,8 @@ impl Piece for ClosedForm<'_> {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
-    fn snap(&self, _between: [f64; 2], (acceleration, jerk): (f64, f64)) -> f64 {
-        // u⁗ = −c u‴ − k ü
-        self.oscillator.damping() * jerk + self.oscillator.stiffness().abs() * acceleration
+    fn snap(&self, _between: [f64; 2], bounds: (f64, f64)) -> f64 {
+        self.oscillator.snap(bounds)
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {

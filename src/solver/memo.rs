@@ -8,27 +8,27 @@ use oscillator::{KinematicState, Oscillator};
 use super::motion::Motion;
 use crate::wall::TieMemory;
 
-/// What a run keeps from step to step: the propagator of its last whole step, and the motion of a wall whose
-/// ties have yielded. Results do not depend on it, bit for bit.
+/// What a run keeps from step to step: the propagators of its last whole steps, and the motion of a wall
+/// whose ties have yielded. Results do not depend on it, bit for bit.
 #[derive(Clone, Debug, Default)]
 pub struct Memo {
-    propagator: Propagator,
+    propagators: Propagators,
     /// The motion with the present memory of the ties; `None` while it is that of the start.
     stretched: Option<Arc<Motion>>,
 }
 
 impl Memo {
-    /// Prepares the motion for what the ties remember now, and returns it with the propagator of its steps.
+    /// Prepares the motion for what the ties remember now, and returns it with the propagators of its steps.
     #[inline]
     pub(crate) fn prepare<'a>(
         &'a mut self,
         first: &'a Motion,
         memory: &TieMemory,
-    ) -> (&'a Motion, &'a mut Propagator) {
+    ) -> (&'a Motion, &'a mut Propagators) {
         if self.motion(first).wall().tie_memory() != memory {
             self.stretch(first, memory);
         }
-        (self.stretched.as_deref().unwrap_or(first), &mut self.propagator)
+        (self.stretched.as_deref().unwrap_or(first), &mut self.propagators)
     }
 
     #[cold]
@@ -36,7 +36,7 @@ impl Memo {
         let is_first = first.wall().tie_memory() == memory;
         self.stretched = (!is_first).then(|| Arc::new(first.with_tie_memory(*memory)));
         // the branches have other numbers
-        self.propagator = Propagator::default();
+        self.propagators = Propagators::default();
     }
 
     /// Returns the motion that was prepared last, of a run whose motion at the start is `first`.
@@ -46,12 +46,20 @@ impl Memo {
     }
 }
 
-/// The propagator of the last whole step on a branch. It is computed once for steps of the same length.
+/// The propagators of the last whole steps: one is computed once for steps of the same length on a branch.
 ///
 /// Lengths that differ only by the rounding of a clock share one propagator. It is computed for the length
-/// rounded to 40 bits, and a Taylor series covers the remainder of up to 5e-13 of the length.
+/// rounded to 40 bits, and a Taylor series covers the remainder of up to 5e-13 of the length. After seconds
+/// of steps of milliseconds the clock rounds by more, so that lengths take turns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Propagators {
+    last: Propagator,
+    /// Those before.
+    earlier: [Propagator; 3],
+}
+
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Propagator {
+struct Propagator {
     branch: usize,
     duration: f64,
     matrix: Matrix3<f64>,
@@ -79,6 +87,25 @@ impl Propagator {
         Self { branch, duration, matrix: Matrix3::from_fn(|i, j| rows[i][j]) }
     }
 
+    #[inline]
+    fn is_of(&self, branch: usize, duration: f64) -> bool {
+        self.duration == duration && self.branch == branch
+    }
+}
+
+impl Propagators {
+    /// Makes the propagator of a step the last one.
+    #[cold]
+    fn recall(&mut self, branch: usize, oscillator: &Oscillator, duration: f64) {
+        if let Some(known) = self.earlier.iter_mut().find(|known| known.is_of(branch, duration)) {
+            std::mem::swap(&mut self.last, known);
+            return;
+        }
+        self.earlier.rotate_right(1);
+        self.earlier[0] = self.last;
+        self.last = Propagator::new(branch, oscillator, duration);
+    }
+
     /// Returns the end of a whole step on a branch, and remembers its propagator.
     #[inline]
     pub(super) fn end(
@@ -90,11 +117,11 @@ impl Propagator {
         length: f64,
     ) -> KinematicState {
         let duration = rounded(length);
-        if self.duration != duration || self.branch != branch {
-            *self = Self::new(branch, oscillator, duration);
+        if !self.last.is_of(branch, duration) {
+            self.recall(branch, oscillator, duration);
         }
         let from = Vector3::new(start.velocity, start.acceleration, forcing_rate);
-        let change = self.matrix * from;
+        let change = self.last.matrix * from;
         let (velocity, acceleration) = (change[1], change[2]);
         let end = KinematicState { displacement: start.displacement + change[0], velocity, acceleration };
         let rest = length - duration;
@@ -132,7 +159,7 @@ mod tests {
         for apart in [2047, 1000, 1] {
             let length = f64::from_bits(rounded(0.7).to_bits() + apart);
             let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
-            let found = Propagator::default().end(0, &oscillator, start, 90.0, length);
+            let found = Propagators::default().end(0, &oscillator, start, 90.0, length);
             let wanted = oscillator.propagate(start, 90.0, length);
             // a few roundings of the largest terms; without the remainder of the length it would be a
             // thousand

@@ -5,7 +5,7 @@ use oscillator::KinematicState;
 use super::adaptive::{Series, Viscous, newmark_step};
 use super::event::{self, Ending, Exit, Piece};
 use super::exact::ClosedForm;
-use super::memo::Propagator;
+use super::memo::Propagators;
 use super::motion::{Method, Motion};
 use super::state::{Phase, Report, SolverError, State};
 use super::transition::{self, Rebound};
@@ -25,7 +25,7 @@ pub(super) struct Run<'a> {
     forcing: f64,
     rate: f64,
     integral: bool,
-    propagator: &'a mut Propagator,
+    propagators: &'a mut Propagators,
     pub(super) watch: Option<Watch<'a>>,
     pub(super) report: Report,
 }
@@ -39,7 +39,7 @@ impl<'a> Run<'a> {
         duration: f64,
         [from, to]: [f64; 2],
         integral: bool,
-        propagator: &'a mut Propagator,
+        propagators: &'a mut Propagators,
     ) -> Self {
         let rate = if duration > 0.0 { (to - from) / duration } else { 0.0 };
         Self {
@@ -50,7 +50,7 @@ impl<'a> Run<'a> {
             forcing: from,
             rate,
             integral,
-            propagator,
+            propagators,
             watch: None,
             report: Report::default(),
         }
@@ -154,7 +154,7 @@ impl<'a> Run<'a> {
         // length, a part of one does not.
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if whole && !oscillator.is_spread(self.duration) {
-            piece.end_at(self.propagator.end(index, oscillator, start, rate, remaining));
+            piece.end_at(self.propagators.end(index, oscillator, start, rate, remaining));
         }
         piece
     }

@@ -16,7 +16,8 @@ pub struct Segment {
 impl Segment {
     /// Returns the supports at a time after the start \[s\]; from the end on, those at the end.
     pub(super) fn support(&self, time: f64) -> Support {
-        self.from.towards(self.to, (time / self.duration).min(1.0))
+        let share = time / self.duration;
+        if share < 1.0 { self.from.towards(self.to, share) } else { self.to }
     }
 }
 

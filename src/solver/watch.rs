@@ -1,32 +1,22 @@
 //! Collects demands on each piece of a motion.
 //!
-//! Demands are found on the pieces, not at samples. On an interval every watched quantity g has a bound M on
-//! |g̈|, so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed
-//! the extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
-
-use std::cell::OnceCell;
+//! Demands are found on the pieces, not at samples. A step without events whose ends show them needs no
+//! search.
 
 use oscillator::KinematicState;
 
-use crate::wall::{Ends, Support, TieAction, Wall};
+use crate::wall::{Branch, Ends, Support, TieAction, Wall};
 
-use super::demand::{Demands, Extremes, Instant, TieDemands};
+use super::demand::{Demands, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
+mod search;
 #[cfg(test)]
 mod tests;
 
-/// Error of an extreme, relative to the terms it is the sum of. Its time is then accurate to about 1e-6 of
-/// the time scale of the motion around it.
-pub const ACCURACY: f64 = 1e-12;
-/// Number of intervals after which the tolerance of a search doubles, again and again. Hundreds of undamped
-/// oscillations of the same height in one step would take too long with twelve digits each.
-const PATIENCE: u32 = 1 << 14;
-/// Most intervals of one search. By then the tolerance is a million times the value.
-const MOST_INTERVALS: u32 = 60 * PATIENCE;
-/// Most intervals pending at once.
-const DEEPEST: usize = 64;
+pub use search::ACCURACY;
+use search::{ExtremeSearch, Quantity};
 
 /// Demands being collected over one segment.
 pub(super) struct Watch<'a> {
@@ -52,15 +42,81 @@ pub(super) struct Followed<'a, P> {
     pub(super) displacement: f64,
 }
 
-/// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
-/// terms. The bound is the sum of a number and of a share of the bound on that of ü.
-struct Quantity<F, S> {
-    value: F,
-    curvature: [f64; 2],
-    size: S,
-}
-
 impl Watch<'_> {
+    /// Returns what goes on with the wall as its ties are now.
+    pub(super) fn of<'a>(&'a mut self, wall: &'a Wall) -> Watch<'a> {
+        let Self { segment, time, drift, .. } = *self;
+        Watch { demands: self.demands, wall, segment, time, drift }
+    }
+
+    /// Includes a motion on a branch over the whole segment by its ends, from bounds on |ü| and on the jerk,
+    /// and on the second derivative of ü. Returns `false` where it has to be searched. What has been included
+    /// by then is part of it.
+    #[inline]
+    pub(super) fn include_ends(
+        &mut self,
+        branch: &Branch,
+        is_overturned: bool,
+        [from, to]: [KinematicState; 2],
+        (most_acceleration, most_jerk): (f64, f64),
+        most_snap: f64,
+    ) -> bool {
+        if self.demands.tie.is_some() && branch.tie != TieAction::None {
+            return false;
+        }
+        if is_overturned {
+            return true;
+        }
+        let length = self.segment.duration;
+        let (share, times) = (0.125 * length * length, [self.time, self.time + length]);
+        let sag = share * most_acceleration;
+        // no half cycle begins or ends
+        let is_counted = match (self.demands.excursion, branch.is_elastic()) {
+            (None, is_elastic) => is_elastic,
+            (Some(side), true) => side * from.displacement > sag && side * to.displacement > sag,
+            (Some(side), false) => {
+                side == branch.side() && !(self.wall.is_rigid() && from.displacement == 0.0)
+            }
+        };
+        if !is_counted || self.reaches(to.displacement) {
+            return false;
+        }
+        let [by_a, by_u] = self.slopes();
+        let reactions = [self.reactions(self.segment.from, &from), self.reactions(self.segment.to, &to)];
+        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_snap);
+        let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
+            &mut *self.demands;
+        displacement.include_ends([from.displacement, to.displacement], sag, times)
+            && velocity.include_ends([from.velocity, to.velocity], share * most_jerk, times)
+            && acceleration.include_ends([from.acceleration, to.acceleration], share * most_snap, times)
+            && reaction_bottom.include_ends(
+                reactions.map(|ends| ends.bottom),
+                above(by_a.bottom, by_u.bottom),
+                times,
+            )
+            && reaction_top.include_ends(reactions.map(|ends| ends.top), above(by_a.top, by_u.top), times)
+    }
+
+    /// Returns whether a displacement reaches a limit state that was never reached before.
+    #[inline]
+    fn reaches(&self, displacement: f64) -> bool {
+        let u_ins = self.wall.body().instability.of(displacement);
+        let mut crossings = self.demands.crossings.iter();
+        crossings.any(|crossing| crossing.first.is_none() && displacement.abs() >= crossing.fraction * u_ins)
+    }
+
+    #[inline]
+    fn reactions(&self, support: Support, motion: &KinematicState) -> Ends {
+        self.wall.body().reactions(support, motion.acceleration, motion.displacement, self.drift)
+    }
+
+    /// Returns ∂R/∂ü and ∂R/∂u of both reactions.
+    #[inline]
+    fn slopes(&self) -> [Ends; 2] {
+        let (body, still) = (self.wall.body(), Support::default());
+        [body.reactions(still, 1.0, 0.0, self.drift), body.reactions(still, 0.0, 1.0, self.drift)]
+    }
+
     /// Includes a rest between two times within the segment. Forces are linear in between.
     pub(super) fn rest(&mut self, from: f64, to: f64) {
         for offset in [from, to] {
@@ -97,11 +153,9 @@ impl Watch<'_> {
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
     fn forces<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
         let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
+        let [by_a, by_u] = self.slopes();
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
-        // ∂R/∂ü and ∂R/∂u
-        let [by_a, by_u] =
-            [[1.0, 0.0], [0.0, 1.0]].map(|[a, u]| body.reactions(Support::default(), a, u, drift));
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
         let Demands { reaction_bottom, reaction_top, .. } = &mut *self.demands;
         for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
@@ -223,143 +277,5 @@ impl Watch<'_> {
             demands.excursion = None;
         }
         Ok(())
-    }
-}
-
-impl<F, S> Quantity<F, S> {
-    /// Returns by how much it may exceed its values at the ends of an interval.
-    fn above(&self, width: f64, snap: f64) -> f64 {
-        let [number, share] = self.curvature;
-        0.125 * width * width * (number + share * snap)
-    }
-}
-
-/// Number of instants of a piece that a search begins with, to find the size of the quantities on it.
-const FIRST: usize = 5;
-
-/// A piece to search up to a length; it starts `from` after the `time` of its segment.
-struct ExtremeSearch<'a, P> {
-    piece: &'a P,
-    time: f64,
-    from: f64,
-    length: f64,
-    ends: [KinematicState; 2],
-    seen: OnceCell<[(f64, KinematicState); FIRST]>,
-    /// Bounds on |ü|, on the jerk, and on the second derivative of ü \[m/s², m/s³, m/s⁴\].
-    bounds: (f64, f64),
-    snap: f64,
-}
-
-#[derive(Clone, Copy)]
-struct Node {
-    offset: f64,
-    value: f64,
-}
-
-impl<'a, P: Piece> ExtremeSearch<'a, P> {
-    fn new(piece: &'a P, length: f64, [time, from]: [f64; 2]) -> Self {
-        let ends = [piece.start(), piece.balanced(length)];
-        let bounds = piece.bounds(ends[0], length);
-        let snap = piece.snap([0.0, length], bounds);
-        Self { piece, time, from, length, ends, seen: OnceCell::new(), bounds, snap }
-    }
-
-    /// The instants that a search begins with. Most pieces need none: their ends show that none is higher.
-    fn seen(&self) -> &[(f64, KinematicState); FIRST] {
-        self.seen.get_or_init(|| {
-            std::array::from_fn(|index| match index {
-                0 => (0.0, self.ends[0]),
-                _ if index + 1 == FIRST => (self.length, self.ends[1]),
-                _ => {
-                    let offset = self.length * (index as f64 / (FIRST - 1) as f64);
-                    (offset, self.piece.balanced(offset))
-                }
-            })
-        })
-    }
-
-    fn largest(&self, pick: fn(&KinematicState) -> f64) -> f64 {
-        self.seen().iter().map(|(_, motion)| pick(motion).abs()).fold(0.0, f64::max)
-    }
-
-    /// Raises the extremes to those of a quantity.
-    fn raise<F: Fn(f64, &KinematicState) -> f64, S: Fn() -> f64>(
-        &self,
-        extremes: &mut Extremes,
-        quantity: &Quantity<F, S>,
-    ) -> Result<(), SearchExhausted> {
-        let [start, end] = [(0.0, &self.ends[0]), (self.length, &self.ends[1])]
-            .map(|(t, motion)| (quantity.value)(t, motion));
-        let most = quantity.above(self.length, self.snap);
-        if start.max(end) + most <= extremes.highest.value && start.min(end) - most >= extremes.lowest.value {
-            return Ok(());
-        }
-        if let Some(instant) = self.highest(1.0, extremes.highest.value, quantity)? {
-            extremes.highest = instant;
-        }
-        if let Some(Instant { value, time }) = self.highest(-1.0, -extremes.lowest.value, quantity)? {
-            extremes.lowest = Instant { value: -value, time };
-        }
-        Ok(())
-    }
-
-    /// Returns the highest value of `sign` times a quantity, if it exceeds `best`.
-    fn highest<F: Fn(f64, &KinematicState) -> f64, S: Fn() -> f64>(
-        &self,
-        sign: f64,
-        best: f64,
-        quantity: &Quantity<F, S>,
-    ) -> Result<Option<Instant>, SearchExhausted> {
-        let [_, share] = quantity.curvature;
-        let node = |offset: f64, motion: &KinematicState| Node {
-            offset,
-            value: sign * (quantity.value)(offset, motion),
-        };
-        let first = self.seen().map(|(offset, motion)| node(offset, &motion));
-        let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
-        let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
-        if highest + quantity.above(longest, self.snap) <= best {
-            return Ok(None);
-        }
-        let size = (quantity.size)();
-        let mut found = Node { offset: f64::NAN, value: best };
-        for node in first {
-            if node.value > found.value {
-                found = node;
-            }
-        }
-        // from right to left, because the last interval added is searched first
-        let (mut left, mut count) = (first[0], FIRST - 1);
-        let mut pending = [left; DEEPEST];
-        for (place, node) in pending.iter_mut().zip(first[1..].iter().rev()) {
-            *place = *node;
-        }
-        for visited in 0..MOST_INTERVALS {
-            let Some(index) = usize::checked_sub(count, 1) else {
-                let time = self.time + (self.from + found.offset);
-                return Ok((found.value > best).then_some(Instant { value: found.value, time }));
-            };
-            let right = pending[index];
-            let width = right.offset - left.offset;
-            let higher = left.value.max(right.value);
-            // the error of a sum with cancellation is relative to its terms
-            let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
-            let tolerance = patience * ACCURACY * size.max(found.value.abs());
-            let within = |snap: f64| higher + quantity.above(width, snap) <= found.value + tolerance;
-            // the bound between two instants is smaller than that over the whole piece, which is known
-            let between = || self.piece.snap([left.offset, right.offset], self.bounds);
-            if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
-                (left, count) = (right, index);
-                continue;
-            }
-            let offset = 0.5 * (left.offset + right.offset);
-            let middle = node(offset, &self.piece.balanced(offset));
-            if middle.value > found.value {
-                found = middle;
-            }
-            pending[count] = middle;
-            count += 1;
-        }
-        Err(SearchExhausted)
     }
 }

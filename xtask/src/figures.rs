@@ -21,7 +21,7 @@ const ROTATIONS: &str = "small rotations: their period";
 
 /// Measures and writes everything; `record` is the motion of the walls of Table 5.
 pub(crate) fn run(record: Option<&str>) -> Result<()> {
-    let peers = bench::peers(record)?;
+    peers(record)?;
     let mut accuracy = vec!["verify", "accuracy", "--csv", "fmu_out/accuracy.csv"];
     accuracy.extend(["--html", "fmu_out/accuracy.html", "--peers", bench::PEERS]);
     let path = record.map(std::path::absolute).transpose().map_err(|error| format!("the record: {error}"))?;
@@ -41,15 +41,20 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
         ("stability", fenced(&stability)),
         ("rotations", fenced(rotations)),
         ("noise", fenced(&output(&mut noise, "see its message above")?)),
-        ("peers", fenced(&outlined(&peers))),
     ];
     write_marked(DOCUMENT, &figures)?;
-    beside_other_tools()?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
     verification()?;
     reliability::run()?;
     images::run()
+}
+
+/// Measures the peers, and writes their table and their picture.
+pub(crate) fn peers(record: Option<&str>) -> Result<()> {
+    let peers = bench::peers(record)?;
+    write_marked(DOCUMENT, &[("peers", fenced(&outlined(&peers)))])?;
+    beside_other_tools()
 }
 
 /// Draws one wall of the peers for the README: single runs, and not the reference beside itself.
@@ -117,7 +122,7 @@ fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<Str
 }
 
 /// Keeps of each scene the run of rocking-wall, `OpenSeesPy` at the record's step, and each tool's cheapest
-/// good setting.
+/// good settings, of histories and of peaks.
 fn outlined(table: &str) -> String {
     let mut text = String::new();
     for scene in table.split("\n\n") {

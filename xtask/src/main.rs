@@ -67,6 +67,8 @@ The jobs of the project.
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
                                    write docs/accuracy.md, docs/validation.md, docs/verification.md, the
                                    pages, and the pictures of docs/images
+  cargo xtask figures --peers [RECORD.AT2]
+                                   only the other tools in docs/accuracy.md, and their picture
   cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --reliability
                                    only docs/reliability.md; under recorded motions too if
@@ -100,6 +102,8 @@ fn main() -> ExitCode {
         ["wheel", "--platforms", names] => wheel::portable(names),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
+        ["figures", "--peers"] => figures::peers(None),
+        ["figures", "--peers", record] => figures::peers(Some(record)),
         ["figures", "--images"] => images::run(),
         ["figures", "--reliability"] => reliability::run(),
         ["figures", "--validation"] => figures::validation(),

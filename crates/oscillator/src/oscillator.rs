@@ -337,6 +337,13 @@ impl Oscillator {
             (most, jerk * growth + growth_rate * growth_rate * length * most)
         }
     }
+
+    /// Bounds the second derivative of ü \[m/s⁴\] where |ü| and the jerk keep within [bounds](Self::bounds):
+    /// u⁗ = −c u‴ − k ü.
+    #[inline]
+    pub fn snap(&self, (acceleration, jerk): (f64, f64)) -> f64 {
+        self.damping * jerk + self.stiffness.abs() * acceleration
+    }
 }
 
 #[cfg(test)]

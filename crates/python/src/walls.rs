@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use check::{CheckFile, Subject};
+use check::Subject;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use record::RecordSolver;
+use record::{RecordSolver, RunEnd};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
@@ -19,7 +19,7 @@ use rocking_wall::solver::Method;
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::{Curve, plot};
 use run::shaking::Shaking;
-use run::walls::assumed;
+use run::walls::{assumed, read_scene};
 use scene_fmu::General;
 
 use crate::arrays::{Motion, Numbers, samples};
@@ -61,9 +61,7 @@ impl Wall {
     /// Reads a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let scene = Scene::read(&path).map_err(of_scene)?;
-        let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path)?);
-        let assumed = CheckFile::parse(&name, &text).map_err(of_scene)?.assumed(&[]);
+        let (scene, assumed) = read_scene(&path).map_err(of_scene)?;
         Self::of(scene, None, assumed, &PyDict::new(py))
     }
 
@@ -250,7 +248,8 @@ impl Wall {
         let shaking = Shaking::new(&prepared.motion, &solver, &felt, tail);
         let mut outcomes = Vec::with_capacity(factors.len());
         for factors in factors.chunks(RUNS_AT_ONCE) {
-            outcomes.extend(py.detach(|| shaking.peaks(prepared.start, factors)).map_err(failed)?);
+            let runs = py.detach(|| shaking.runs(prepared.start, factors, RunEnd::AtPeaks));
+            outcomes.extend(runs.map_err(failed)?);
             py.check_signals()?;
         }
         let peaks: Vec<_> = outcomes.iter().map(|outcome| prepared.peaks(outcome)).collect();

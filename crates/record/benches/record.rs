@@ -105,7 +105,8 @@ fn one_level(model: &str, wall: impl Fn(f64) -> Parameters) {
         let least = |(motion, forcing): (&Motion, Forcing<'_>)| {
             let starts: Vec<_> = factors.iter().map(|factor| start(motion, *factor)).collect();
             least_of(20, factors.len(), || {
-                let outcomes = RecordSolver::new(motion, step).batch(forcing).run(&starts, true);
+                let outcomes =
+                    RecordSolver::new(motion, step).batch(forcing).run(&starts, RunEnd::AtOverturning);
                 outcomes.expect("bounded motions").len() as f64
             })
         };
@@ -147,7 +148,7 @@ fn measure(
     let side_by_side = solver.batch(Forcing::Samples(samples)).is_side_by_side();
     let way = if side_by_side { "side by side" } else { "one by one  " };
     let many = least(count * BATCH, || {
-        let outcomes = solver.batch(Forcing::Samples(black_box(samples))).run(&batch, false);
+        let outcomes = solver.batch(Forcing::Samples(black_box(samples))).run(&batch, RunEnd::OfRecord);
         outcomes.expect("bounded motions")[0].state.displacement
     });
     println!(
@@ -235,7 +236,8 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(outcome.expect("a bounded motion"));
             }
             "batch" => {
-                let outcomes = solver.batch(Forcing::Samples(samples)).run(&batch(1.0, start), false);
+                let outcomes =
+                    solver.batch(Forcing::Samples(samples)).run(&batch(1.0, start), RunEnd::OfRecord);
                 black_box(outcomes.expect("bounded motions"));
             }
             other => panic!("no path {other}: segments, record, batch, adaptive"),

@@ -140,7 +140,7 @@ impl SideBySide {
 /// [`RecordSolver::run`]; with secant damping it agrees with that within the tolerance.
 ///
 /// ```
-/// use record::{Forcing, RecordSolver, RunStart};
+/// use record::{Forcing, RecordSolver, RunEnd, RunStart};
 /// use rocking_wall::solver::Motion;
 /// use rocking_wall::wall::{Parameters, Support};
 ///
@@ -150,7 +150,7 @@ impl SideBySide {
 /// let solver = RecordSolver::new(&motion, 0.01);
 /// let state = motion.start(0.0, 0.0, Support::default());
 /// let starts = [0.1, 1.0, 100.0].map(|factor| RunStart { state, factor });
-/// let outcomes = solver.batch(Forcing::Samples(&samples)).run(&starts, true)?;
+/// let outcomes = solver.batch(Forcing::Samples(&samples)).run(&starts, RunEnd::AtOverturning)?;
 /// assert!(outcomes[0].overturning.is_none() && outcomes[2].overturning.is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -168,26 +168,12 @@ impl Batch<'_> {
         self.side_by_side.is_some()
     }
 
-    /// Moves walls through the record, each as if it were alone; `until_overturning` stops each at the end of
-    /// the step in which it overturns. Returns one outcome for each start, in their order.
+    /// Moves walls through the record, each as if it were alone and up to `end`. Returns one outcome for each
+    /// start, in their order.
     ///
     /// # Errors
     /// [`SolverError`] of the first start that could not be followed, as of [`RecordSolver::run`].
-    pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
-        self.follow(starts, RunEnd::until(until_overturning))
-    }
-
-    /// Moves walls as [`run`](Self::run) does up to overturning, and no further than to where the rest of the
-    /// record cannot raise the peaks. These have the same bits as if the run went on; the state is that where
-    /// it ends.
-    ///
-    /// # Errors
-    /// As [`run`](Self::run).
-    pub fn run_to_the_peaks(&self, starts: &[RunStart]) -> Result<Vec<Outcome>, SolverError> {
-        self.follow(starts, RunEnd::AtPeaks)
-    }
-
-    fn follow(&self, starts: &[RunStart], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
+    pub fn run(&self, starts: &[RunStart], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
         let given = |&start| BatchRun { solver: self.solver, record: &self.record, start };
         let given: Vec<_> = starts.iter().map(given).collect();
         if given.is_empty() {

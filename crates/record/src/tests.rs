@@ -77,7 +77,7 @@ fn runs_do_not_depend_on_the_processor() {
         for vectors in wide.into_iter().flatten() {
             let batch = solver.batch_on(samples, Some(vectors));
             assert!(batch.is_side_by_side());
-            assert_eq!(batch.run(&starts, false).expect("bounded motions"), portable);
+            assert_eq!(batch.run(&starts, RunEnd::OfRecord).expect("bounded motions"), portable);
         }
         let corners: u64 = portable.iter().map(|outcome| outcome.work.corners).sum();
         let overturned = portable.iter().filter(|outcome| outcome.overturning.is_some()).count();
@@ -264,11 +264,11 @@ fn what_does_not_suit_goes_one_by_one() {
     assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), widest));
     let solver = RecordSolver::new(&stiff, 5e-3);
     let starts = starts(&stiff);
-    let together = solver.batch(all).run(&starts, false).expect("bounded motions");
+    let together = solver.batch(all).run(&starts, RunEnd::OfRecord).expect("bounded motions");
     for (start, outcome) in starts.iter().zip(together) {
         assert_eq!(solver.run(*start, all, false).expect("a bounded motion"), outcome);
     }
-    let none = solver.batch(Forcing::Samples(&[])).run(&starts, false).expect("no motion");
+    let none = solver.batch(Forcing::Samples(&[])).run(&starts, RunEnd::OfRecord).expect("no motion");
     assert_eq!(none.len(), starts.len());
 }
 
@@ -282,7 +282,7 @@ fn a_batch_fails_with_its_first_error() {
         starts[number].factor = 1e305;
         starts[number].state.velocity = 1e-6 * number as f64;
     }
-    let error = solver.batch(record).run(&starts, false).unwrap_err();
+    let error = solver.batch(record).run(&starts, RunEnd::OfRecord).unwrap_err();
     assert_eq!(error, solver.run(starts[3], record, false).unwrap_err());
     assert_ne!(error, solver.run(starts[5], record, false).unwrap_err());
 }

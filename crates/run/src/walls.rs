@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
     Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable, apply_group,
-    parameters, parse_toml, read_floors,
+    parameters, parse_document, parse_toml, read_floors,
 };
 use rocking_wall::tables;
 use rocking_wall::wall::{Bar, COMPUTED, Parameters};
@@ -50,6 +50,19 @@ pub const DECIDING: [(&str, &str); 5] = [
 /// Returns those of [`DECIDING`] that are not stated.
 pub fn assumed(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
     DECIDING.into_iter().filter(|(group, name)| !is_stated(group, name)).map(|(_, name)| name).collect()
+}
+
+/// Reads a scene file, and returns with the scene those of [`DECIDING`] that the file does not state.
+///
+/// # Errors
+/// [`SceneError`], with file, line, value and remedy.
+pub fn read_scene(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneError> {
+    let (name, text) = (path.display().to_string(), Scene::text(path)?);
+    let scene = Scene::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))?;
+    let document = parse_document(&Place::new(&name, &text))?;
+    let group = |group: &str| document.get(group).and_then(|group| group.get_ref().as_table());
+    let is_stated = |of: &str, name: &str| group(of).is_some_and(|group| group.contains_key(name));
+    Ok((scene, assumed(is_stated)))
 }
 
 impl NamedWall {
@@ -316,11 +329,7 @@ pub fn walls(
         WallSource::Scene(path, line) => {
             let file = folder.join(&path);
             inputs.push(file.clone());
-            let scene = Scene::read(&file).map_err(|error| at(line, "a wall's scene", error))?;
-            let text = std::fs::read_to_string(&file).unwrap_or_default();
-            let document: toml::Table = text.parse().unwrap_or_default();
-            let is_stated =
-                |group: &str, name: &str| document.get(group).and_then(|group| group.get(name)).is_some();
+            let (scene, assumed) = read_scene(&file).map_err(|error| at(line, "a wall's scene", error))?;
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
@@ -333,7 +342,6 @@ pub fn walls(
                 ignored.push((name.clone(), warning));
             }
             let floors = entry.floors.or(scene.floors);
-            let assumed = assumed(is_stated);
             Ok(vec![NamedWall { floors, assumed, ..NamedWall::new(name, scene.parameters) }])
         }
     }

@@ -1,7 +1,7 @@
 //! The project's own solvers: over the whole record, several runs together, and step by step as in
 //! co-simulation.
 
-use record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
@@ -67,7 +67,7 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
     };
     let at_once = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
-        let outcomes = solver.batch(Forcing::Samples(problem.motion.samples())).run(&starts, false);
+        let outcomes = solver.batch(Forcing::Samples(problem.motion.samples())).run(&starts, RunEnd::OfRecord);
         outcomes.map_err(|error| error.to_string())
     };
     if count == 1 {

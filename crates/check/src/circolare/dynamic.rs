@@ -5,7 +5,7 @@
 //! |d|/threshold on the two sides under its two signs. A tie without `tie_ultimate` does not break: a run
 //! that reaches its strength fails. One that has it yields and breaks as in every run.
 
-use record::RecordSolver;
+use record::{RecordSolver, RunEnd};
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Sides, Tie, Wall};
@@ -309,8 +309,8 @@ impl Runs<'_> {
         for (record, factor) in self.records.iter().zip(factors) {
             let signed = levels.iter().flat_map(|level| self.signs.iter().map(move |sign| sign * level));
             let scaled: Vec<f64> = signed.map(|signed| signed * factor).collect();
-            let outcomes =
-                record.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
+            let outcomes = record.runs([0.0, 0.0], &scaled, RunEnd::AtOverturning);
+            let outcomes = outcomes.map_err(|error| CheckError::wall(error.to_string()))?;
             for (at_level, outcomes) in maxima.iter_mut().zip(outcomes.chunks(self.signs.len())) {
                 let peaks = |outcome: &record::Outcome| {
                     let peaks = outcome.state.peaks;

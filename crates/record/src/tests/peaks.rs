@@ -38,8 +38,8 @@ fn runs_to_the_peaks_have_those_of_whole_ones() {
         for vectors in [Vectors::widest(), None] {
             let mut ended = 0;
             let batch = solver.batch_on(Forcing::Samples(&samples), vectors);
-            let all = batch.run(&starts, true).expect("bounded motions");
-            let short = batch.run_to_the_peaks(&starts).expect("bounded motions");
+            let all = batch.run(&starts, RunEnd::AtOverturning).expect("bounded motions");
+            let short = batch.run(&starts, RunEnd::AtPeaks).expect("bounded motions");
             for (a, b) in all.iter().zip(&short) {
                 assert_eq!((a.state.peaks, a.overturning), (b.state.peaks, b.overturning));
                 let (pieces, is_short) = (a.work.pieces, b.work.pieces < a.work.pieces);

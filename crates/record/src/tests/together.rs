@@ -74,7 +74,7 @@ fn runs_with_secant_damping_are_those_of_batches() {
         let together = run_together_on(&runs, RunEnd::OfRecord, vectors);
         for (run, together) in runs.iter().zip(together) {
             let batch = run.solver.batch_on(run.record.forcing, vectors);
-            let alone = batch.run(&[run.start], false).expect("a bounded motion")[0];
+            let alone = batch.run(&[run.start], RunEnd::OfRecord).expect("a bounded motion")[0];
             assert_eq!(together, Ok(alone), "{vectors:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
-use record::Outcome;
+use record::{Outcome, RunEnd};
 use rocking_wall::solver::{Motion, State};
 use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};
@@ -119,6 +119,14 @@ pub enum Collapse {
 }
 
 impl Collapse {
+    /// Returns where a run ends.
+    pub(crate) fn end(self) -> RunEnd {
+        match self {
+            Self::Exceeds => RunEnd::AtPeaks,
+            Self::Falls => RunEnd::OfRecord,
+        }
+    }
+
     /// Every variant, with the words of study files.
     pub const ALL: [(&str, Self); 2] = [("exceeds", Self::Exceeds), ("falls", Self::Falls)];
 

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use record::{LANES, Outcome, RecordSolver, RunEnd};
+use record::{LANES, Outcome, RecordSolver};
 use rocking_wall::solver::SolverError;
 use run::shaking::{Shaken, Shaking, together};
 
 use super::polarity::worse;
-use super::{Collapse, Curve, IdaError, Levels, Run, Study};
+use super::{Curve, IdaError, Levels, Run, Study};
 
 impl Study {
     /// Splits some combinations into those that [`curves`](Self::curves) takes together: at few levels those
@@ -55,11 +55,7 @@ impl Study {
             }
             levels.push(own);
         }
-        let end = match self.collapse {
-            Collapse::Exceeds => RunEnd::AtPeaks,
-            Collapse::Falls => RunEnd::OfRecord,
-        };
-        let outcomes = together(&shaken, end);
+        let outcomes = together(&shaken, self.collapse.end());
         let mut of_levels = outcomes.chunks(signs.len());
         let curve = |(case, levels): (_, Vec<f64>)| {
             let run = |(level, outcomes): (f64, &[Result<Outcome, SolverError>])| {

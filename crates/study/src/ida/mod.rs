@@ -315,14 +315,9 @@ impl Study {
     ) -> Result<Vec<Run>, SolverError> {
         let factors: Vec<_> = levels.iter().map(|level| self.factor(case, *level)).collect();
         let of = |factors: &[f64]| {
-            let outcomes = match self.collapse {
-                Collapse::Exceeds => shaking.peaks([0.0, 0.0], factors)?,
-                Collapse::Falls => shaking.runs_to_the_end([0.0, 0.0], factors)?,
-            };
+            let outcomes = shaking.runs([0.0, 0.0], factors, self.collapse.end())?;
             let runs = levels.iter().zip(outcomes);
-            Ok::<Vec<Run>, SolverError>(
-                runs.map(|(level, outcome)| Run::of(motion, *level, &outcome)).collect(),
-            )
+            Ok(runs.map(|(level, outcome)| Run::of(motion, *level, &outcome)).collect())
         };
         let runs = of(&factors)?;
         if !self.takes_the_worse(motion) {

@@ -32,7 +32,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
-use record::{Forcing, Outcome, RecordSolver, RunStart};
+use record::{Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use report::table::Table;
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
@@ -278,7 +278,8 @@ impl Prepared {
         let samples = Forcing::Samples(motion.samples());
         let starts: Vec<_> = factors.iter().map(|&factor| self.run_start(factor, motion)).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcomes = solver.batch(samples).run(&starts, true).map_err(|error| self.failed(error))?;
+        let outcomes =
+            solver.batch(samples).run(&starts, RunEnd::AtOverturning).map_err(|error| self.failed(error))?;
         let followed =
             |outcome| self.followed(outcome, motion.duration()).map_err(|error| self.failed(error));
         outcomes.into_iter().map(followed).collect()
