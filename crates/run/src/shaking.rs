@@ -51,9 +51,9 @@ impl<'a> Shaking<'a> {
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of
-    /// overturning counts from the start of the record. A run to the end of the tail ([`RunEnd::OfRecord`]) has
-    /// none where the wall is back within `u_ins` there; that of a wall that falls is when it first exceeded
-    /// `u_ins`.
+    /// overturning counts from the start of the record. A run to the end of the tail
+    /// ([`RunEnd::OfRecord`]) has none where the wall is back within `u_ins` there; that of a wall that falls
+    /// is when it first exceeded `u_ins`.
     ///
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.

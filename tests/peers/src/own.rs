@@ -67,7 +67,8 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
     };
     let at_once = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
-        let outcomes = solver.batch(Forcing::Samples(problem.motion.samples())).run(&starts, RunEnd::OfRecord);
+        let batch = solver.batch(Forcing::Samples(problem.motion.samples()));
+        let outcomes = batch.run(&starts, RunEnd::OfRecord);
         outcomes.map_err(|error| error.to_string())
     };
     if count == 1 {
