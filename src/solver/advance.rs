@@ -12,7 +12,7 @@ use super::watch::Watch;
 
 impl Motion {
     /// Moves `state` through a segment. With `integral`, the report contains ∫u dt. `memo` keeps the
-    /// propagator of the last whole step.
+    /// propagators of the last whole steps.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was.

@@ -1,7 +1,7 @@
 //! Orders, energy, dimensionless groups, work.
 
 use proptest::prelude::*;
-use record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Progress, Simulation};
@@ -50,7 +50,7 @@ fn end_of_run(
     let state = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
     let solver = RecordSolver::new(&motion, step);
     let start = RunStart { state, factor: 1.0 };
-    let passage = solver.run(start, Forcing::Samples(&forcing), false).unwrap();
+    let passage = solver.run(start, Forcing::Samples(&forcing), RunEnd::OfRecord).unwrap();
     passage.state.displacement / motion.wall().displacement_scale()
 }
 

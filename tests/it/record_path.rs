@@ -29,7 +29,8 @@ pub(crate) fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor:
         assert_eq!(index, history.len());
         history.push(u);
     };
-    let outcome = solver.run_observed(start, Forcing::Samples(forcing), false, &mut observe).unwrap();
+    let outcome =
+        solver.run_observed(start, Forcing::Samples(forcing), RunEnd::OfRecord, &mut observe).unwrap();
     assert_eq!(history.len(), forcing.len());
     (history, outcome)
 }
@@ -99,9 +100,10 @@ const COMPARED: f64 = 0.95;
 pub(crate) fn batches_agree(one_of: u32, walls: impl Strategy<Value = Parameters>) {
     // fine steps go side by side, coarse ones one by one
     let refinement = prop_oneof![1_u32..20, 20_u32..200];
-    let cases = (walls, motions(), refinement, 2_usize..20, any::<bool>());
-    mostly_of(one_of, COMPARED, cases, |(wall, motion, refinement, count, until)| {
-        Ok([lanes_agree(&wall, &motion, refinement, count, until)?, count])
+    let end = prop_oneof![Just(RunEnd::OfRecord), Just(RunEnd::AtOverturning)];
+    let cases = (walls, motions(), refinement, 2_usize..20, end);
+    mostly_of(one_of, COMPARED, cases, |(wall, motion, refinement, count, end)| {
+        Ok([lanes_agree(&wall, &motion, refinement, count, end)?, count])
     });
 }
 
@@ -112,7 +114,7 @@ fn lanes_agree(
     motion: &[f64],
     refinement: u32,
     count: usize,
-    until: bool,
+    end: RunEnd,
 ) -> Result<usize, TestCaseError> {
     let wall = Wall::new(parameters).unwrap();
     let onset = wall.body().strength.positive / wall.body().effective_mass;
@@ -124,7 +126,6 @@ fn lanes_agree(
     let solver = RecordSolver::new(&started[0].0, step);
     let samples = Forcing::Samples(&forcing);
     let batch = solver.batch(samples);
-    let end = if until { RunEnd::AtOverturning } else { RunEnd::OfRecord };
     let together = batch.run(&starts, end).unwrap();
     prop_assert_eq!(together.len(), count);
     let mut compared = 0;
@@ -134,9 +135,9 @@ fn lanes_agree(
         prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
         if wall.has_constant_damping() {
             // a number is a vector of one lane
-            prop_assert_eq!(solver.run(*start, samples, until).unwrap(), outcome);
+            prop_assert_eq!(solver.run(*start, samples, end).unwrap(), outcome);
         }
-        compared += usize::from(outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?);
+        compared += usize::from(outcomes_agree(&wall, &solver, samples, *start, end, &outcome)?);
     }
     Ok(compared)
 }
@@ -162,20 +163,20 @@ fn outcomes_agree(
     solver: &RecordSolver<'_>,
     samples: Forcing<'_>,
     start: RunStart,
-    until: bool,
+    end: RunEnd,
     outcome: &Outcome,
 ) -> Result<bool, TestCaseError> {
     let run = |factor: f64, probe: f64| {
         let mut state = start.state;
         state.displacement *= 1.0 + probe;
         state.velocity *= 1.0 + probe;
-        solver.run(RunStart { state, factor }, samples, until).unwrap()
+        solver.run(RunStart { state, factor }, samples, end).unwrap()
     };
     let (scale, rate) = (wall.displacement_scale(), wall.rocking_rate());
     let one = run(start.factor, 0.0);
     prop_assert_eq!(one.overturning.is_some(), outcome.overturning.is_some());
     let apart = |a: &Outcome, b: &Outcome| {
-        if let (true, Some(a), Some(b)) = (until, a.overturning, b.overturning) {
+        if let (RunEnd::AtOverturning, Some(a), Some(b)) = (end, a.overturning, b.overturning) {
             return (a - b).abs() * rate;
         }
         let of = |f: &dyn Fn(&Outcome) -> f64| (f(a) - f(b)).abs();

@@ -96,16 +96,32 @@ def test_many_walls_and_records_have_their_own_peaks(record):
             alone = wall.peaks(record, factors)
             for name in ("factor", "u_max", "u_ratio_max", "overturn_time"):
                 np.testing.assert_array_equal(getattr(found, name)[n, m], getattr(alone, name))
-    again = rw.simulate_many(*grid, threads=3)
-    np.testing.assert_array_equal(again.u_max, found.u_max)
     one = rw.simulate_many(walls[1], records[0], 0.3)
     assert one.u_max.shape == () and one.u_max == found.u_max[1, 0, 0]
     assert rw.simulate_many(walls[:2], records).u_max.tolist() == found.u_max[[0, 1], [0, 1], 1].tolist()
     assert rw.simulate_many([], record).u_max.shape == (0,)
 
 
+def test_many_runs_are_the_same_on_any_number_of_threads(record):
+    """300 runs are two groups of one thread, and six of threads that share them."""
+    walls = [rw.Wall(**SET), rw.Wall(**SET | {"thickness": 0.3})]
+    factors = np.linspace(0.1, 1.0, 150)[:, None]
+    found = rw.simulate_many(walls, record, factors, threads=1)
+    np.testing.assert_array_equal(rw.simulate_many(walls, record, factors, threads=6).u_max, found.u_max)
+    factors[140] = 1e300
+    for threads in (1, 6):
+        with pytest.raises(RuntimeError, match=r"run 28[01], of factor 1e\+?300"):
+            rw.simulate_many(walls, record, factors, threads=threads)
+
+
 def test_many_runs_that_cannot_be(record):
     wall = rw.Wall(**SET)
+    rows = np.empty(2, dtype=object)
+    rows[:] = [wall], [wall, wall]
+    with pytest.raises(TypeError, match=r"walls\[0\] must be a Wall, found a value of the type list"):
+        rw.simulate_many(rows, record)
+    with pytest.raises(ValueError, match=r"walls has parts of different shapes"):
+        rw.simulate_many([[wall], [wall, wall]], record)
     with pytest.raises(ValueError, match=r"\(2,\), \(3,\) and \(\), which do not fit"):
         rw.simulate_many([wall] * 2, [record] * 3)
     with pytest.raises(TypeError, match=r"walls\[1\] must be a Wall"):

@@ -8,10 +8,10 @@ use ground_motion::GroundMotion;
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use record::{Outcome, RecordSolver, RunEnd};
+use record::{LANES, Outcome, RecordSolver, RunEnd};
 use rocking_wall::scene::{SceneError, check_tail};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::Motion as Solved;
+use rocking_wall::solver::{Motion as Solved, SolverError};
 use rocking_wall::wall::Sides;
 use run::parallel;
 use run::shaking::{Shaken, Shaking, together};
@@ -21,7 +21,7 @@ use crate::errors::{failed, of_scene, refused};
 use crate::walls::Wall;
 use crate::watch::{threads_of, watched};
 
-/// Runs of a thread between two looks at Ctrl-C; they take some milliseconds.
+/// Most runs of a thread between two looks at Ctrl-C.
 const RUNS_AT_ONCE: usize = 256;
 
 /// A wall as records find it.
@@ -75,6 +75,13 @@ pub(crate) fn check_factor(record: &GroundMotion, factor: f64) -> PyResult<()> {
 /// A run: the numbers of its wall and of its record, and the factor.
 type Numbered = (usize, usize, f64);
 
+/// Why a run has no peaks.
+enum Failure {
+    /// The motion of the floors could not be computed.
+    Floors(SceneError),
+    Run(SolverError),
+}
+
 /// Runs walls through records, each run given by the numbers of both and a factor; returns `u_max`, its
 /// largest ratio to `u_ins`, and the time of overturning (NaN for none).
 #[pyfunction]
@@ -95,38 +102,53 @@ pub(crate) fn simulate_many<'py>(
     let runs = wall_of.into_iter().zip(record_of).zip(factors);
     let runs: Vec<Numbered> = runs.map(|((wall, record), factor)| (wall, record, factor)).collect();
     runs.iter().try_for_each(|(_, record, factor)| check_factor(&records[*record], *factor))?;
-    let groups: Vec<_> = runs.chunks(RUNS_AT_ONCE).collect();
+    // the runs of a wall and record beside each other, so that they are prepared once
+    let mut order: Vec<usize> = (0..runs.len()).collect();
+    order.sort_by_key(|&number| (runs[number].0, runs[number].1));
+    let size = runs.len().div_ceil(threads).clamp(LANES, RUNS_AT_ONCE);
+    let groups: Vec<_> = order.chunks(size).collect();
     let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
         parallel::map(groups.len(), threads, |group| {
+            let numbers = groups[group];
+            let chosen: Vec<_> = numbers.iter().map(|&number| runs[number]).collect();
             if !is_wanted() {
                 return Err(None);
             }
-            let peaks = run_group(&walls, &records, groups[group], tail);
-            peaks.map_err(|(number, message)| Some((group * RUNS_AT_ONCE + number, message)))
+            let found = run_group(&walls, &records, &chosen, tail);
+            found.map_err(|(place, failure)| Some((numbers[place], failure)))
         })
     };
-    let peaks = watched(py, work, || Ok(()))?.map_err(|error| match error {
+    let found = watched(py, work, || Ok(()))?.map_err(|error| match error {
         None => PyKeyboardInterrupt::new_err(()),
-        Some((number, message)) => failed(format!("run {number}, of factor {}: {message}", runs[number].2)),
+        Some((number, failure)) => {
+            let run = format!("run {number}, of factor {}", runs[number].2);
+            match failure {
+                Failure::Floors(error) => refused(format!("{run}: {error}")),
+                Failure::Run(error) => failed(format!("{run}: {error}")),
+            }
+        }
     })?;
-    let peaks = peaks.concat();
+    let mut peaks = vec![[f64::NAN; 3]; runs.len()];
+    for (number, found) in order.into_iter().zip(found.concat()) {
+        peaks[number] = found;
+    }
     Ok([0, 1, 2].map(|part| PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks[part]))))
 }
 
-/// Runs some walls through some records together. An error has the number of its run.
+/// Runs some walls through some records together. A failure has the place of its run.
 fn run_group(
     walls: &[Prepared<'_>],
     records: &[GroundMotion],
     runs: &[Numbered],
     tail: f64,
-) -> Result<Vec<[f64; 3]>, (usize, String)> {
+) -> Result<Vec<[f64; 3]>, (usize, Failure)> {
     // the pairs of wall and record, and the walls with the steps of their records, in order of appearance
     let (mut places, mut pairs) = (HashMap::new(), Vec::new());
     for (number, &(wall, record, _)) in runs.iter().enumerate() {
         if let Entry::Vacant(place) = places.entry((wall, record)) {
             place.insert(pairs.len());
             let felt = walls[wall].felt(&records[record], tail);
-            pairs.push((wall, felt.map_err(|error| (number, error.to_string()))?));
+            pairs.push((wall, felt.map_err(|error| (number, Failure::Floors(error)))?));
         }
     }
     let (mut of_step, mut solvers) = (HashMap::new(), Vec::new());
@@ -151,7 +173,7 @@ fn run_group(
     outcomes
         .map(|(number, (outcome, (wall, ..)))| match outcome {
             Ok(outcome) => Ok(walls[*wall].peaks(&outcome)),
-            Err(error) => Err((number, error.to_string())),
+            Err(error) => Err((number, Failure::Run(error))),
         })
         .collect()
 }

@@ -140,7 +140,7 @@ fn measure(
     let start = |factor: f64| RunStart { state, factor: factor * participation };
     let run = |factor: f64| {
         let forcing = Forcing::Samples(black_box(samples));
-        solver.run(start(factor), forcing, false).expect("a bounded motion")
+        solver.run(start(factor), forcing, RunEnd::OfRecord).expect("a bounded motion")
     };
     let outcome = run(scale);
     let one = least(count, || run(scale).state.displacement);
@@ -232,7 +232,7 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(simulation.progress().state);
             }
             "record" | "adaptive" => {
-                let outcome = solver.run(start(1.0), Forcing::Samples(samples), false);
+                let outcome = solver.run(start(1.0), Forcing::Samples(samples), RunEnd::OfRecord);
                 black_box(outcome.expect("a bounded motion"));
             }
             "batch" => {

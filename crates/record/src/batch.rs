@@ -12,31 +12,26 @@ use crate::number::{Eight, WIDTH};
 use crate::responses::Responses;
 use crate::solver::{BatchRun, NoObserver, Observer, Outcome, RecordSolver, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
+use crate::together::Kind;
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
 pub const LANES: usize = WIDTH;
 
 impl RecordSolver<'_> {
-    /// Moves a wall through a record; `until_overturning` stops it at the end of the step in which it
-    /// overturns. A record of one sample, or of none, leaves the wall as it was.
+    /// Moves a wall through a record, up to `end`. A record of one sample, or of none, leaves the wall as it was.
     ///
     /// # Errors
     /// [`SolverError`] if the motion could not be followed: too many pieces of motion in one step, or numbers
     /// that are not finite. Its times count from the start of the step, or of what was left of it.
-    pub fn run(
-        &self,
-        start: RunStart,
-        forcing: Forcing<'_>,
-        until_overturning: bool,
-    ) -> Result<Outcome, SolverError> {
-        self.run_through(start, &Blocks::new(forcing), until_overturning, NoObserver)
+    pub fn run(&self, start: RunStart, forcing: Forcing<'_>, end: RunEnd) -> Result<Outcome, SolverError> {
+        self.run_through(start, &Blocks::new(forcing), end, NoObserver)
     }
 
     /// Moves a wall through a record as [`run`](Self::run) does, and shows `observe` the number, u \[m\] and
     /// u̇ \[m/s\] of each sample after the first, in their order. Sample 0 is the state given.
     ///
     /// ```
-    /// # use record::{Forcing, RecordSolver, RunStart};
+    /// # use record::{Forcing, RecordSolver, RunEnd, RunStart};
     /// # use rocking_wall::solver::Motion;
     /// # use rocking_wall::wall::{Parameters, Support};
     /// # let parameters = Parameters::default();
@@ -46,7 +41,7 @@ impl RecordSolver<'_> {
     /// let solver = RecordSolver::new(&motion, 5e-3);
     /// let mut history = vec![0.01];
     /// let outcome =
-    ///     solver.run_observed(start, Forcing::Still(401), false, &mut |_, u, _| history.push(u))?;
+    ///     solver.run_observed(start, Forcing::Still(401), RunEnd::OfRecord, &mut |_, u, _| history.push(u))?;
     /// assert_eq!(history.len(), 401);
     /// assert_eq!(history[400], outcome.state.displacement);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -58,10 +53,10 @@ impl RecordSolver<'_> {
         &self,
         start: RunStart,
         forcing: Forcing<'_>,
-        until_overturning: bool,
+        end: RunEnd,
         observe: &mut dyn FnMut(usize, f64, f64),
     ) -> Result<Outcome, SolverError> {
-        self.run_through(start, &Blocks::new(forcing), until_overturning, observe)
+        self.run_through(start, &Blocks::new(forcing), end, observe)
     }
 
     /// Moves a wall through a record whose blocks are known.
@@ -69,11 +64,11 @@ impl RecordSolver<'_> {
         &self,
         start: RunStart,
         record: &Blocks<'_>,
-        until_overturning: bool,
+        end: RunEnd,
         observer: impl Observer,
     ) -> Result<Outcome, SolverError> {
         let given = [BatchRun { solver: self, record, start }];
-        let mut outcomes = Lanes::new(&given, RunEnd::until(until_overturning), observer).one_by_one();
+        let mut outcomes = Lanes::new(&given, end, observer).one_by_one();
         outcomes.swap_remove(0)
     }
 
@@ -125,11 +120,10 @@ pub(crate) enum SideBySide {
 
 impl SideBySide {
     pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
-        let RecordSolver { motion, table, .. } = solver;
-        if table.steppings.contains(&Stepping::Curved) {
-            return Some(Self::Curved(table.law));
+        match Kind::of(solver, forcing.count())? {
+            Kind::Curved { law, .. } => Some(Self::Curved(law)),
+            Kind::Affine { .. } => Responses::new(solver, forcing).map(|made| Self::Affine(Some(made))),
         }
-        Responses::new(motion, table, forcing).map(|responses| Self::Affine(Some(responses)))
     }
 }
 

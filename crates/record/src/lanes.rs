@@ -99,8 +99,8 @@ pub(crate) struct Rows {
 /// What a pass over the runs computes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pass {
-    /// The motion.
-    Motion { until_overturning: bool },
+    /// The motion, up to an end.
+    Motion(RunEnd),
     /// The extremes between samples, in blocks where they may exceed those known.
     Extremes,
 }
@@ -122,8 +122,6 @@ pub(crate) struct Lanes<'a, O> {
     pub(crate) rows: Rows,
     pub(crate) observer: O,
     pub(crate) pass: Pass,
-    /// Whether a run ends where the rest of the record cannot raise its peaks.
-    pub(crate) ends_at_peaks: bool,
     /// The steps that lanes take side by side.
     pub(crate) together: Option<Stepping>,
     /// The run of each lane that has had one.
@@ -160,8 +158,7 @@ impl<'a, O: Observer> Lanes<'a, O> {
             records: [record; WIDTH],
             rows: Rows::default(),
             observer,
-            pass: Pass::Motion { until_overturning: end != RunEnd::OfRecord },
-            ends_at_peaks: end == RunEnd::AtPeaks,
+            pass: Pass::Motion(end),
             together: None,
             runs: Vec::new(),
             given,
@@ -201,7 +198,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (first, state) = (self.sample(lane), self.state(lane));
         let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
         let end = match self.pass {
-            Pass::Motion { .. } => ((first / BLOCK + 1) * BLOCK).min(run.last),
+            Pass::Motion(_) => ((first / BLOCK + 1) * BLOCK).min(run.last),
             Pass::Extremes => run.last,
         };
         let forcing = self.records[lane].largest(first) * rows.factor[lane].abs();
@@ -282,7 +279,7 @@ impl<O: Observer> Lanes<'_, O> {
             return true;
         }
         self.close_block(lane);
-        if self.ends_at_peaks && self.pass != Pass::Extremes && self.peaks_are_final(lane) {
+        if self.pass == Pass::Motion(RunEnd::AtPeaks) && self.peaks_are_final(lane) {
             self.runs[lane].last = self.sample(lane);
         }
         if self.sample(lane) < self.runs[lane].last {

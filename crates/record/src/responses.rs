@@ -4,13 +4,10 @@
 //! factor s, is s times that of the record itself: a table of it, from each sample on, leaves a run two
 //! products for each of u and u̇.
 
-use rocking_wall::solver::Motion;
-
 use crate::affine::Affine;
 use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
 use crate::number::WIDTH;
-use crate::table::{LONGEST, Stepping, Table};
-use crate::together::FEWEST_SAMPLES;
+use crate::solver::RecordSolver;
 
 /// Rows that a lane may read from where it is: those of a block by four steps at once, and one more. By two
 /// it is half a block, and lanes go on in the next round.
@@ -32,15 +29,12 @@ pub(crate) struct Responses {
 }
 
 impl Responses {
-    /// Prepares the responses of a wall to a record; `None` where runs do not go side by side by affine maps:
-    /// few or very many samples, many branches, steps without a map, or long beside the wall's period.
-    pub(crate) fn new(motion: &Motion, table: &Table, forcing: Forcing<'_>) -> Option<Self> {
+    /// Prepares the responses of a wall with constant damping to a record; `None` for very many samples or
+    /// many branches.
+    pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
+        let RecordSolver { motion, table, .. } = solver;
         let count = forcing.count();
-        if !(FEWEST_SAMPLES..=MOST_SAMPLES).contains(&count)
-            || table.steppings.len() > WIDTH
-            || table.longest > LONGEST
-            || table.steppings.iter().any(|stepping| *stepping != Stepping::Affine)
-        {
+        if count > MOST_SAMPLES || table.steppings.len() > WIDTH {
             return None;
         }
         let at_once = table.at_once;

@@ -7,7 +7,7 @@ use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
 use crate::number::{WIDTH, index};
-use crate::solver::{BatchRun, Observer, Outcome, RunStart};
+use crate::solver::{BatchRun, Observer, Outcome, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
 
 impl<O: Observer> Lanes<'_, O> {
@@ -73,7 +73,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Starts the next run of this pass in a lane; returns whether there is one.
     fn start_next(&mut self, lane: usize) -> bool {
         match self.pass {
-            Pass::Motion { .. } => {
+            Pass::Motion(_) => {
                 let number = self.next;
                 let Some(&BatchRun { record, start, .. }) = self.given.get(number) else { return false };
                 let RunStart { state, factor } = start;
@@ -249,7 +249,7 @@ impl<O: Observer> Lanes<'_, O> {
         (run.peaks, run.tie) = (state.peaks, state.tie);
         if let (Some(offset), None) = (report.overturning, run.overturning) {
             run.overturning = Some((sample as f64 + share) * step + offset);
-            if self.pass == (Pass::Motion { until_overturning: true }) {
+            if matches!(self.pass, Pass::Motion(end) if end != RunEnd::OfRecord) {
                 run.last = sample + 1;
                 run.block.end = run.last;
             }
@@ -316,7 +316,7 @@ mod tests {
         let failed: Vec<_> = lanes.failures.iter().map(|(number, _)| *number).collect();
         assert_eq!(failed, [2, 0]);
         for (given, outcome) in given.iter().zip(lanes.outcomes()) {
-            assert_eq!(outcome, solver.run(given.start, Forcing::Samples(&samples), false));
+            assert_eq!(outcome, solver.run(given.start, Forcing::Samples(&samples), RunEnd::OfRecord));
         }
     }
 

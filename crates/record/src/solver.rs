@@ -27,16 +27,10 @@ pub enum RunEnd {
     AtPeaks,
 }
 
-impl RunEnd {
-    pub(crate) fn until(overturning: bool) -> Self {
-        if overturning { Self::AtOverturning } else { Self::OfRecord }
-    }
-}
-
 /// A run among others of any walls through any records ([`run_together`](crate::run_together)).
 #[derive(Clone, Copy, Debug)]
 pub struct BatchRun<'a> {
-    /// The wall, prepared for steps of the record's length.
+    /// The wall, prepared for the step of the record.
     pub solver: &'a RecordSolver<'a>,
     /// The record.
     pub record: &'a Blocks<'a>,
@@ -86,7 +80,7 @@ impl Observer for &mut dyn FnMut(usize, f64, f64) {
 /// A motion prepared for steps of one length.
 ///
 /// ```
-/// use record::{Forcing, RecordSolver, RunStart};
+/// use record::{Forcing, RecordSolver, RunEnd, RunStart};
 /// use rocking_wall::solver::Motion;
 /// use rocking_wall::wall::{Parameters, Support};
 ///
@@ -98,7 +92,7 @@ impl Observer for &mut dyn FnMut(usize, f64, f64) {
 /// let factor = motion.wall().body().forcing(Support::rigid(1.0));
 /// let start = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor };
 /// let solver = RecordSolver::new(&motion, 0.01);
-/// let outcome = solver.run(start, Forcing::Samples(&samples), false)?;
+/// let outcome = solver.run(start, Forcing::Samples(&samples), RunEnd::OfRecord)?;
 /// assert!(outcome.state.peaks.largest() > 0.0 && outcome.overturning.is_none());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -95,7 +95,7 @@ fn steps_with_several_corners_are_those_of_single_runs() {
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
         let starts = starts(&motion);
         for (start, lane) in starts.iter().zip(narrow(&solver, samples, &starts)) {
-            let single = solver.run(*start, samples, false).expect("a bounded motion");
+            let single = solver.run(*start, samples, RunEnd::OfRecord).expect("a bounded motion");
             assert_eq!(lane, single);
         }
     }
@@ -115,7 +115,11 @@ fn motions_that_grow_at_the_end_of_a_block_are_those_of_single_runs() {
         let samples: Vec<f64> = std::iter::repeat_n(0.0, still).chain(grown).collect();
         let forcing = Forcing::Samples(&samples);
         for (start, lane) in starts.iter().zip(narrow(&solver, forcing, &starts)) {
-            assert_eq!(lane, solver.run(*start, forcing, false).expect("a bounded motion"), "{still}");
+            assert_eq!(
+                lane,
+                solver.run(*start, forcing, RunEnd::OfRecord).expect("a bounded motion"),
+                "{still}"
+            );
         }
     }
 }
@@ -145,7 +149,7 @@ fn extremes_before_a_corner_are_found() {
             let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
             let alone = narrow(&solver, still, &[turning])[0];
             assert_eq!(alone, narrow(&solver, still, &starts)[0]);
-            assert_eq!(alone, solver.run(turning, still, false).expect("a bounded motion"));
+            assert_eq!(alone, solver.run(turning, still, RunEnd::OfRecord).expect("a bounded motion"));
             let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step).0]
                 .map(|State { peaks: Peaks { positive, negative }, .. }| [positive, negative]);
             for (found, wanted) in found.into_iter().zip(wanted) {
@@ -182,7 +186,10 @@ fn extremes_after_a_corner_in_the_last_step_are_found() {
             let mut state = motion.start(-side * speed * share * step, side * speed, Support::default());
             state.peaks.include(-0.02 * side);
             let start = RunStart { state, factor: 1.0 };
-            let found = solver.run(start, Forcing::Samples(&still), false).expect("a bounded motion").state;
+            let found = solver
+                .run(start, Forcing::Samples(&still), RunEnd::OfRecord)
+                .expect("a bounded motion")
+                .state;
             let wanted = searched(&motion, start, &still, step).0;
             turning += u32::from(side * wanted.velocity < 0.0);
             for (found, wanted) in
@@ -266,7 +273,7 @@ fn what_does_not_suit_goes_one_by_one() {
     let starts = starts(&stiff);
     let together = solver.batch(all).run(&starts, RunEnd::OfRecord).expect("bounded motions");
     for (start, outcome) in starts.iter().zip(together) {
-        assert_eq!(solver.run(*start, all, false).expect("a bounded motion"), outcome);
+        assert_eq!(solver.run(*start, all, RunEnd::OfRecord).expect("a bounded motion"), outcome);
     }
     let none = solver.batch(Forcing::Samples(&[])).run(&starts, RunEnd::OfRecord).expect("no motion");
     assert_eq!(none.len(), starts.len());
@@ -283,8 +290,8 @@ fn a_batch_fails_with_its_first_error() {
         starts[number].state.velocity = 1e-6 * number as f64;
     }
     let error = solver.batch(record).run(&starts, RunEnd::OfRecord).unwrap_err();
-    assert_eq!(error, solver.run(starts[3], record, false).unwrap_err());
-    assert_ne!(error, solver.run(starts[5], record, false).unwrap_err());
+    assert_eq!(error, solver.run(starts[3], record, RunEnd::OfRecord).unwrap_err());
+    assert_ne!(error, solver.run(starts[5], record, RunEnd::OfRecord).unwrap_err());
 }
 
 /// An observer does not change the outcome of a run, and what it is shown ends with the run.
@@ -301,16 +308,16 @@ fn an_observed_run_is_the_same_run() {
         let motion = losing(0.018, model, impact);
         let solver = RecordSolver::new(&motion, 5e-3);
         for start in starts(&motion).into_iter().step_by(4) {
-            for until_overturning in [false, true] {
+            for end in [RunEnd::OfRecord, RunEnd::AtOverturning] {
                 let mut seen = Vec::new();
                 let mut observe = |sample: usize, u: f64, v: f64| seen.push((sample, u, v));
-                let observed = solver.run_observed(start, forcing, until_overturning, &mut observe);
+                let observed = solver.run_observed(start, forcing, end, &mut observe);
                 let outcome = observed.expect("a bounded motion");
-                assert_eq!(solver.run(start, forcing, until_overturning).expect("the same"), outcome);
+                assert_eq!(solver.run(start, forcing, end).expect("the same"), outcome);
                 assert!(seen.iter().enumerate().all(|(n, &(sample, ..))| sample == n + 1));
                 let &(last, u, v) = seen.last().expect("samples");
                 assert_eq!((u, v), (outcome.state.displacement, outcome.state.velocity));
-                let stopped = until_overturning && outcome.overturning.is_some();
+                let stopped = end == RunEnd::AtOverturning && outcome.overturning.is_some();
                 assert_eq!(last < samples.len() - 1, stopped);
                 if stopped && model == DampingModel::ConstantCoefficient {
                     // each step is a piece, and each corner begins another
@@ -385,7 +392,7 @@ fn many_branches_go_by_the_general_search() {
     let samples = &shaking()[..1000];
     let solver = RecordSolver::new(&motion, 5e-3);
     let start = starts(&motion)[10];
-    let outcome = solver.run(start, Forcing::Samples(samples), false).expect("a bounded motion");
+    let outcome = solver.run(start, Forcing::Samples(samples), RunEnd::OfRecord).expect("a bounded motion");
     let (state, work) = searched(&motion, start, samples, 5e-3);
     assert_eq!(outcome.work.corners, work.corners);
     let u_ins = motion.wall().displacement_scale();

@@ -8,11 +8,11 @@ use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd};
 use crate::table::{LONGEST, Law, Stepping};
 
 /// Fewest samples of a record whose runs go side by side.
-pub(crate) const FEWEST_SAMPLES: usize = 16;
+const FEWEST_SAMPLES: usize = 16;
 
 /// What runs have in common that go side by side: the numbers that a vector has once for all of its lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+pub(crate) enum Kind {
     /// All branches have constant damping.
     Affine {
         step: f64,
@@ -25,14 +25,14 @@ enum Kind {
 }
 
 impl Kind {
-    /// Returns the kind of a run; `None` if it goes by itself.
-    fn of(run: &BatchRun<'_>) -> Option<Self> {
-        let RecordSolver { step, table, .. } = run.solver;
+    /// Returns the kind of runs of a wall through so many samples; `None` if they go one by one.
+    pub(crate) fn of(solver: &RecordSolver<'_>, count: usize) -> Option<Self> {
+        let RecordSolver { step, table, .. } = solver;
         if table.steppings.contains(&Stepping::Curved) {
             return Some(Self::Curved { step: *step, law: table.law });
         }
         let is_affine = table.steppings.iter().all(|stepping| *stepping == Stepping::Affine);
-        let suits = is_affine && table.longest <= LONGEST && run.record.count() >= FEWEST_SAMPLES;
+        let suits = is_affine && table.longest <= LONGEST && count >= FEWEST_SAMPLES;
         suits.then(|| Self::Affine { step: *step, at_once: table.at_once, pairs: table.terms.div_ceil(2) })
     }
 }
@@ -65,7 +65,7 @@ impl Kind {
 ///     BatchRun { solver: &solvers[n], record: &records[n], start }
 /// });
 /// let outcomes = run_together(&runs, RunEnd::AtOverturning);
-/// assert_eq!(outcomes[1], solvers[1].run(runs[1].start, Forcing::Samples(&samples[1]), true));
+/// assert_eq!(outcomes[1], solvers[1].run(runs[1].start, Forcing::Samples(&samples[1]), RunEnd::AtOverturning));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_together(runs: &[BatchRun<'_>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {
@@ -80,7 +80,7 @@ pub(crate) fn run_together_on(
 ) -> Vec<Result<Outcome, SolverError>> {
     let mut kinds: Vec<(Option<Kind>, Vec<usize>)> = Vec::new();
     for (number, run) in runs.iter().enumerate() {
-        let kind = vectors.and_then(|_| Kind::of(run));
+        let kind = vectors.and_then(|_| Kind::of(run.solver, run.record.count()));
         match kinds.iter_mut().find(|(known, _)| *known == kind) {
             Some((_, numbers)) => numbers.push(number),
             None => kinds.push((kind, vec![number])),

@@ -56,12 +56,12 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
         history.resize(length, 0.0);
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
         let samples = Forcing::Samples(problem.motion.samples());
-        let outcome = solver.run_observed(starts[0], samples, false, &mut |index, u, _| history[index] = u);
+        let outcome = solver.run_observed(starts[0], samples, RunEnd::OfRecord, &mut |index, u, _| history[index] = u);
         outcome.map(|_| ()).map_err(|error| error.to_string())
     };
     let alone = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
-        let outcome = solver.run(starts[0], Forcing::Samples(problem.motion.samples()), false);
+        let outcome = solver.run(starts[0], Forcing::Samples(problem.motion.samples()), RunEnd::OfRecord);
         std::hint::black_box(outcome.map_err(|error| error.to_string())?);
         Ok(())
     };

@@ -25,7 +25,7 @@ use std::time::Instant;
 pub use problem::{Problem, defaults};
 
 use crate::EvidenceError;
-use record::{Forcing, Outcome, RecordSolver, RunStart};
+use record::{Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
 use rocking_wall::wall::Wall;
 
@@ -251,7 +251,12 @@ impl<'a> Trial<'a> {
             }
         };
         let forcing = Forcing::Samples(&self.forcing);
-        let outcome = self.solver().run_observed(self.run_start(factor), forcing, true, &mut observe)?;
+        let outcome = self.solver().run_observed(
+            self.run_start(factor),
+            forcing,
+            RunEnd::AtOverturning,
+            &mut observe,
+        )?;
         if let Some(time) = outcome.overturning {
             for (index, displacement) in displacements.iter_mut().enumerate() {
                 if index as f64 * self.problem.step > time {
@@ -268,7 +273,11 @@ impl<'a> Trial<'a> {
         let mut least = f64::INFINITY;
         for run in 0..10_000 {
             let start = Instant::now();
-            let outcome = self.solver().run(self.run_start(1.0), Forcing::Samples(&self.forcing), true)?;
+            let outcome = self.solver().run(
+                self.run_start(1.0),
+                Forcing::Samples(&self.forcing),
+                RunEnd::AtOverturning,
+            )?;
             std::hint::black_box(outcome);
             least = least.min(start.elapsed().as_secs_f64());
             if run >= 2 && begun.elapsed().as_secs_f64() > budget {

@@ -4,7 +4,7 @@ use crate::{Comparison, EvidenceError};
 
 use super::released::Released;
 use crate::accuracy::linearisation::largest_difference;
-use record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -129,7 +129,8 @@ fn undamped_in_steps() -> Value {
     let wall = released(&free(), 0.9)?;
     let solver = RecordSolver::new(&wall.motion, 5e-3);
     let start = RunStart { state: wall.state, factor: 1.0 };
-    let State { displacement, velocity, .. } = solver.run(start, Forcing::Still(20_000_001), false)?.state;
+    let State { displacement, velocity, .. } =
+        solver.run(start, Forcing::Still(20_000_001), RunEnd::OfRecord)?.state;
     Ok((wall.motion.wall().energy(displacement, velocity) / wall.first_energy - 1.0).abs())
 }
 
@@ -180,7 +181,8 @@ fn history(
     let mut displacements = vec![0.0];
     let scale = motion.wall().displacement_scale();
     let mut observe = |_, u: f64, _| displacements.push(u / scale);
-    let outcome = solver.run_observed(start, Forcing::Samples(forcing), true, &mut observe)?;
+    let outcome =
+        solver.run_observed(start, Forcing::Samples(forcing), RunEnd::AtOverturning, &mut observe)?;
     Ok((displacements, outcome.overturning))
 }
 

@@ -175,7 +175,7 @@ class Peaks(Tabular):
         return f"Peaks({self.factor.size} runs, {int(self.overturned.sum())} overturned)"
 
     def __len__(self) -> int:
-        return len(self.factor)
+        return self.factor.size
 
     @property
     def overturned(self) -> NDArray[np.bool_]:

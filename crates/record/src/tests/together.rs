@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::batch::LANES;
-use crate::together::run_together_on;
+use crate::together::{Kind, run_together_on};
 
 /// Every wall through every record at a few factors, in an order that mixes all three.
 fn mixed<'a>(solvers: &'a [RecordSolver<'a>], records: &'a [Blocks<'a>]) -> Vec<BatchRun<'a>> {
@@ -40,6 +40,8 @@ fn runs_with_constant_damping_are_those_by_themselves() {
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
     assert!(solvers.iter().any(|solver| solver.table.at_once != solvers[0].table.at_once));
+    let by_itself: Vec<_> = solvers.iter().map(|solver| Kind::of(solver, 100).is_none()).collect();
+    assert_eq!(by_itself, [false, false, false, false, false, false, true]);
     let runs = mixed(&solvers, &records);
     for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
         let alone = |run: &BatchRun<'_>| {
@@ -107,6 +109,6 @@ fn a_run_that_fails_leaves_the_others() {
     let outcomes = crate::run_together(&runs, RunEnd::OfRecord);
     for (number, (run, outcome)) in runs.iter().zip(outcomes).enumerate() {
         assert_eq!(outcome.is_err(), number == 4);
-        assert_eq!(outcome, run.solver.run(run.start, run.record.forcing, false));
+        assert_eq!(outcome, run.solver.run(run.start, run.record.forcing, RunEnd::OfRecord));
     }
 }

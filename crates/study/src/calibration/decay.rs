@@ -1,6 +1,6 @@
 //! Decay of a free vibration.
 
-use record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters};
 use run::free_motion::{advance, as_in};
@@ -56,7 +56,7 @@ impl Decay {
         let mut sum = 0.0;
         let start = RunStart { state: self.state, factor: 1.0 };
         let mut add = |index: usize, u: f64, _| sum += (reference[index - 1] - u.abs() / u_ins.of(u)).powi(2);
-        solver.run_observed(start, Forcing::Still(reference.len() + 1), false, &mut add)?;
+        solver.run_observed(start, Forcing::Still(reference.len() + 1), RunEnd::OfRecord, &mut add)?;
         Ok(sum)
     }
 }

@@ -172,6 +172,7 @@ mod tests {
         assert_eq!(IntensityUnit::Gravity.shown(9.806_65), "9.80665 m/s² (1 g)");
         assert_eq!(IntensityUnit::MetrePerSecond.shown(2.0), "2 m/s");
     }
+
     #[test]
     fn units_have_their_names() {
         for (measure, name, ending, si, si_ending, shown) in [

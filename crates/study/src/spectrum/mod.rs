@@ -267,7 +267,7 @@ impl Prepared {
     fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
         let samples = Forcing::Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcome = solver.run(self.run_start(factor, motion), samples, true);
+        let outcome = solver.run(self.run_start(factor, motion), samples, RunEnd::AtOverturning);
         outcome
             .and_then(|outcome| self.followed(outcome, motion.duration()))
             .map_err(|error| self.failed(error))
