@@ -85,7 +85,8 @@ impl<'a> Shaking<'a> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
         let start = RunStart { state: outcome.state, factor: 1.0 };
-        let after = self.solver.run(start, Forcing::Still(count), !to_the_end)?;
+        let rest = if to_the_end { RunEnd::OfRecord } else { RunEnd::AtOverturning };
+        let after = self.solver.run(start, Forcing::Still(count), rest)?;
         let later = after.overturning.map(|time| self.record.duration() + time);
         let u = after.state.displacement;
         let comes_back = to_the_end && u.abs() < self.motion.wall().body().instability.of(u);
