@@ -110,7 +110,7 @@ def test_many_runs_are_the_same_on_any_number_of_threads(record):
     np.testing.assert_array_equal(rw.simulate_many(walls, record, factors, threads=6).u_max, found.u_max)
     factors[140] = 1e300
     for threads in (1, 6):
-        with pytest.raises(RuntimeError, match=r"run 28[01], of factor 1e\+?300"):
+        with pytest.raises(RuntimeError, match=r"run 28[01], of factor 1e300: gave up"):
             rw.simulate_many(walls, record, factors, threads=threads)
 
 

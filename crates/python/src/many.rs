@@ -121,7 +121,7 @@ pub(crate) fn simulate_many<'py>(
     let found = watched(py, work, || Ok(()))?.map_err(|error| match error {
         None => PyKeyboardInterrupt::new_err(()),
         Some((number, failure)) => {
-            let run = format!("run {number}, of factor {}", runs[number].2);
+            let run = format!("run {number}, of factor {:?}", runs[number].2);
             match failure {
                 Failure::Floors(error) => refused(format!("{run}: {error}")),
                 Failure::Run(error) => failed(format!("{run}: {error}")),

@@ -18,7 +18,8 @@ use crate::together::Kind;
 pub const LANES: usize = WIDTH;
 
 impl RecordSolver<'_> {
-    /// Moves a wall through a record, up to `end`. A record of one sample, or of none, leaves the wall as it was.
+    /// Moves a wall through a record, up to `end`. A record of one sample, or of none, leaves the wall as it
+    /// was.
     ///
     /// # Errors
     /// [`SolverError`] if the motion could not be followed: too many pieces of motion in one step, or numbers
@@ -40,8 +41,8 @@ impl RecordSolver<'_> {
     /// let start = RunStart { state: motion.start(0.01, 0.0, Support::default()), factor: 1.0 };
     /// let solver = RecordSolver::new(&motion, 5e-3);
     /// let mut history = vec![0.01];
-    /// let outcome =
-    ///     solver.run_observed(start, Forcing::Still(401), RunEnd::OfRecord, &mut |_, u, _| history.push(u))?;
+    /// let mut observe = |_, u, _| history.push(u);
+    /// let outcome = solver.run_observed(start, Forcing::Still(401), RunEnd::OfRecord, &mut observe)?;
     /// assert_eq!(history.len(), 401);
     /// assert_eq!(history[400], outcome.state.displacement);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

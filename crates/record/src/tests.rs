@@ -45,6 +45,11 @@ fn rigid() -> Motion {
     Motion::of(&Parameters { force_law, damping_model, ..wall }, 1e-8).expect("a valid wall")
 }
 
+/// A run by itself, through the whole record.
+fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Outcome {
+    solver.run(start, forcing, RunEnd::OfRecord).expect("a bounded motion")
+}
+
 /// Moves walls side by side with the vectors that every processor has.
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
@@ -95,7 +100,7 @@ fn steps_with_several_corners_are_those_of_single_runs() {
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
         let starts = starts(&motion);
         for (start, lane) in starts.iter().zip(narrow(&solver, samples, &starts)) {
-            let single = solver.run(*start, samples, RunEnd::OfRecord).expect("a bounded motion");
+            let single = whole(&solver, *start, samples);
             assert_eq!(lane, single);
         }
     }
@@ -115,11 +120,7 @@ fn motions_that_grow_at_the_end_of_a_block_are_those_of_single_runs() {
         let samples: Vec<f64> = std::iter::repeat_n(0.0, still).chain(grown).collect();
         let forcing = Forcing::Samples(&samples);
         for (start, lane) in starts.iter().zip(narrow(&solver, forcing, &starts)) {
-            assert_eq!(
-                lane,
-                solver.run(*start, forcing, RunEnd::OfRecord).expect("a bounded motion"),
-                "{still}"
-            );
+            assert_eq!(lane, whole(&solver, *start, forcing), "{still}");
         }
     }
 }
@@ -149,7 +150,7 @@ fn extremes_before_a_corner_are_found() {
             let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
             let alone = narrow(&solver, still, &[turning])[0];
             assert_eq!(alone, narrow(&solver, still, &starts)[0]);
-            assert_eq!(alone, solver.run(turning, still, RunEnd::OfRecord).expect("a bounded motion"));
+            assert_eq!(alone, whole(&solver, turning, still));
             let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step).0]
                 .map(|State { peaks: Peaks { positive, negative }, .. }| [positive, negative]);
             for (found, wanted) in found.into_iter().zip(wanted) {
@@ -186,10 +187,7 @@ fn extremes_after_a_corner_in_the_last_step_are_found() {
             let mut state = motion.start(-side * speed * share * step, side * speed, Support::default());
             state.peaks.include(-0.02 * side);
             let start = RunStart { state, factor: 1.0 };
-            let found = solver
-                .run(start, Forcing::Samples(&still), RunEnd::OfRecord)
-                .expect("a bounded motion")
-                .state;
+            let found = whole(&solver, start, Forcing::Samples(&still)).state;
             let wanted = searched(&motion, start, &still, step).0;
             turning += u32::from(side * wanted.velocity < 0.0);
             for (found, wanted) in
@@ -273,7 +271,7 @@ fn what_does_not_suit_goes_one_by_one() {
     let starts = starts(&stiff);
     let together = solver.batch(all).run(&starts, RunEnd::OfRecord).expect("bounded motions");
     for (start, outcome) in starts.iter().zip(together) {
-        assert_eq!(solver.run(*start, all, RunEnd::OfRecord).expect("a bounded motion"), outcome);
+        assert_eq!(whole(&solver, *start, all), outcome);
     }
     let none = solver.batch(Forcing::Samples(&[])).run(&starts, RunEnd::OfRecord).expect("no motion");
     assert_eq!(none.len(), starts.len());
@@ -392,7 +390,7 @@ fn many_branches_go_by_the_general_search() {
     let samples = &shaking()[..1000];
     let solver = RecordSolver::new(&motion, 5e-3);
     let start = starts(&motion)[10];
-    let outcome = solver.run(start, Forcing::Samples(samples), RunEnd::OfRecord).expect("a bounded motion");
+    let outcome = whole(&solver, start, Forcing::Samples(samples));
     let (state, work) = searched(&motion, start, samples, 5e-3);
     assert_eq!(outcome.work.corners, work.corners);
     let u_ins = motion.wall().displacement_scale();

@@ -65,7 +65,8 @@ impl Kind {
 ///     BatchRun { solver: &solvers[n], record: &records[n], start }
 /// });
 /// let outcomes = run_together(&runs, RunEnd::AtOverturning);
-/// assert_eq!(outcomes[1], solvers[1].run(runs[1].start, Forcing::Samples(&samples[1]), RunEnd::AtOverturning));
+/// let alone = solvers[1].run(runs[1].start, Forcing::Samples(&samples[1]), RunEnd::AtOverturning);
+/// assert_eq!(outcomes[1], alone);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_together(runs: &[BatchRun<'_>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {

@@ -56,7 +56,8 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
         history.resize(length, 0.0);
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
         let samples = Forcing::Samples(problem.motion.samples());
-        let outcome = solver.run_observed(starts[0], samples, RunEnd::OfRecord, &mut |index, u, _| history[index] = u);
+        let mut observe = |index: usize, u, _| history[index] = u;
+        let outcome = solver.run_observed(starts[0], samples, RunEnd::OfRecord, &mut observe);
         outcome.map(|_| ()).map_err(|error| error.to_string())
     };
     let alone = || {

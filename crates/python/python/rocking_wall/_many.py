@@ -85,7 +85,8 @@ def _objects(given: Any, kind: type, name: str) -> Objects:
             place = f"{name}{list(index)}" if index else name
             if kind is Record:
                 motion_of(each, place)
-            raise TypeError(f"{place} must be a {kind.__name__}, found a value of the type {type(each).__name__}")
+            found = f"found a value of the type {type(each).__name__}"
+            raise TypeError(f"{place} must be a {kind.__name__}, {found}")
     return array
 
 
