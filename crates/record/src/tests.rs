@@ -277,21 +277,6 @@ fn what_does_not_suit_goes_one_by_one() {
     assert_eq!(none.len(), starts.len());
 }
 
-/// Of runs that fail side by side the error is that of the first, as if they went one by one.
-#[test]
-fn a_batch_fails_with_its_first_error() {
-    let (motion, samples) = (motion(0.018), shaking());
-    let (solver, record) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
-    let mut starts = starts(&motion);
-    for number in [5, 3, 7] {
-        starts[number].factor = 1e305;
-        starts[number].state.velocity = 1e-6 * number as f64;
-    }
-    let error = solver.batch(record).run(&starts, RunEnd::OfRecord).unwrap_err();
-    assert_eq!(error, solver.run(starts[3], record, RunEnd::OfRecord).unwrap_err());
-    assert_ne!(error, solver.run(starts[5], record, RunEnd::OfRecord).unwrap_err());
-}
-
 /// An observer does not change the outcome of a run, and what it is shown ends with the run.
 #[test]
 fn an_observed_run_is_the_same_run() {
