@@ -52,7 +52,7 @@ fn over_restitution(found: &Calibration) -> Plot {
         let points = fits.iter().map(|fit| (fit.restitution, fit.damping)).collect();
         series.push(Series::marks(&format!("a₁ = {a1}, u₀ = {start} u_ins"), color, points));
     }
-    let damping = Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c_bar" });
+    let damping = Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c̄" });
     Plot::titled(
         format!("{}: best fits and −x ln e", label(found.model).name),
         Axis::new("e"),

@@ -28,18 +28,17 @@ pub(crate) struct Classes<'a> {
 
 impl<'a> Classes<'a> {
     pub(crate) fn new(manifest: &'a Manifest, states: &'a [(usize, String)]) -> Self {
-        let three = OF_INTENSITY;
         let table = Table::new([
             Column::text("", "class"),
             Column::text("", "model"),
             Column::number("", "u_max/u_ins", Digits::AtMost(6)),
-            Column::number("", format!("θ\n[{}]", manifest.contents.unit.name()), three),
-            Column::number("", "interval", three),
-            Column::number("", "β", three),
-            Column::number("", "interval", three),
-            Column::number("", "β of\nrecords", three),
-            Column::number("", "β of\nwalls", three),
-            Column::number("", "β of\nmodelling", three),
+            Column::number("", format!("θ\n[{}]", manifest.contents.unit.name()), OF_INTENSITY),
+            Column::number("", "interval", OF_INTENSITY),
+            Column::number("", "β", OF_INTENSITY),
+            Column::number("", "interval", OF_INTENSITY),
+            Column::number("", "β of\nrecords", OF_INTENSITY),
+            Column::number("", "β of\nwalls", OF_INTENSITY),
+            Column::number("", "β of\nmodelling", OF_INTENSITY),
         ]);
         Self { manifest, states, table, plots: String::new(), curves: Vec::new() }
     }

@@ -33,10 +33,10 @@ fn demand(measure: &str) -> Option<(String, &'static str)> {
 /// Says why there are no files by a measure, and the remedy.
 pub(crate) fn refusal(measure: &str) -> String {
     let other = if measure == "PGD" { ": its own PGD is a permanent deformation of the ground" } else { "" };
+    let [table, described] = FILES;
     format!(
-        "no {}: pelicun knows PGA, PGV and Sa(T), and not {measure}{other}; for it run the study with \
-         intensity = {{ measure = \"PGA\" }}\n",
-        FILES[0]
+        "no {table} and {described}: pelicun knows PGA, PGV and Sa(T), and not {measure}{other}; run the \
+         study with intensity = {{ measure = \"PGA\" }} to have them\n"
     )
 }
 

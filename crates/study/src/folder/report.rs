@@ -299,7 +299,7 @@ impl<'a> Output<'a> {
     /// Adds the collapse of a wall to the summary.
     fn add_to_summary(&mut self, manifest: &Manifest, wall: usize, results: &WallResults) {
         let Some(collapse) = collapse(manifest) else { return };
-        let (three, unit) = (OF_INTENSITY, manifest.contents.unit);
+        let unit = manifest.contents.unit;
         let estimate = |of: &Interval| Cell::Between(of.bounds(unit.size())[0]);
         let ends = |of: &Interval, size, digits| {
             let [_, low, high] = of.texts(size, digits);
@@ -309,12 +309,12 @@ impl<'a> Output<'a> {
         let table = Table::over(manifest.contents.models.iter().zip(results.summaries(collapse)))
             .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
             .text("", "model", |(model, _)| model.name.clone())
-            .number("", "median", three, |(_, one)| estimate(&one.median))
-            .number("", "interval", three, |(_, one)| ends(&one.median, unit.size(), OF_INTENSITY))
-            .number("", "theta", three, |(_, one)| estimate(&one.theta))
-            .number("", "beta", three, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
-            .number("", "censored", three, |(_, one)| one.censored)
-            .number("", format!("median/{}", manifest.report.reference), three, |(_, one)| {
+            .number("", "median", OF_INTENSITY, |(_, one)| estimate(&one.median))
+            .number("", "interval", OF_INTENSITY, |(_, one)| ends(&one.median, unit.size(), OF_INTENSITY))
+            .number("", "theta", OF_INTENSITY, |(_, one)| estimate(&one.theta))
+            .number("", "beta", OF_INTENSITY, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
+            .number("", "censored", OF_INTENSITY, |(_, one)| one.censored)
+            .number("", format!("median/{}", manifest.report.reference), OF_INTENSITY, |(_, one)| {
                 ratio(&one.median_ratio)
             })
             .done();

@@ -86,7 +86,7 @@ impl Bootstrap {
     /// Returns the median of each resample of one model's exceedances.
     ///
     /// # Panics
-    /// If there are fewer exceedances than records.
+    /// If there are not as many exceedances as records.
     pub fn medians(&self, exceedances: &[Exceedance]) -> Vec<f64> {
         let sorted = Sorted::new(exceedances);
         self.counted(|counts| sorted.median(counts))
@@ -191,6 +191,7 @@ impl Sorted {
     /// Returns the median, by how often each record was drawn: the middle value, or the mean of the two in
     /// the middle.
     fn median(&self, counts: &[u32]) -> f64 {
+        assert_eq!(self.0.len(), counts.len(), "as many exceedances as records");
         let all: u32 = counts.iter().sum();
         let Some(last) = all.checked_sub(1) else { return f64::NAN };
         // the value with a number among those that were drawn
@@ -218,7 +219,7 @@ impl Interval {
         Self { estimate, range: [low, high], least: [estimate, low, high] }
     }
 
-    /// Applies a function that does not fall.
+    /// Applies a non-decreasing function.
     #[must_use]
     pub fn mapped(self, function: impl Fn(f64) -> f64) -> Self {
         let Self { estimate, range, least } = self;

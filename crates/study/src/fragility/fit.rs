@@ -72,8 +72,8 @@ const MOST_HALVINGS: usize = 60;
 const STEEPEST: f64 = 1e5;
 /// 1/β below which there is no rise.
 const FLATTEST: f64 = 1e-3;
-/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about so
-/// many standard errors.
+/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about
+/// this many standard errors.
 const DECREMENT: f64 = 1e-14;
 /// The same of a resample, of which only fractiles are wanted.
 const DECREMENT_OF_RESAMPLE: f64 = 1e-10;
@@ -140,7 +140,7 @@ pub(super) fn fit_from(
     states.iter().map(curve).collect()
 }
 
-/// Returns a = 1/β of the maximum, and leaves c in each limit state.
+/// Returns a = 1/β of the maximum, and stores c in each limit state.
 fn maximum(
     states: &mut [Result<State<'_>, FitError>],
     near: &[Result<Lognormal, FitError>],
@@ -156,7 +156,7 @@ fn maximum(
         return Ok(1.0 / spread);
     }
     let mut a = 1.0 / spread.max(LEAST_SPREAD);
-    // the middles of narrow intervals are a better start than other observations
+    // the midpoints of narrow intervals are a better start than other observations
     let is_known = usable().count() == near.iter().flatten().count();
     if is_known && !terms.all(Term::is_bounded) {
         for (state, near) in states.iter_mut().flatten().zip(near.iter().flatten()) {
@@ -175,7 +175,7 @@ fn maximum(
             states.iter_mut().flatten().for_each(|state| state.c += state.step);
             break;
         }
-        let climbed = if decrement <= SURE {
+        let climbed = if decrement <= SURE && a + step > 0.0 {
             Some((1.0, likelihood(states, a, [step, 1.0])))
         } else {
             climb(states, [a, step], value)
@@ -245,7 +245,7 @@ impl<'a> State<'a> {
         let scatters = last_start > least_end;
         let weight: f64 = terms.iter().map(|term| term.runs).sum();
         let centre = terms.iter().map(|term| term.runs * term.middle()).sum::<f64>() / weight;
-        // W. F. Sheppard: the variance of middles is larger than that of values by a twelfth of width²
+        // W. F. Sheppard: the variance of midpoints is larger than that of values by a twelfth of width²
         let square =
             |term: &Term| term.runs * ((term.middle() - centre).powi(2) - term.width().powi(2) / 12.0);
         let squares = terms.iter().map(square).sum();

@@ -133,7 +133,7 @@ const P: [f64; 4] = [1.0 / 24.0, 1.0 / 2880.0, 1.0 / 181_440.0, 1.0 / 29_030_400
 ///                    + w⁶ (z⁶ + 6 z⁴ + 3 z² − 1)/181440
 ///                    − w⁸ (3 z⁸ + 24 z⁶ + 36 z⁴ − 8 z² + 2)/29030400 + …     from t = −w/2 to w/2
 /// ```
-/// For w (1 + |z|) < 0.2 the next one is below 3e-16. Without ln w and ln √(2π). The curvature is that of
+/// For w (1 + |z|) < 0.2 the next term is below 3e-16, and 2e-15 in w times the slope along w. Without ln w and ln √(2π). The curvature is that of
 /// the first two, to 1e-8 of it: it leads Newton's steps, and has no part in where they end.
 #[inline]
 fn narrow([y, z, width]: [f64; 3], beta: f64) -> Likelihood {
@@ -215,6 +215,21 @@ impl Likelihood {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Just below w (1 + |z|) = 0.2 the series has the value of the interval itself, to the roundings of ln Φ.
+    #[test]
+    fn a_narrow_interval_is_the_limit_of_wide_ones() {
+        for z in [-6.0, -1.5, 0.0, 0.4, 3.0] {
+            let width = 0.199 / (1.0 + f64::abs(z));
+            let [from, to] = [z - 0.5 * width, z + 0.5 * width];
+            let term = Term::new([from, to], 1.0);
+            let (short, is_narrow) = term.likelihood(0.0, [1.0, 0.0], 1.0);
+            let long = wide([from, to], [1.0, 0.0]);
+            assert!(is_narrow);
+            let allowed = 1e-12 * (1.0 + long.value.abs());
+            assert!((short.value - long.value).abs() < allowed, "{z}: {} {}", short.value, long.value);
+        }
+    }
 
     /// Derivatives by central differences of 1e-4: an error of 1e-8 of the third ones.
     #[test]
