@@ -55,7 +55,19 @@ pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> Str
     text + "</table></div>\n"
 }
 
-/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices.
+/// Raises the powers of a formula as markup: the number behind `^`.
+fn raised(markup: &str) -> String {
+    let mut parts = markup.split('^');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let power = leading(part, |letter| letter.is_ascii_digit() || letter == '.' || letter == '−');
+        text.extend(["<sup>", power, "</sup>", &part[power.len()..]]);
+    }
+    text
+}
+
+/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices;
+/// the number behind `^` is a power.
 pub(crate) fn formula(text: &str) -> String {
     let (mut markup, mut rest) = (String::new(), text);
     while let Some(first) = rest.chars().next() {
@@ -83,7 +95,7 @@ pub(crate) fn formula(text: &str) -> String {
             rest = &rest[index.len()..];
         }
     }
-    markup
+    raised(&markup)
 }
 
 fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
@@ -105,7 +117,8 @@ impl Calculation {
     ) {
         let source =
             if source.is_empty() { String::new() } else { format!(" <small>{}</small>", escaped(source)) };
-        let numbers = if numbers.is_empty() { String::new() } else { format!(" = {}", escaped(numbers)) };
+        let numbers =
+            if numbers.is_empty() { String::new() } else { format!(" = {}", raised(&escaped(numbers))) };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let _ = writeln!(
             self.0,
@@ -136,6 +149,7 @@ mod tests {
             ("a_0 = α0 g/(e* FC)", "<i>a</i><sub>0</sub> = <i>α</i><sub>0</sub> <i>g</i>/(<i>e</i>* FC)"),
             ("S_eZ(T_SLV, ξ)", "<i>S</i><sub>eZ</sub>(<i>T</i><sub>SLV</sub>, <i>ξ</i>)"),
             ("a_g,cap", "<i>a</i><sub>g,cap</sub>"),
+            ("x^1.2", "<i>x</i><sup>1.2</sup>"),
             ("a_1, π", "<i>a</i><sub>1</sub>, π"),
             ("T_1² T0²", "<i>T</i><sub>1</sub>² <i>T</i><sub>0</sub>²"),
         ] {
