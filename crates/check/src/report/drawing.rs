@@ -205,7 +205,8 @@ impl Drawing<'_> {
                 let (face, far) = (AXIS + half.copysign(sign), AXIS - 130.0_f64.copysign(sign));
                 let look = "stroke=\"#009e73\" stroke-width=\"2.5\"";
                 self.line([face, y], [far, y], look);
-                self.line([face, y - 9.0], [face, y + 9.0], look);
+                let plate = face + 2.0_f64.copysign(sign);
+                self.line([plate, y - 9.0], [plate, y + 9.0], look);
             }
         }
         let mut texts = vec![format!("K = {} kN/m", kilonewtons(tie.stiffness))];

@@ -170,9 +170,8 @@ fn footer(page: &str, text: &str) -> String {
         let _ = write!(text, "\\{:x} ", u32::from(letter));
         text
     });
-    format!(
-        "@page {page} {{ @bottom-left {{ content: \"{text}\"; width: 80%; font: 9pt system-ui, sans-serif; }} }}"
-    )
+    let look = "width: 80%; font: 9pt system-ui, sans-serif";
+    format!("@page {page} {{ @bottom-left {{ content: \"{text}\"; {look}; }} }}")
 }
 
 /// The box for stamp and signature of the designer.

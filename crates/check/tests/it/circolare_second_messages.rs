@@ -290,6 +290,16 @@ fn walls_of_one_building() {
             "{error}"
         );
     }
+    // what every wall states need not stand in the file's table
+    let each = building("").replace(", height_ratio = 0.37 }", " }");
+    let error = of(&each).unwrap_err();
+    assert!(error.contains("give storeys, period and height_ratio"), "{error}");
+    let own =
+        each.replace("overburden_mass = 1,", "overburden_mass = 1, building = { height_ratio = 0.37 },");
+    let json = of(&own).unwrap();
+    let facade = json.as_array().unwrap().iter().find(|wall| wall["name"] == "facade").unwrap();
+    let slv = zeta(facade, "/positive/SLV/zeta_E");
+    assert!((slv - 1.15475).abs() < 1e-5, "{slv}");
     let level = building("").replace("soil = \"B\"\n", "soil = \"B\"\nconfidence_factor = 1.4\n");
     let own = level.replace(
         "check = { overburden_mass = 1,",
