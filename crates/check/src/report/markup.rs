@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use ::report::escaped;
+use ::report::table::significant;
 
 /// A list of texts.
 pub(crate) fn list(texts: &[String]) -> String {
@@ -23,9 +24,12 @@ pub(crate) fn result(is_passed: bool) -> &'static str {
 /// A number as people write it, with at most so many digits.
 pub(crate) use ::report::number;
 
-/// A number that is computed, as a report has it: with four digits.
+/// A number that is computed, as a report has it: with four digits, and fewer only where they are all.
 pub(crate) fn shown(value: f64) -> String {
-    number(value, 4)
+    let text = number(value, 4);
+    let is_whole = text.parse().is_ok_and(|read: f64| (read - value).abs() <= 1e-9 * value.abs());
+    let is_near = (1e-3..1e6).contains(&value.abs());
+    if is_whole || !is_near { text } else { significant(value, 4) }
 }
 
 /// A force with four digits in kN; `force` in N.
@@ -141,7 +145,15 @@ impl Calculation {
 
 #[cfg(test)]
 mod tests {
-    use super::formula;
+    use super::{formula, shown};
+
+    #[test]
+    fn zeros_are_digits_of_rounded_numbers() {
+        let numbers = [(13.9979, "14.00"), (2.4, "2.4"), (1.30049, "1.300"), (-0.5, "-0.5"), (0.0, "0")];
+        for (value, text) in numbers {
+            assert_eq!(shown(value), text);
+        }
+    }
 
     #[test]
     fn letters_are_italic_and_indices_low() {

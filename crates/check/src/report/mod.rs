@@ -170,7 +170,7 @@ fn footer(page: &str, text: &str) -> String {
         let _ = write!(text, "\\{:x} ", u32::from(letter));
         text
     });
-    let look = "width: 80%; font: 9pt system-ui, sans-serif";
+    let look = "width: 88%; font: 8pt system-ui, sans-serif";
     format!("@page {page} {{ @bottom-left {{ content: \"{text}\"; {look}; }} }}")
 }
 
