@@ -44,7 +44,8 @@ pub fn page_of_walls(
     });
     let _ = write!(
         cover,
-        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>{}",
+        "<p>Governing wall: {}</p>{}<p>The walls stand in rising order of zeta_E.</p>\
+         <div class=\"checks walls\">{rows}</div>{}",
         as_written(governing),
         head(worst, Some(governing)),
         data(checked())

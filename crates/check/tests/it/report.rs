@@ -144,7 +144,13 @@ fn headings_are_italian() {
     let text = plain(&report_of_walls(Language::It));
     assert_says(
         &text,
-        &["ag sopportata [g]", "ag del sito [g]", "SLV con q", "Verifica dei meccanismi locali"],
+        &[
+            "ag sopportata [g]",
+            "ag del sito [g]",
+            "SLV con q",
+            "in ordine di ζE crescente",
+            "Verifica dei meccanismi locali",
+        ],
     );
     assert_never_says(&text, &["SLV with q", "bears", "site ag [g]", "\"worst\""]);
     let english = plain(&report_of_walls(Language::En));
