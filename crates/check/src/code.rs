@@ -170,7 +170,7 @@ pub struct Verdict<'a> {
     pub zeta: f64,
     /// A row for each check of each side; of sides that are alike, one.
     pub rows: Vec<Row>,
-    /// Where only a rule that replaces it lets the wall pass: what governs by itself \[-\].
+    /// Where a rule replaces what lets the wall pass, or what governs one that fails: its own ratio \[-\].
     pub raised: Option<f64>,
     /// What is to be said of the rows, in sentences.
     pub notes: Vec<String>,
@@ -247,6 +247,11 @@ pub trait Details {
         Ok(Vec::new())
     }
 
+    /// The symbols of the sections, as markup; by default none.
+    fn symbols(&self) -> String {
+        String::new()
+    }
+
     /// Where the code can be read in two ways: the readings taken, as markup; by default none.
     fn readings(&self) -> Vec<String> {
         Vec::new()
@@ -279,8 +284,16 @@ impl Verdict<'_> {
             (true, Some(raised)) => format!("PASSED by the raise of SLD; by displacement {raised:.3}"),
             (false, _) => "NOT PASSED".to_owned(),
         };
+        let raised = self.raised.filter(|_| !self.passed).map_or_else(String::new, |raised| {
+            // the code has the raise for SLV
+            let by = if self.governs == "SLC" { "by analogy with C8.7.1.2.1.8" } else { "by SLD" };
+            format!(", raised {by}; by displacement {raised:.3}")
+        });
         let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
-        format!("{passed}: {governs} governs with {symbol} = {zeta:.3} ({})", self.at("both sides alike"))
+        format!(
+            "{passed}: {governs} governs with {symbol} = {zeta:.3}{raised} ({})",
+            self.at("both sides alike")
+        )
     }
 
     /// The side that governs, or `both` where they are alike.

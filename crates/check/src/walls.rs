@@ -10,7 +10,7 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{Code, Entry, Subject, Verdict};
+use crate::code::{CODES, Code, Entry, Subject, Verdict};
 use crate::error::CheckError;
 use crate::file::{CheckFile, read};
 
@@ -34,13 +34,21 @@ impl WallCodes {
     /// # Errors
     /// [`SceneError`] of the first value that cannot be used, and of a key that a wall cannot state alone.
     pub fn read(file: &CheckFile<'_>, walls: &[NamedWall]) -> Result<Self, SceneError> {
-        let shared = read(file).map_err(|error| file.located(error))?;
+        let code = CODES.into_iter().find(|code| file.code() == Some(code.name));
+        let of_wall = code.map_or(&[][..], |code| code.of_wall);
+        let stated = |wall: &NamedWall| file.of_wall(wall.entry, of_wall);
+        let shared = read(file).or_else(|error| {
+            // what every wall states need not stand in the table of the file
+            let own = walls.iter().map(|wall| stated(wall).ok().flatten()).collect::<Option<Vec<_>>>();
+            own.and_then(|own| read(own.first()?).ok()).ok_or(error)
+        });
+        let shared = shared.map_err(|error| file.located(error))?;
         let mut own = BTreeMap::new();
         for wall in walls {
             if own.contains_key(&wall.entry) {
                 continue;
             }
-            if let Some(file) = file.of_wall(wall.entry, shared.entry().of_wall)? {
+            if let Some(file) = stated(wall)? {
                 own.insert(wall.entry, read(&file).map_err(|error| file.located(error))?);
             }
         }

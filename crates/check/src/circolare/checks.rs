@@ -88,6 +88,7 @@ impl Statement {
         warnings.extend(super::warnings::of_untied_side(&case, &sides, governs.side));
         warnings.extend(super::warnings::of_periods(&sides));
         warnings.extend(super::warnings::of_verdict(&case, &sides, passed));
+        warnings.extend(super::warnings::of_sensitivity(&case, &sides));
         if let Some(dynamic) = &dynamic {
             warnings.extend(super::warnings::of_rocking(self, subject.parameters));
             warnings.extend(dynamic.warnings(&case));

@@ -52,6 +52,9 @@ pub struct FloorSpectrum {
 }
 
 impl FloorSpectrum {
+    /// a and b of C7.2.3.
+    pub(super) const PLATEAU: (f64, f64) = (A, B);
+
     /// Makes the spectrum of a building with modes, the first first, all of the damping `xi`, `ξ_k` \[-\].
     ///
     /// # Panics

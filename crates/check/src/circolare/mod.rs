@@ -36,6 +36,7 @@ mod grid;
 mod ground;
 mod hinge;
 mod level;
+mod lines;
 mod report;
 mod rows;
 mod set_back;

@@ -8,9 +8,10 @@ use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
 use super::demand::Demand;
+use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
-use super::table::{Method, UseClass};
+use super::table::{Hinge, Method, UseClass};
 use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState};
 use super::{ENTRY, LimitState};
 use crate::code::{Details, Ends, Row, Verdict, numbers};
@@ -99,8 +100,19 @@ impl<'a> Checked<'a> {
         rows
     }
 
-    /// The least ratio by displacement that decides, where only the raise by SLD lets the wall pass.
+    /// The ratio by displacement that the raise by SLD replaces: of a wall that passes the least that
+    /// decides, of another that of the check that governs.
     fn raised(&self) -> Option<f64> {
+        let governs = self.outcome.governs;
+        if !self.outcome.passed && self.statement.table.method == Method::Nonlinear {
+            let side = self.outcome.sides.of(governs.side)?;
+            let check = match governs.limit_state {
+                Deciding::Slv => side.slv?,
+                Deciding::Slc => side.slc?,
+                Deciding::Sld | Deciding::SlvWithQ => return None,
+            };
+            return check.raised.then_some(check.ratio);
+        }
         let of_side = |(_, side): (_, &SideVerdict)| [side.slv, side.slc];
         let found = self.outcome.sides.iter().flat_map(of_side).flatten().map(|check| check.ratio);
         let by_displacement = self.statement.table.method == Method::Nonlinear;
@@ -121,13 +133,13 @@ impl<'a> Checked<'a> {
         let mut notes = vec![
             format!("It holds up to a_g = {bears} g; the site has {at_site} g."),
             "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC 8.3); \
-             a check passes from 1 on."
+             a check passes for zeta_E ≥ 1. NTC 8.4.2 has what an improvement needs."
                 .to_owned(),
             format!(
                 "Circolare 7/2019, C8.7.1.2.1; FC = {}; one resultant per body (C8.7.1.1), e* = 1.",
                 self.statement.confidence_factor
             ),
-            format!("{} decide; the other checks are for information.", deciding(self.statement)),
+            format!("{}; the other checks are for information.", deciding(self.statement)),
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
         for (name, _, side) in self.sides() {
@@ -162,8 +174,12 @@ impl Checked<'_> {
         let three = |zeta: Option<f64>| zeta.map_or_else(|| "–".to_owned(), |zeta| format!("{zeta:.3}"));
         if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
             let mut note = format!(
-                "hinge = \"{}\"; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
-                rule.name(),
+                "{}; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
+                match rule {
+                    Hinge::LeastAlpha0 => "hinge of the least multiplier",
+                    Hinge::Worst => "least favourable hinge",
+                    Hinge::Given => "hinge as given",
+                },
                 number(found.alpha0, 4),
                 found.hinge,
                 three(found.zeta)
@@ -189,7 +205,12 @@ impl Checked<'_> {
             }
         }
         if let Some(untied) = side.untied {
-            notes.push(format!("untied, SLV {}, SLC {}.", three(untied.slv), three(untied.slc)));
+            let states = [("SLV", untied.slv), ("SLC", untied.slc)].into_iter();
+            let states = states.filter_map(|(state, zeta)| Some(format!("{state} {:.3}", zeta?)));
+            let states: Vec<_> = states.collect();
+            if !states.is_empty() {
+                notes.push(format!("untied, {}.", states.join(", ")));
+            }
         }
         for varied in &side.sensitivity {
             let passed = match varied.passed {
@@ -197,7 +218,11 @@ impl Checked<'_> {
                 Some(false) => "not passed",
                 None => "no check is possible",
             };
-            notes.push(format!("with {} zeta_E = {}, {passed}.", varied.assigned(), three(varied.zeta)));
+            notes.push(format!(
+                "sensitivity: with {} zeta_E = {}, {passed}.",
+                varied.assigned(),
+                three(varied.zeta)
+            ));
         }
         notes
     }
@@ -219,13 +244,20 @@ fn remark(state: LimitState, check: &DisplacementCheck) -> String {
 
 /// Names the checks that decide.
 fn deciding(statement: &Statement) -> String {
+    let has = |state| statement.state(state).is_some();
+    let class_iv = statement.table.use_class == Some(UseClass::IV) && has(LimitState::Sld);
     let method = match statement.table.method {
+        Method::Nonlinear if !has(LimitState::Slc) => "SLV by displacement",
+        Method::Nonlinear if !has(LimitState::Slv) => "SLC by displacement",
         Method::Nonlinear => "SLV and SLC by displacement",
-        Method::Linear => "The checks of SLV with q",
+        Method::Linear => "SLV with q",
         Method::Dynamic => "The runs under records",
     };
-    let class_iv = statement.table.use_class == Some(UseClass::IV);
-    format!("{method}{}", if class_iv { " and SLD in use class IV" } else { "" })
+    if class_iv {
+        return format!("{method} and SLD in use class IV decide");
+    }
+    let is_one = matches!(method, "SLV by displacement" | "SLC by displacement" | "SLV with q");
+    format!("{method} {}", if is_one { "decides" } else { "decide" })
 }
 
 /// The dynamic check of a limit state, and its runs.
@@ -267,77 +299,6 @@ fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     }));
     notes
 }
-
-/// A name, its unit, the number in that unit of a number in SI units, and that number of a side.
-type Line = (&'static str, &'static str, f64, fn(&SideVerdict) -> Option<f64>);
-
-const SIDE: [Line; 36] = [
-    ("hinge_ratio", "-", 1.0, |side| side.hinge),
-    ("least alpha0", "-", 1.0, |side| Some(side.least_alpha0?.alpha0)),
-    ("its hinge_ratio", "-", 1.0, |side| Some(side.least_alpha0?.hinge)),
-    ("its zeta_E", "-", 1.0, |side| side.least_alpha0?.zeta),
-    ("least favourable hinge_ratio", "-", 1.0, |side| side.least_alpha0?.worst_hinge),
-    ("its zeta_E, least favourable", "-", 1.0, |side| side.least_alpha0?.worst),
-    ("set-back at the base", "mm", 1e3, |side| set_back(side, side.set_back.base)),
-    ("set-back in the middle", "mm", 1e3, |side| set_back(side, side.set_back.middle)),
-    ("set-back at the top", "mm", 1e3, |side| set_back(side, side.set_back.top)),
-    ("alpha0 (without FC)", "-", 1.0, |side| Some(side.alpha0)),
-    ("e*", "-", 1.0, |side| Some(side.e_star)),
-    ("M*", "kg", 1.0, |side| Some(side.mass)),
-    ("a0 (without FC)", "m/s2", 1.0, |side| Some(side.a0)),
-    ("d0", "mm", 1e3, |side| Some(side.d0)),
-    ("T0", "s", 1.0, |side| Some(side.t0)),
-    ("d_y", "mm", 1e3, |side| Some(side.dy)),
-    ("a_y (without FC)", "m/s2", 1.0, |side| Some(side.ay)),
-    ("tie engaged at u", "mm", 1e3, |side| Some(side.tie?.engaged)),
-    ("tie at its strength at u", "mm", 1e3, |side| side.tie?.yields),
-    ("tie broken at u", "mm", 1e3, |side| side.tie?.breaks),
-    ("tie strength", "kN", 1e-3, |side| side.tie?.strength),
-    ("strength of one anchor", "kN", 1e-3, |side| of_anchor(side, side.tie?.strength)),
-    ("alpha0 with the tie", "-", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.alpha0)),
-    ("T0 with the tie", "s", 1.0, |side| (side.activation.force > 0.0).then_some(side.activation.t0)),
-    ("SLD capacity", "m/s2", 1.0, |side| Some(side.sld?.capacity)),
-    ("SLD demand", "m/s2", 1.0, |side| Some(side.sld?.demand)),
-    ("SLD zeta_E", "-", 1.0, |side| Some(side.sld?.ratio)),
-    ("SLD a_g", "g", 1.0, |side| Some(side.sld?.ag)),
-    ("SLD, tie needs", "kN", 1e-3, |side| side.sld?.required),
-    ("SLD, one anchor needs", "kN", 1e-3, |side| of_anchor(side, side.sld?.required)),
-    ("SLV with q, hinge_ratio", "-", 1.0, |side| side.slv_q?.hinge),
-    ("SLV with q, demand", "m/s2", 1.0, |side| Some(side.slv_q?.demand)),
-    ("SLV with q, zeta_E", "-", 1.0, |side| Some(side.slv_q?.ratio)),
-    ("SLV with q, a_g", "g", 1.0, |side| Some(side.slv_q?.ag)),
-    ("SLV with q, tie needs", "kN", 1e-3, |side| side.slv_q?.required),
-    ("SLV with q, one anchor needs", "kN", 1e-3, |side| of_anchor(side, side.slv_q?.required)),
-];
-
-/// The part of a force of the tie that one anchor has, where the bar is known \[N\].
-fn of_anchor(side: &SideVerdict, force: Option<f64>) -> Option<f64> {
-    Some(force? / side.tie?.anchors?)
-}
-
-fn set_back(side: &SideVerdict, depth: f64) -> Option<f64> {
-    (side.set_back.base > 0.0).then_some(depth)
-}
-
-/// The same of a check by displacement.
-type DisplacementLine = (&'static str, &'static str, f64, fn(&DisplacementCheck) -> Option<f64>);
-
-const DISPLACEMENT: [DisplacementLine; 12] = [
-    ("hinge_ratio", "-", 1.0, |check| check.hinge),
-    ("d", "mm", 1e3, |check| Some(check.d)),
-    ("a (with FC)", "m/s2", 1.0, |check| Some(check.a)),
-    ("T", "s", 1.0, |check| Some(check.period)),
-    ("demand S_d", "mm", 1e3, |check| Some(check.demand)),
-    ("tie force", "kN", 1e-3, |check| Some(check.tie?.force)),
-    ("tie force at the demand", "kN", 1e-3, |check| Some(check.tie?.force_at_demand)),
-    ("force of one anchor", "kN", 1e-3, |check| Some(check.tie?.force / check.tie?.anchors?)),
-    ("force of one anchor at the demand", "kN", 1e-3, |check| {
-        Some(check.tie?.force_at_demand / check.tie?.anchors?)
-    }),
-    ("by displacement", "-", 1.0, |check| Some(check.ratio)),
-    ("zeta_E", "-", 1.0, |check| Some(check.zeta)),
-    ("a_g", "g", 1.0, |check| Some(check.ag)),
-];
 
 impl Details for Checked<'_> {
     fn wall(&self) -> &Wall {
@@ -387,6 +348,10 @@ impl Details for Checked<'_> {
 
     fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
         super::report::site::section(self)
+    }
+
+    fn symbols(&self) -> String {
+        super::report::symbols::list()
     }
 
     fn readings(&self) -> Vec<String> {

@@ -78,9 +78,17 @@ pub struct SideVerdict {
     /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
     #[serde(skip)]
     pub corners: Vec<(f64, f64)>,
+    /// The numbers of the side at the hinges of checks that have their own.
+    #[serde(skip)]
+    pub others: Vec<SideVerdict>,
 }
 
 impl SideVerdict {
+    /// The numbers of the side at a hinge.
+    pub(super) fn at(&self, hinge: Option<f64>) -> &Self {
+        self.others.iter().find(|other| other.hinge == hinge).unwrap_or(self)
+    }
+
     pub(super) fn checks(&self) -> Checks {
         let Self { sld, slv_q, slv, slc, .. } = *self;
         Checks { sld, slv_q, slv, slc }

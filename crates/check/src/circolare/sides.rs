@@ -102,8 +102,8 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         t0: if pull > 0.0 { curve.tied_period() } else { curve.elastic.period },
         force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
     };
-    let sensitivity = sensitivity(case, sign, &checks, &mut warnings);
-    let verdict = SideVerdict {
+    let sensitivity = sensitivity(case, sign);
+    let mut verdict = SideVerdict {
         hinge,
         alpha0: curve.alpha0,
         e_star: 1.0,
@@ -129,8 +129,35 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         a3: curve.a3,
         tie_break: curve.tie_break(),
         corners: curve.corners(),
+        others: Vec::new(),
     };
+    verdict.others = others(case, sign, &verdict)?;
     Ok((verdict, warnings))
+}
+
+/// The numbers of a side at the hinges of checks that have their own.
+fn others(case: &Case<'_>, sign: f64, side: &SideVerdict) -> Result<Vec<SideVerdict>, CheckError> {
+    let mut found: Vec<SideVerdict> = Vec::new();
+    for hinge in Deciding::ALL.into_iter().filter_map(|check| side.checks().hinge(check)) {
+        if side.hinge == Some(hinge) || found.iter().any(|other| other.hinge == Some(hinge)) {
+            continue;
+        }
+        let (curve, _) = case.of_these(sign, (Some(hinge), true), [false; 4])?;
+        found.push(SideVerdict {
+            hinge: curve.hinge,
+            alpha0: curve.alpha0,
+            a0: curve.a0(),
+            d0: curve.d0(),
+            t0: curve.elastic.period,
+            dy: curve.elastic.displacement,
+            ay: curve.elastic.acceleration,
+            set_back: curve.set_back,
+            acting_force: curve.acting,
+            a3: curve.a3,
+            ..side.clone()
+        });
+    }
+    Ok(found)
 }
 
 /// What the hinge of the least α0 gives; warns where another rule gives another verdict.
@@ -223,39 +250,27 @@ fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, 
     }
 }
 
-/// `ζ_E` with half and twice a₁ (`law`) or E (`beam`); warns where that turns the verdict.
-fn sensitivity(case: &Case<'_>, sign: f64, checks: &Checks, warnings: &mut Vec<String>) -> Vec<Sensitivity> {
+/// `ζ_E` with half and twice a₁ (`law`) or E (`beam`).
+fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
     let statement = case.statement;
     let (parameter, value) = match case.activation {
         Activation::Law if case.parameters.multilinear.is_none() => ("a1", case.parameters.a1),
         Activation::Beam => ("young_modulus", case.young_modulus.unwrap_or(f64::NAN)),
         _ => return Vec::new(),
     };
-    let passed = |zeta: f64| if zeta >= 1.0 { "passed" } else { "not passed" };
-    let own = checks.governing(statement).1;
     let one = |factor: f64| {
         let value = factor * value;
         let found = searched(&case.with(factor), sign, case.rule, hinge::COARSE);
         let impossible = Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
         let Ok((_, checks)) = found else { return impossible };
-        let (governs, zeta) = checks.governing(statement);
-        let varied = Sensitivity {
+        let (_, zeta) = checks.governing(statement);
+        Sensitivity {
             zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
             passed: Some(zeta >= 1.0),
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
             ..impossible
-        };
-        if (zeta >= 1.0) != (own >= 1.0) {
-            warnings.push(format!(
-                "{}: {parameter} turns the verdict: with {} {} has zeta_E = {zeta:.3}, {}",
-                case.name(Side::of(sign)),
-                varied.assigned(),
-                governs.name(),
-                passed(zeta)
-            ));
         }
-        varied
     };
     VARIED.map(one).to_vec()
 }

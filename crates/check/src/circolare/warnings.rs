@@ -12,10 +12,11 @@ use super::side_verdict::SideVerdict;
 use super::statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 use super::states::Source;
 use super::table::{AtActivation, UseClass};
+use super::tie::TieState;
 use super::verdict::{Deciding, Side, SideVerdicts};
 
 /// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
-const LONGEST_PERIOD: f64 = 4.0;
+pub(super) const LONGEST_PERIOD: f64 = 4.0;
 
 pub(super) fn of_statement(
     statement: &Statement,
@@ -205,6 +206,16 @@ pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) ->
                     check.name(),
                     found.ratio
                 ));
+            } else if check == Deciding::Slc && statement.decides(check) && found.raised && found.zeta < 1.0 {
+                let is_tied = verdict.activation.force > 0.0;
+                let is_broken = found.tie.is_some_and(|tie| tie.state == TieState::Broken);
+                let tie =
+                    if is_tied && is_broken { "; SLD counts the tie, which is broken at d_SLC" } else { "" };
+                warnings.push(format!(
+                    "{side}: SLC by displacement has zeta_E = {:.3}; {:.3} is by analogy with C8.7.1.2.1.8, \
+                     which has the raise for SLV only{tie}",
+                    found.ratio, found.zeta
+                ));
             } else if passed && statement.decides(check) && found.zeta >= 1.0 {
                 warnings.push(format!(
                     "{side}: the raise by SLD turns the verdict of {}: {:.3} by displacement, raised to \
@@ -225,5 +236,49 @@ pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
         sides.iter().flat_map(|(_, side)| [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)]);
     let periods = checks.filter_map(|(state, check)| Some((state, check?.period)));
     let long = periods.filter(|(_, period)| *period > LONGEST_PERIOD);
-    long.map(|(state, period)| format!("T_{state} = {period:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s"))
+    long.map(|(state, period)| {
+        format!(
+            "T_{state} = {period:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s; the demand of {state} is \
+             outside and needs a spectrum of a special study"
+        )
+    })
+}
+
+/// Where another a₁ or E turns the verdict on a side: which check turns, and whether the wall does.
+pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<String> {
+    let statement = case.statement;
+    let passes = |zeta: f64| zeta >= 1.0;
+    let own = |side: &SideVerdict| side.checks().governing(statement);
+    let mut warnings = Vec::new();
+    for (name, side) in sides.iter() {
+        for (index, varied) in side.sensitivity.iter().enumerate() {
+            let ((governs, zeta), Some(other)) = (own(side), varied.zeta) else { continue };
+            if passes(zeta) == passes(other) {
+                continue;
+            }
+            let turned = [
+                (Deciding::Slv, side.slv.map(|check| check.zeta), varied.slv),
+                (Deciding::Slc, side.slc.map(|check| check.zeta), varied.slc),
+            ];
+            let turned = turned.into_iter().filter(|(check, ..)| statement.decides(*check));
+            let mut turned = turned.filter_map(|(check, from, to)| Some((check, from?, to?)));
+            let (check, from, to) =
+                turned.find(|(_, from, to)| passes(*from) != passes(*to)).unwrap_or((governs, zeta, other));
+            let all = |zeta: fn(&SideVerdict, usize, &Statement) -> f64| {
+                sides.iter().all(|(_, side)| zeta(side, index, statement) >= 1.0)
+            };
+            let is_turned = all(|side, _, statement| side.checks().governing(statement).1)
+                != all(|side, index, _| side.sensitivity[index].zeta.unwrap_or(0.0));
+            warnings.push(format!(
+                "{}: {} turns the verdict{}: with {} {} goes from {from:.3} to {to:.3}, {}",
+                case.name(name),
+                varied.parameter,
+                if is_turned { "" } else { " on this side, not that on the wall" },
+                varied.assigned(),
+                check.name(),
+                if passes(to) { "passed" } else { "not passed" }
+            ));
+        }
+    }
+    warnings
 }

@@ -8,14 +8,14 @@ use rocking_wall::wall::{Parameters, Wall};
 use super::markup::{formula, kilonewtons, millimetres, shown, stated};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
-const SIZE: [f64; 2] = [500.0, 410.0];
+const SIZE: [f64; 2] = [520.0, 410.0];
 const AXIS: f64 = 215.0;
 const FOOT: f64 = 335.0;
 /// Room for the wall: width and height \[px\].
 const ROOM: [f64; 2] = [110.0, 265.0];
 /// Half the width of supports, and places of dimensions \[px\].
 const SUPPORT: f64 = 95.0;
-const OUTER: f64 = 408.0;
+const OUTER: f64 = 426.0;
 const INNER: f64 = 318.0;
 /// Lengths of the bar that shows the scale \[m\].
 const BARS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
@@ -201,10 +201,12 @@ impl Drawing<'_> {
         let half = self.half();
         for sign in [1.0, -1.0] {
             if tie.holds(sign) {
-                let (face, far) = (AXIS - half.copysign(sign), AXIS - 130.0_f64.copysign(sign));
+                // through the wall, with a plate on the face that would move away
+                let (face, far) = (AXIS + half.copysign(sign), AXIS - 130.0_f64.copysign(sign));
                 let look = "stroke=\"#009e73\" stroke-width=\"2.5\"";
                 self.line([face, y], [far, y], look);
-                self.line([far, y - 9.0], [far, y + 9.0], look);
+                let plate = face + 2.0_f64.copysign(sign);
+                self.line([plate, y - 9.0], [plate, y + 9.0], look);
             }
         }
         let mut texts = vec![format!("K = {} kN/m", kilonewtons(tie.stiffness))];
@@ -212,12 +214,14 @@ impl Drawing<'_> {
         if tie.slack > 0.0 {
             texts.push(format!("g₀ = {} mm", millimetres(tie.slack)));
         }
-        let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
+        // clear of the wall and of what stands beside it
+        let (x, anchor) =
+            if tie.holds(1.0) { (AXIS - SUPPORT - 10.0, "end") } else { (AXIS + half + 8.0, "start") };
         for (index, text) in texts.iter().enumerate() {
             let text = ::report::label(text);
             // one line above the tie, the others below it
             let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
-            self.text([x + 4.0, y], "start", &text);
+            self.text([x + 4.0, y], anchor, &text);
         }
     }
 
@@ -257,8 +261,12 @@ impl Drawing<'_> {
         self.rect([12.0, 12.0 + self.scale * bar], [y - 5.0, y], "fill=\"#555\"");
         self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", stated(bar)));
         let y = y - 3.0;
-        self.line([INNER, y], [INNER + 44.0, y], "stroke=\"#1f5fa8\" stroke-width=\"2\"");
-        let _ = writeln!(self.svg, "<path d=\"M{:.1} {y:.1}l-9 -4.5v9z\" fill=\"#1f5fa8\"/>", INNER + 50.0);
-        self.text([INNER + 58.0, y + 5.0], "start", "u &gt; 0");
+        self.line([AXIS, y], [AXIS + 44.0, y], "stroke=\"#1f5fa8\" stroke-width=\"2\"");
+        let _ = writeln!(self.svg, "<path d=\"M{:.1} {y:.1}l-9 -4.5v9z\" fill=\"#1f5fa8\"/>", AXIS + 50.0);
+        self.text([AXIS + 58.0, y + 5.0], "start", "u &gt; 0: outwards");
+        // the sides of the wall, below its foot
+        for (x, side) in [(AXIS - SUPPORT, "inside"), (AXIS + SUPPORT, "outside")] {
+            self.text([x, FOOT + 44.0], "middle", side);
+        }
     }
 }

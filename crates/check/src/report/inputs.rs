@@ -150,14 +150,19 @@ fn parameter(
         None => {
             let value = if name == "mechanism" {
                 mechanism(parameters.mechanism).to_owned()
+            } else if name == "tie_side" {
+                let sides = ["to the outside (u &gt; 0)", "to the inside (u &lt; 0)", "both"];
+                let named = ["positive", "negative", "both"].into_iter().zip(sides);
+                let own = text.trim_matches('"');
+                named.into_iter().find(|(name, _)| *name == own).map_or(own, |(_, side)| side).to_owned()
             } else {
                 text.trim_matches('"').replace('_', " ")
             };
             (format!("<span class=\"value\">{value}</span>"), origin.of_parameter(group, name))
         }
     };
-    // the conditions under which it matters hold
-    let description = variable.description.split("; where ").next().unwrap_or_default();
+    // what follows is for who states it
+    let description = variable.description.split("; ").next().unwrap_or_default();
     let name = format!("{} <small translate=\"no\">{name}</small>", escaped(description));
     Some([name, value, from.to_owned()])
 }

@@ -39,10 +39,11 @@ const TABLE: &str = include_str!("terms.tsv");
 /// What parts terms and phrases.
 const PHRASES: &str = "# phrases\n";
 /// Symbols with an index that sentences and tables have. Names of keys, files and walls may look alike.
-const SYMBOLS: [&str; 39] = [
-    "a_0", "a_1", "a_g", "a_g,SLD", "a_g,cap", "a_s", "a_y", "a_Z", "C_U", "d_0", "d_1", "d_s", "d_SLC",
-    "d_SLV", "d_u", "d_y", "f_m", "N_y", "S_a", "S_d", "S_e", "S_eZ", "S_S", "S_T", "T_1", "T_B", "T_C",
-    "T_D", "T_R", "T_s", "T_SLC", "T_SLV", "u_0", "u_ins", "u_r", "u_y", "V_N", "V_R", "ξ_k",
+const SYMBOLS: [&str; 42] = [
+    "a_0", "a_1", "a_max", "a_g", "a_g,SLD", "a_g,cap", "a_s", "a_y", "a_Z", "C_U", "d_0", "d_1", "d_s",
+    "d_SLC", "d_SLV", "d_u", "d_y", "f_d", "f_m", "N_y", "S_a", "S_d", "S_e", "S_eZ", "S_S", "S_T", "T_1",
+    "T_B", "T_C", "T_D", "T_R", "T_s", "T_SLC", "T_SLV", "u_0", "u_ins", "u_r", "u_y", "k_0", "V_N", "V_R",
+    "ξ_k",
 ];
 /// Tags within a formula, or a sentence.
 const INLINE: [&str; 4] = ["i", "b", "sub", "sup"];
@@ -211,6 +212,9 @@ impl Phrases {
         if !text.contains(char::is_lowercase) {
             return None;
         }
+        // headings of numbers have spaces that do not break
+        let text = text.replace('\u{a0}', " ");
+        let text = text.as_str();
         let lower = lowered(text);
         for (pieces, italian) in &self.0 {
             if let Some(held) = held(pieces, text) {

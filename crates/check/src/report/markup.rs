@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use ::report::escaped;
+use ::report::table::significant;
 
 /// A list of texts.
 pub(crate) fn list(texts: &[String]) -> String {
@@ -23,9 +24,12 @@ pub(crate) fn result(is_passed: bool) -> &'static str {
 /// A number as people write it, with at most so many digits.
 pub(crate) use ::report::number;
 
-/// A number that is computed, as a report has it: with four digits.
+/// A number that is computed, as a report has it: with four digits, and fewer only where they are all.
 pub(crate) fn shown(value: f64) -> String {
-    number(value, 4)
+    let text = number(value, 4);
+    let is_whole = text.parse().is_ok_and(|read: f64| (read - value).abs() <= 1e-9 * value.abs());
+    let is_near = (1e-3..1e6).contains(&value.abs());
+    if is_whole || !is_near { text } else { significant(value, 4) }
 }
 
 /// A force with four digits in kN; `force` in N.
@@ -55,7 +59,19 @@ pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> Str
     text + "</table></div>\n"
 }
 
-/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices.
+/// Raises the powers of a formula as markup: the number behind `^`.
+fn raised(markup: &str) -> String {
+    let mut parts = markup.split('^');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let power = leading(part, |letter| letter.is_ascii_digit() || letter == '.' || letter == '−');
+        text.extend(["<sup>", power, "</sup>", &part[power.len()..]]);
+    }
+    text
+}
+
+/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices;
+/// the number behind `^` is a power.
 pub(crate) fn formula(text: &str) -> String {
     let (mut markup, mut rest) = (String::new(), text);
     while let Some(first) = rest.chars().next() {
@@ -83,7 +99,7 @@ pub(crate) fn formula(text: &str) -> String {
             rest = &rest[index.len()..];
         }
     }
-    markup
+    raised(&markup)
 }
 
 fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
@@ -105,7 +121,8 @@ impl Calculation {
     ) {
         let source =
             if source.is_empty() { String::new() } else { format!(" <small>{}</small>", escaped(source)) };
-        let numbers = if numbers.is_empty() { String::new() } else { format!(" = {}", escaped(numbers)) };
+        let numbers =
+            if numbers.is_empty() { String::new() } else { format!(" = {}", raised(&escaped(numbers))) };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let _ = writeln!(
             self.0,
@@ -128,7 +145,15 @@ impl Calculation {
 
 #[cfg(test)]
 mod tests {
-    use super::formula;
+    use super::{formula, shown};
+
+    #[test]
+    fn zeros_are_digits_of_rounded_numbers() {
+        let numbers = [(13.9979, "14.00"), (2.4, "2.4"), (1.30049, "1.300"), (-0.5, "-0.5"), (0.0, "0")];
+        for (value, text) in numbers {
+            assert_eq!(shown(value), text);
+        }
+    }
 
     #[test]
     fn letters_are_italic_and_indices_low() {
@@ -136,6 +161,7 @@ mod tests {
             ("a_0 = α0 g/(e* FC)", "<i>a</i><sub>0</sub> = <i>α</i><sub>0</sub> <i>g</i>/(<i>e</i>* FC)"),
             ("S_eZ(T_SLV, ξ)", "<i>S</i><sub>eZ</sub>(<i>T</i><sub>SLV</sub>, <i>ξ</i>)"),
             ("a_g,cap", "<i>a</i><sub>g,cap</sub>"),
+            ("x^1.2", "<i>x</i><sup>1.2</sup>"),
             ("a_1, π", "<i>a</i><sub>1</sub>, π"),
             ("T_1² T0²", "<i>T</i><sub>1</sub>² <i>T</i><sub>0</sub>²"),
         ] {

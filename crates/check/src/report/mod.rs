@@ -8,6 +8,7 @@ pub(crate) mod markup;
 pub(crate) mod project;
 mod walls;
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use ::report::escaped;
@@ -79,13 +80,14 @@ impl Figure {
 /// # Errors
 /// [`CheckError`] of a demand, or of a record that cannot be read again.
 pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckError> {
-    let top = origin.source(verdict) + "\n" + &head(verdict);
-    let page = Page::new(origin.title).styled(include_str!("page.css")).text(&top);
+    let top = origin.source(verdict) + "\n" + &head(verdict, None);
+    let page = Page::new(origin.title).styled(include_str!("page.css"));
+    let page = page.styled(&footer("", &origin.footer(None))).text(&top);
     let project = origin.report.project_data();
     let page = if project.is_empty() { page } else { page.section("Project", &project) };
     let page = sections(sheet_head(page, verdict, origin), verdict.details.site()?);
     let page = sections(page, verdict.details.sections(origin)?);
-    let page = end(page, &verdict.details.readings(), origin)?;
+    let page = end(page, &verdict.details.symbols(), &verdict.details.readings(), origin)?;
     let title = format!("<h1>{}</h1>", escaped(origin.title));
     let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
     Ok(finished(page, origin))
@@ -138,7 +140,10 @@ fn sections(page: Page, sections: Vec<(String, String)>) -> Page {
 
 /// Adds what ends a report: the readings of the code, what was read, and the box for stamp and signature. The
 /// box does not stand alone on its page.
-fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page, CheckError> {
+fn end(mut page: Page, symbols: &str, readings: &[String], origin: &Origin<'_>) -> Result<Page, CheckError> {
+    if !symbols.is_empty() {
+        page = page.section("Symbols", symbols);
+    }
     if !readings.is_empty() {
         let items = readings.iter().map(|reading| ["<li>", reading, "</li>\n"].concat());
         let items = items.collect::<String>();
@@ -149,11 +154,24 @@ fn end(mut page: Page, readings: &[String], origin: &Origin<'_>) -> Result<Page,
     Ok(page.text(&signed(origin)).text("</div>"))
 }
 
-/// The headline of a verdict as markup.
-fn head(verdict: &Verdict<'_>) -> String {
+/// The headline of a verdict as markup, of a wall with a name where it stands among others.
+fn head(verdict: &Verdict<'_>, wall: Option<&str>) -> String {
+    let wall = wall.map_or_else(String::new, |name| as_written(name) + "<br>");
     let passed = if verdict.passed { "holds" } else { "fails" };
     let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
-    format!("<p class=\"verdict {passed}\">{headline}</p>")
+    format!("<p class=\"verdict {passed}\">{wall}{headline}</p>")
+}
+
+/// The rule of style that has a text at the foot of pages of a name; of all pages without one.
+fn footer(page: &str, text: &str) -> String {
+    // as code points, which no style misreads
+    let text = text.chars().fold(String::new(), |mut text, letter| {
+        // writing to a String cannot fail
+        let _ = write!(text, "\\{:x} ", u32::from(letter));
+        text
+    });
+    let look = "width: 88%; font: 8pt system-ui, sans-serif";
+    format!("@page {page} {{ @bottom-left {{ content: \"{text}\"; {look}; }} }}")
 }
 
 /// The box for stamp and signature of the designer.
@@ -171,6 +189,14 @@ impl Origin<'_> {
             "<p class=\"kind\">Calculation report</p>\n<p class=\"subtitle\">{source}</p>\n\
              <p class=\"subtitle\">{date}</p>"
         )
+    }
+
+    /// Project, revision and wall for the foot of a page.
+    fn footer(&self, wall: Option<&str>) -> String {
+        let project = self.report.project.as_deref().unwrap_or(self.title);
+        let revision = self.report.revision.as_deref().map(|revision| format!("rev. {revision}"));
+        let parts = [Some(project), revision.as_deref(), wall];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
     }
 
     /// The date as markup, as the user gives it.

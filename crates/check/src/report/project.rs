@@ -157,7 +157,7 @@ impl ReportTable {
         }
         let years = |value: f64| format!("{} years", number(value, 4));
         rows.extend(self.nominal_life.map(|life| ["Nominal life V_N".into(), years(life)]));
-        rows.extend(self.use_coefficient.map(|factor| ["Use coefficient C_U".into(), number(factor, 4)]));
+        rows.extend(self.use_coefficient.map(|factor| ["Use coefficient C_U".into(), decimal(factor)]));
         if let (Some(life), Some(factor)) = (self.nominal_life, self.use_coefficient) {
             let reference = life * factor;
             rows.push(["Reference period V_R = V_N C_U".into(), years(reference)]);
@@ -165,11 +165,17 @@ impl ReportTable {
                 let name = format!("Return period T_R of {state} (probability of exceedance {} %)", {
                     number(100.0 * exceeded, 3)
                 });
-                [name, years(return_period(reference, exceeded))]
+                // the code prints 50, 475 and 975
+                [name, format!("{:.0} years", return_period(reference, exceeded))]
             }));
         }
         if rows.is_empty() { String::new() } else { table(&[], &rows) }
     }
+}
+
+/// A coefficient with at least one decimal.
+fn decimal(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value:.1}") } else { number(value, 4) }
 }
 
 #[cfg(test)]

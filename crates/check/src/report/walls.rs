@@ -8,7 +8,7 @@ use run::walls::NamedWall;
 
 use super::markup::table;
 use super::project::as_written;
-use super::{Origin, end, finished, head, sections, sheet_head};
+use super::{Origin, end, finished, footer, head, sections, sheet_head};
 use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
@@ -44,24 +44,34 @@ pub fn page_of_walls(
     });
     let _ = write!(
         cover,
-        "<p>Governing wall: {}</p>{}<div class=\"checks walls\">{rows}</div>{}",
+        "<p>Governing wall: {}</p>{}<p>The walls stand in rising order of zeta_E.</p>\
+         <div class=\"checks walls\">{rows}</div>{}",
         as_written(governing),
-        head(worst),
+        head(worst, Some(governing)),
         data(checked())
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
-    let mut page = Page::new(title).styled(include_str!("page.css")).text(&origin.source(worst));
+    let mut page = Page::new(title).styled(include_str!("page.css"));
+    let source =
+        origin.source(worst).replace("a local out-of-plane mechanism", "local out-of-plane mechanisms");
+    page = page.styled(&footer("", &origin.footer(None))).text(&source);
     let project = origin.report.project_data();
     if !project.is_empty() {
         page = page.section("Project", &project);
     }
     page = sections(page.section("Summary of the walls", &cover), worst.details.site()?);
-    for (name, verdict) in checked() {
+    for (index, (name, verdict)) in checked().enumerate() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
         let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
         let own =
             Origin { title: name, file: own.as_ref().unwrap_or(origin.file), wall: Some(wall), ..*origin };
-        page = page.text(&format!("<div class=\"sheet\"><h1>{}</h1>{}", as_written(name), head(verdict)));
+        let foot = format!("wall{index}");
+        page = page.styled(&footer(&foot, &origin.footer(Some(name))));
+        page = page.text(&format!(
+            "<div class=\"sheet\" style=\"page: {foot}\"><h1>{}</h1>{}",
+            as_written(name),
+            head(verdict, None)
+        ));
         page = sections(sheet_head(page, verdict, &own), verdict.details.sections(&own)?).text("</div>");
     }
     let mut readings: Vec<String> = Vec::new();
@@ -70,7 +80,7 @@ pub fn page_of_walls(
             readings.push(reading);
         }
     }
-    let page = end(page, &readings, origin)?;
+    let page = end(page, &worst.details.symbols(), &readings, origin)?;
     let plain = format!("<h1>{}</h1>", escaped(title));
     let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
     Ok(finished(page, origin))

@@ -19,3 +19,4 @@ mod circolare_site;
 mod circolare_warnings;
 mod codes;
 mod messages;
+mod report;

@@ -1,6 +1,7 @@
 //! The capacity curve: its numbers, and the curve over the demand.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
 use crate::circolare::{Activation, Checked, LimitState, Side, SideVerdict};
@@ -11,7 +12,9 @@ use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 use rocking_wall::wall::{Body, Parameters};
 
 use super::hinges::body_of;
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head};
+use super::spectrum::gives;
+use crate::circolare::verdict::Deciding;
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head, table};
 
 pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut text = String::new();
@@ -20,6 +23,7 @@ pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
             text.push_str(&side_head(name));
         }
         text += &numbers(case, side, verdict);
+        text += &at_hinges(case, side, verdict);
     }
     for (name, _, side) in case.sides() {
         if side.slv.is_some() || side.slc.is_some() {
@@ -54,9 +58,17 @@ pub(in crate::circolare) fn figure(
         key += &line(color, "dotted", &formula(&format!("T_{state}")));
         key += &line(color, "solid", "its spectrum");
     }
+    let mut of_others = String::new();
+    for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
+        if let Some(hinge) = check.and_then(|check| check.hinge).filter(|hinge| Some(*hinge) != side.hinge) {
+            // the curve is that of the hinge that governs
+            let [d, at] = [format!("d_{state}"), "h_1/h".to_owned()].map(|text| formula(&text));
+            let _ = write!(of_others, " <span>{d} is of the hinge {at} = {}.</span>", n(hinge));
+        }
+    }
     let caption = format!(
         "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies right of \
-         the triangle of the same colour. <span class=\"key\">{key}</span>",
+         the triangle of the same colour.{of_others} <span class=\"key\">{key}</span>",
         ::report::escaped(name)
     );
     Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands, None)? })
@@ -122,11 +134,83 @@ fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
         (false, _) => "d/u = 1/2 · W/W",
     };
     lines.line(["Displacement of the code over that of the model", "[C8.7.1.4]"], [ratio, ""], (d_per_u, ""));
+    zero(case, verdict, &mut lines);
     let put = format!("{} · {}", n(d_per_u), millimetres(d0 / d_per_u));
-    let words = "Zero of the curve of the wall without a tie";
+    let words = if verdict.tie.is_some() {
+        "Zero of the curve of the wall without a tie"
+    } else {
+        "Zero of the curve"
+    };
     lines.line([words, "C8.7.1.2.1.6"], ["d_0 = (d/u) u_0", &put], (1e3 * d0, "mm"));
     elastic(case, verdict, &mut lines);
     lines.table()
+}
+
+/// Adds `k_0` and `u_0` of the line that falls to its zero, unless a law of another form has them.
+fn zero(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
+    let body = body_of(case, verdict);
+    let (w, o) = (body.weight, body.overburden);
+    let [w_of, o_of, h] = [kilonewtons(w), kilonewtons(o), n(body.height)];
+    let (k, left, put) = if body.mechanism == Mechanism::Parapet {
+        let k = 2.0 * (w + 2.0 * o) / body.height;
+        (k, "k_0 = 2 (W + 2 O)/h", format!("2 · ({w_of} + 2 · {o_of})/{h}"))
+    } else {
+        let [h1, h2] = [body.hinge_height, body.height - body.hinge_height];
+        let k = 2.0 * (w + o) / h1 + 2.0 * o / h2;
+        let put = format!("2 · ({w_of} + {o_of})/{} + 2 · {o_of}/{}", n(h1), n(h2));
+        (k, "k_0 = 2 (W + O)/h_1 + 2 O/h_2", put)
+    };
+    let u_0 = verdict.d0 / verdict.d_per_u;
+    if !gives(verdict.acting_force / k, u_0) {
+        return;
+    }
+    lines.line(["Slope of the line that falls to its zero", ""], [left, &put], (1e-3 * k, "kN/m"));
+    let put = format!("{}/{} · 10³", kilonewtons(verdict.acting_force), n(1e-3 * k));
+    lines.line(["Zero of the line", ""], ["u_0 = F_act/k_0", &put], (1e3 * u_0, "mm"));
+}
+
+/// A number of a side.
+type Value<'a> = &'a dyn Fn(&SideVerdict) -> f64;
+
+/// The numbers of a side at the hinges of all checks, by the formulas of the one that governs.
+fn at_hinges(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
+    if side.others.is_empty() {
+        return String::new();
+    }
+    let checks = side.checks();
+    let made =
+        Deciding::ALL.into_iter().filter_map(|check| Some((check, side.at(Some(checks.hinge(check)?)))));
+    let made: Vec<(Deciding, &SideVerdict)> = made.collect();
+    let sign = if of == Side::Negative { -1.0 } else { 1.0 };
+    let heads: Vec<_> = made.iter().map(|(check, _)| check.name()).collect();
+    let heads: Vec<&str> = std::iter::once("at the hinge of each check").chain(heads).collect();
+    let strength = |at: &SideVerdict| 1e-3 * body_of(case, at).strength.of(sign);
+    let stiffness = |at: &SideVerdict| 1e-3 * at.acting_force * at.d_per_u / at.d0;
+    let all: [(&str, &str, Value<'_>); 13] = [
+        ("h_1/h", "", &|at| at.hinge.unwrap_or(f64::NAN)),
+        ("F0", "kN", &strength),
+        ("t_b", "mm", &|at| 1e3 * at.set_back.base),
+        ("t_m", "mm", &|at| 1e3 * at.set_back.middle),
+        ("F_act", "kN", &|at| 1e-3 * at.acting_force),
+        ("α0", "", &|at| at.alpha0),
+        ("a_0", "m/s²", &|at| at.a0),
+        ("k_0", "kN/m", &stiffness),
+        ("u_0", "mm", &|at| 1e3 * at.d0 / at.d_per_u),
+        ("d_0", "mm", &|at| 1e3 * at.d0),
+        ("d_y", "mm", &|at| 1e3 * at.dy),
+        ("a_y", "m/s²", &|at| at.ay),
+        ("T0", "s", &|at| at.t0),
+    ];
+    let rows: Vec<_> = all
+        .into_iter()
+        .filter(|(_, _, value)| made.iter().any(|(_, at)| value(at) != 0.0))
+        .map(|(symbol, unit, value)| {
+            let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+            let cells: Vec<_> = made.iter().map(|(_, at)| n(value(at))).collect();
+            [formula(symbol) + &unit, cells.join("</td><td>")]
+        })
+        .collect();
+    format!("<div class=\"together\">{}</div>", table(&heads, &rows))
 }
 
 /// Adds F0 of Eq. (1) with the hinges at the edges, where the side has them, and `F_act`.
@@ -141,7 +225,7 @@ fn force(case: &Checked<'_>, side: Side, verdict: &SideVerdict, lines: &mut Calc
     }
     let follows = parameters.eccentricity_mode == EccentricityMode::FollowsPivot;
     let sign = if side == Side::Negative && !follows { -1.0 } else { 1.0 };
-    let c = n(sign * parameters.overburden_eccentricity + 0.0);
+    let c = n(sign * parameters.overburden_eccentricity + 0.0).replace('-', "−");
     let [w, o] = [body.weight, body.overburden].map(kilonewtons);
     let [b, h] = [parameters.thickness, body.height].map(n);
     let (left, put) = match body.mechanism {
@@ -207,13 +291,22 @@ fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
             lines.line(["Period before activation: rigid", "C8.7.1.2.1.3"], ["T0", ""], (0.0, "s"));
         }
         Some(Activation::Law) => {
+            let words = ["End of the elastic branch", ""];
+            if parameters.multilinear.is_none() {
+                let u_ins = dy / (parameters.a1 * verdict.d_per_u);
+                let put = format!("{} · {} · {}", n(verdict.d_per_u), n(parameters.a1), millimetres(u_ins));
+                lines.line(words, ["d_y = (d/u) a_1 u_ins", &put], (1e3 * dy, "mm"));
+            } else {
+                lines.line(words, ["d_y", ""], (1e3 * dy, "mm"));
+            }
+            let on_line = gives(a0 * (1.0 - dy / d0), ay);
+            let put = format!("{} · (1 − {}/{})", n(a0), millimetres(dy), millimetres(d0));
+            let (left, put) = if on_line { ("a_y = a_0 (1 − d_y/d_0)", &*put) } else { ("a_y", "") };
+            lines.line(["Largest acceleration, without FC", ""], [left, put], (ay, "m/s²"));
             let at_end = dy * (TAU / t0).powi(2);
             let put = format!("2π √({} · 10⁻³/{})", millimetres(dy), n(at_end));
-            let words =
-                format!("Period of the elastic branch of the force law, to its end {}", formula("d_1, a_1"));
-            lines.line([&words, "[C8.7.1.6]"], ["T0 = 2π √(d_1/a_1)", &put], (t0, "s"));
-            lines.line(["End of the elastic branch", ""], ["d_y = d_1", ""], (1e3 * dy, "mm"));
-            lines.line(["Largest acceleration, without FC", ""], ["a_y", ""], (ay, "m/s²"));
+            let left = if gives(at_end, ay) { "T0 = 2π √(d_y/a_y)" } else { "T0 = 2π √[d_y/a(d_y)]" };
+            lines.line(["Period of the elastic branch", "[C8.7.1.6]"], [left, &put], (t0, "s"));
         }
         Some(Activation::Beam) => {
             let parapet = parameters.mechanism == Mechanism::Parapet;

@@ -7,7 +7,7 @@ use crate::report::Origin;
 use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
-use crate::circolare::table::{AtActivation, Rocks};
+use crate::circolare::table::{AtActivation, Hinge, Rocks, STRESS_BLOCK};
 
 use crate::report::markup::{formula, stated, table};
 
@@ -34,7 +34,10 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         state(tie(statement.at_activation()).into(), &["tie"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
-    state(compression(statement).into(), &["compression_considered", "masonry_strength"]);
+    state(compression(statement), &["compression_considered", "masonry_strength"]);
+    if let Some(rule) = case.rule {
+        state(hinge(rule, statement.hinge_range), &["hinge"]);
+    }
     state(
         format!("Behaviour factor {} = {}.", formula("q"), stated(statement.behaviour_factor)),
         &["behaviour_factor"],
@@ -42,22 +45,11 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if let Some(class) = statement.table.use_class {
         state(format!("Use class {class:?}."), &["use_class"]);
     }
-    let method = match statement.table.method {
-        Method::Nonlinear => "SLV and SLC by displacement decide (C8.7.1.2.1.8).",
-        Method::Linear => "SLV with q decides (C8.7.1.2.1.7).",
-        Method::Dynamic => "The runs under records decide (C8.7.1.2.1.9).",
-    };
-    state(method.into(), &["method"]);
+    state(method(statement).into(), &["method"]);
     if case.outcome.dynamic.is_some() {
         state(scale(statement.table.record_scale), &["record_scale"]);
     }
-    for (given, xi) in
-        statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
-    {
-        let said =
-            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), stated(xi), given.state);
-        state(said, &[given.state.key(), "building_damping"]);
-    }
+    of_building(statement, &mut state);
     if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
         let said =
             format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), stated(u));
@@ -77,26 +69,80 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     }
     if !missing.is_empty() {
         rows.push([
-            format!("Not checked, for want of a site: {} (NTC 8.3, 7.3.6).", missing.join(", ")),
+            format!("Not checked, no hazard is given: {} (NTC 8.3, 7.3.6).", missing.join(", ")),
             "[check]".to_owned(),
         ]);
     }
     format!("<div class=\"from\">{}</div>", table(&["statement", "from"], &rows))
 }
 
-fn compression(statement: &Statement) -> &'static str {
-    if statement.table.compression_considered || statement.masonry.is_some() {
-        "The hinges are set back for the compressive strength of the masonry."
+/// States what the building is.
+fn of_building(statement: &Statement, state: &mut impl FnMut(String, &[&str])) {
+    if statement.table.building.is_some() {
+        let said = format!("{} of the building is stated by the engineer.", formula("T_1"));
+        state(said, &["building"]);
+    }
+    for (given, xi) in
+        statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
+    {
+        let said =
+            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), stated(xi), given.state);
+        state(said, &[given.state.key(), "building_damping"]);
+    }
+}
+
+fn compression(statement: &Statement) -> String {
+    let table = &statement.table;
+    if let Some(strength) = table.masonry_strength.filter(|_| statement.masonry.is_some()) {
+        let (gamma, block) = (table.masonry_gamma.unwrap_or(1.0), table.stress_block.unwrap_or(STRESS_BLOCK));
+        // C8.7.1 asks for 2 with design values
+        let instead = if gamma == 2.0 { "" } else { " in place of 2 (C8.7.1)" };
+        let [f_m, g, k] = ["f_m", "γ", "κ"].map(formula);
+        format!(
+            "The hinges are set back for the compressive strength of the masonry: {f_m} = {} MPa, {g} = \
+             {}{instead}, {k} = {}.",
+            stated(1e-6 * strength),
+            stated(gamma),
+            stated(block)
+        )
+    } else if table.compression_considered {
+        "The hinges are set back for the compressive strength of the masonry.".into()
     } else {
-        "The limited compressive strength of the masonry is neglected: hinges are at the edges."
+        "The limited compressive strength of the masonry is neglected: hinges are at the edges.".into()
+    }
+}
+
+/// What decides.
+fn method(statement: &Statement) -> &'static str {
+    match statement.table.method {
+        Method::Nonlinear => match [LimitState::Slv, LimitState::Slc].map(|state| statement.state(state)) {
+            [Some(_), None] => "SLV by displacement decides (C8.7.1.2.1.8).",
+            [None, Some(_)] => "SLC by displacement decides (C8.7.1.2.1.8).",
+            _ => "SLV and SLC by displacement decide (C8.7.1.2.1.8).",
+        },
+        Method::Linear => "SLV with q decides (C8.7.1.2.1.7).",
+        Method::Dynamic => "The runs under records decide (C8.7.1.2.1.9).",
+    }
+}
+
+/// The rule on the hinge of a strip.
+fn hinge(rule: Hinge, [from, to]: [f64; 2]) -> String {
+    match rule {
+        Hinge::Worst => format!(
+            "Intermediate hinge: the least favourable from {} h to {} h, of each check.",
+            stated(from),
+            stated(to)
+        ),
+        Hinge::LeastAlpha0 => "Intermediate hinge: that of the least multiplier (C8.7.1.2.1.1).".into(),
+        Hinge::Given => "Intermediate hinge: as given.".into(),
     }
 }
 
 fn sides(rocks: Rocks) -> &'static str {
     match rocks {
         Rocks::TwoSided => "The wall rocks to both sides.",
-        Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only.",
-        Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only.",
+        Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only: outwards.",
+        Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only: inwards.",
     }
 }
 
@@ -157,7 +203,11 @@ fn confidence(case: &Checked<'_>) -> String {
     let factor = statement.confidence_factor;
     let level = statement.table.knowledge_level;
     let level = level.map_or_else(String::new, |level| format!(" (level of knowledge {level:?})"));
-    let why = if statement.table.compression_considered {
+    let why = if statement.masonry.is_some() {
+        let applied =
+            if statement.table.masonry_over_fc == Some(false) { "a, not to f_m" } else { "a and f_m" };
+        return format!("FC = {}{level}, applied to {applied}.", stated(factor));
+    } else if statement.table.compression_considered {
         "hinges are set back for compression, so that the level of knowledge reached counts (C8.5.4)"
     } else if factor > LARGEST_CONFIDENCE_FACTOR {
         "more than that of LC1"

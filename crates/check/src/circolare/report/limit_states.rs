@@ -3,10 +3,13 @@
 use crate::circolare::statement::Displacements;
 use crate::circolare::{
     ActivationCheck, Checked, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
-    StateStatement, Statement,
+    StateStatement,
 };
+use rocking_wall::wall::Parameters;
 
-use crate::report::markup::{Calculation, formula, millimetres, result, shown as n, side_head};
+use super::spectrum::gives;
+use crate::circolare::warnings::LONGEST_PERIOD;
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, result, shown as n, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;
@@ -23,10 +26,10 @@ pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
             Some(activation((case, side), (given, demand, xi), side.slv_q?, q))
         }),
         ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
-            Some(displacement(side, (given, demand, case.statement), side.slv?))
+            Some(displacement((case, side), (given, demand), side.slv?))
         }),
         ("SLC by displacement C8.7.1.2.1.8", LimitState::Slc, &|side, given, demand| {
-            Some(displacement(side, (given, demand, case.statement), side.slc?))
+            Some(displacement((case, side), (given, demand), side.slc?))
         }),
     ];
     let made = checks.into_iter().map(|(title, state, check)| (title.to_owned(), one(case, state, check)));
@@ -77,6 +80,7 @@ fn activation(
         (format!("q {symbol}/FC"), format!("{} · {value}/{factor}", n(q)))
     };
     lines.line([words, source], [&left, &put], (check.capacity, "m/s²"));
+    let [at_left, at_put] = super::spectrum::of(demand, ("T0", check.t0), xi);
     let at_t0 =
         || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(check.t0), formula("ξ"), n(100.0 * xi));
     let (words, source, left, put) = match demand {
@@ -84,7 +88,7 @@ fn activation(
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
             ("Demand".to_owned(), "[3.2.2], T = 0", "a_g S", put)
         }
-        Demand::Ground(_) => (at_t0(), "[3.2.2]", "S_e(T0, ξ)", String::new()),
+        Demand::Ground(_) => (at_t0(), "[3.2.2]", &*at_left, at_put),
         Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
             let ground = floor.ground();
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
@@ -95,7 +99,7 @@ fn activation(
             (words, "[3.2.2]", "a_g S", put)
         }
         Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),
-        Demand::Floor(_) => (at_t0(), "[C7.2.5]", "S_eZ(T0, ξ, z)", String::new()),
+        Demand::Floor(_) => (at_t0(), "[C7.2.6]", &*at_left, at_put),
         Demand::Points(..) => (at_t0(), "the spectrum given", "S_e(T0, ξ)", String::new()),
         Demand::Records(_) => (at_t0(), "the records", "S_e(T0, ξ)", String::new()),
     };
@@ -122,15 +126,15 @@ fn end(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
 
 /// A check of displacements.
 fn displacement(
-    side: &SideVerdict,
-    (given, demand, statement): (&StateStatement, &Demand, &Statement),
+    (case, side): (&Checked<'_>, &SideVerdict),
+    (given, demand): (&StateStatement, &Demand),
     check: DisplacementCheck,
 ) -> String {
     let mut lines = Calculation::default();
     own_hinge(&mut lines, side, check.hinge);
     let state = given.state;
     let source = if state == LimitState::Slc { "[C8.7.1.11]" } else { "[C8.7.1.10]" };
-    let Displacements { fraction: share, period_factor: factor } = statement.rules(state);
+    let Displacements { fraction: share, period_factor: factor } = case.statement.rules(state);
     let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
     let of_curve = share * check.d0;
     let of_u = |u: &str| {
@@ -145,10 +149,18 @@ fn displacement(
         ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", millimetres(check.d0))))
     };
     lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (1e3 * check.d, "mm"));
-    lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&a, ""], (check.a, "m/s²"));
+    let [of_curve, put] = on_curve(case, side.at(check.hinge), &check);
+    let left = format!("{a}{of_curve}");
+    lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&left, &put], (check.a, "m/s²"));
     let put = format!("{factor} π √({} · 10⁻³/{})", millimetres(check.d), n(check.a));
     let left = format!("{t} = {factor} π √({d}/a)");
     lines.line(["Period", source], [&left, &put], (check.period, "s"));
+    if check.period > LONGEST_PERIOD && matches!(demand, Demand::Ground(_) | Demand::Floor(_)) {
+        lines.say(
+            "Range of the spectra <small>NTC 3.2.3.2</small>",
+            "T &gt; 4 s: the demand is outside and needs a spectrum of a special study",
+        );
+    }
     demanded(&mut lines, given, demand, &check);
     let put = format!("{}/{}", millimetres(check.d), millimetres(check.demand));
     lines.line(["Capacity over demand", ""], [&format!("{d}/S_d"), &put], (check.ratio, ""));
@@ -166,19 +178,43 @@ fn displacement(
     lines.table()
 }
 
+/// a(d) of the line of the wall with the force of its tie: the formula behind `a(d)`, and the numbers put in;
+/// empty where a law of another form has the curve.
+fn on_curve(case: &Checked<'_>, side: &SideVerdict, check: &DisplacementCheck) -> [String; 2] {
+    let (factor, d) = (case.statement.confidence_factor, check.d);
+    let own = side.a0 * (1.0 - d / side.d0);
+    let [a_0, d_of, d_0, fc] = [n(side.a0), millimetres(d), millimetres(side.d0), n(factor)];
+    let line = format!("{a_0} · (1 − {d_of}/{d_0})");
+    if gives(own / factor, check.a) {
+        return [" = a_0 (1 − d/d_0)/FC".to_owned(), format!("{line}/{fc}")];
+    }
+    let Some(tie) = check.tie else { return [const { String::new() }; 2] };
+    let Parameters { tie_height, height, gravity, .. } = case.parameters;
+    let lever = 2.0 * tie_height / height;
+    let pull = lever * tie.force * gravity / side.pushed_weight;
+    if !gives((own + pull) / factor, check.a) {
+        return [const { String::new() }; 2];
+    }
+    let [y, h, g] = [tie_height, height, gravity].map(n);
+    let (force, pushed) = (kilonewtons(tie.force), kilonewtons(side.pushed_weight));
+    let put = format!("[{line} + 2 · {y}/{h} · {force} · {g}/{pushed}]/{fc}");
+    [" = [a_0 (1 − d/d_0) + (2 y/h) N g/((W + 2 r O) e*)]/FC".to_owned(), put]
+}
+
 /// The demand of displacement: both terms where there are two.
 fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, check: &DisplacementCheck) {
     let t = format!("T_{}", given.state);
     let (period, xi) = (n(check.period), n(100.0 * given.damping));
     let words = format!("Spectrum at {} and {} = {xi} %", formula(&t), formula("ξ"));
-    let (symbol, source) = match demand {
-        Demand::Ground(_) => ("S_e", "[3.2.2]"),
-        Demand::Floor(_) => ("S_eZ", "[C7.2.5]"),
-        Demand::Points(..) => ("S_e", "the spectrum given"),
-        Demand::Records(records) if records.len() >= MEAN_COUNTS_FROM => ("S_e", "mean of the records"),
-        Demand::Records(_) => ("S_e", "envelope of the records"),
+    let source = match demand {
+        Demand::Ground(_) => "[3.2.2]",
+        Demand::Floor(_) => "[C7.2.6]",
+        Demand::Points(..) => "the spectrum given",
+        Demand::Records(records) if records.len() >= MEAN_COUNTS_FROM => "mean of the records",
+        Demand::Records(_) => "envelope of the records",
     };
-    lines.line([&words, source], [&format!("{symbol}({t}, ξ)"), ""], (check.acceleration, "m/s²"));
+    let [left, put] = super::spectrum::of(demand, (&t, check.period), given.damping);
+    lines.line([&words, source], [&left, &put], (check.acceleration, "m/s²"));
     let put = format!("{} · {period}²/(4π²) · 10³", n(check.acceleration));
     let (words, source, left, put) = match (demand, check.demand_terms) {
         (Demand::Points(..) | Demand::Records(_), _) => {
@@ -190,6 +226,8 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
             lines.line(["Demand, first term", "[C8.7.1.12]"], [&left, &put], (1e3 * first, "mm"));
             let t1 = floor.first_period();
             let at_first = floor.acceleration(t1, given.damping);
+            let [left, of_first] = super::spectrum::of(demand, ("T_1", t1), given.damping);
+            lines.line(["Spectrum at T_1", "[C7.2.6]"], [&left, &of_first], (at_first, "m/s²"));
             let put = format!("{} · {BEYOND}² · {}²/(4π²) · 10³", n(at_first), n(t1));
             let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
             lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (1e3 * second, "mm"));

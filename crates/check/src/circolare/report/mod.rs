@@ -8,6 +8,8 @@ pub(super) mod overview;
 pub(super) mod readings;
 mod runs;
 pub(super) mod site;
+mod spectrum;
+pub(super) mod symbols;
 mod ties;
 
 use super::table::{Activation, Hinge};

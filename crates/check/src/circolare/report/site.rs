@@ -113,13 +113,20 @@ pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |mode| mode.period));
     rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |mode| mode.participation));
     rows.row(["ξ_k", "C8.7.1.2.1.4", ""], |(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
-    rows.row(["a_Z,k", "[C7.2.7]", "m/s²"], |(_, demand)| {
+    rows.row(["S_e(T_k, ξ_k)", "[3.2.2]", "m/s²"], |(_, demand)| {
+        let of = |floor: &FloorSpectrum| {
+            let at = |mode: &Mode| floor.ground().acceleration(mode.period, floor.damping());
+            each(&floor.modes().iter().map(at).collect::<Vec<_>>())
+        };
+        floor(demand).map_or_else(|| "–".to_owned(), of)
+    });
+    rows.row(["a_Z,k = S_e(T_k, ξ_k) γ_k ψ_k √(1 + 4 ξ_k²)", "[C7.2.7]", "m/s²"], |(_, demand)| {
         floor(demand).map_or_else(|| "–".to_owned(), |floor| each(floor.mode_accelerations()))
     });
-    rows.row(["a_Z", "[C7.2.8]", "m/s²"], |(_, demand)| {
+    rows.row(["a_Z = √(Σ a_Z,k²)", "[C7.2.8]", "m/s²"], |(_, demand)| {
         some(floor(demand).map(FloorSpectrum::printed_peak))
     });
-    rows.row(["A_k", "[C7.2.9]", ""], |(given, demand)| {
+    rows.row(["A = 1.1 ξ_k^−0.5 η(ξ)", "[C7.2.9]", ""], |(given, demand)| {
         some(floor(demand).map(|floor| floor.amplification(given.damping)))
     });
     Ok(place(case) + &rows.table() + &spectra_at_wall(case)?)
@@ -151,9 +158,13 @@ fn place(case: &Checked<'_>) -> String {
         let [period, ratio] = [*period, *ratio].map(shown);
         said.push(format!(
             "Building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
-             {} = {ratio}",
+             {} = {ratio}: {}, {} ([check] building, [C7.2.10]); {} and {} in [C7.2.6]",
             formula("T_1"),
-            formula("z/H")
+            formula("z/H"),
+            formula("γ_1 = 3n/(2n + 1)"),
+            formula("ψ_1 = z/H"),
+            formula("a = 0.8"),
+            formula("b = 1.1")
         ));
     } else if building.is_some() {
         said.push("Modes of the building as given in [check.building]".into());

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rocking_wall::wall::{Bar, TiePart};
+use rocking_wall::wall::{Bar, Parameters, TiePart};
 
+use super::spectrum::gives;
 use crate::circolare::tie::{TieState, anchors};
 use crate::circolare::{ActivationCheck, Checked, LARGEST_LOSS, SideVerdict, TieBreak};
 use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head, table};
@@ -58,7 +59,7 @@ fn bar(case: &Checked<'_>) -> String {
         lines.line(["Capacity of one anchor", ""], ["N_a", ""], (1e-3 * capacity, "kN"));
     }
     let own = anchor_capacity.map_or(yields, |capacity| capacity.min(yields));
-    let least = if anchor_capacity.is_some() { "N_y = min(N_s, N_a)" } else { "N_y = N_s" };
+    let least = if anchor_capacity.is_some() { "N_y = min(N_s; N_a)" } else { "N_y = N_s" };
     let (left, put) = of_width(least, kilonewtons(own));
     let words = "Strength of the tie, for the width l";
     lines.line([words, ""], [&left, &put], (1e-3 * parameters.tie_strength, "kN"));
@@ -68,8 +69,8 @@ fn bar(case: &Checked<'_>) -> String {
         Some(strain) => {
             let [strength, stiffness] =
                 [parameters.tie_strength, parameters.tie_stiffness].map(|value| n(1e-3 * value));
-            let put = format!("max(0, {} · {l} − {strength}/{stiffness} · 10³)", n(strain));
-            lines.line([words, ""], ["e_p = max(0, ε_u L − N_y/K)", &put], ultimate);
+            let put = format!("max(0; {} · {l} − {strength}/{stiffness} · 10³)", n(strain));
+            lines.line([words, ""], ["e_p = max(0; ε_u L − N_y/K)", &put], ultimate);
         }
         None => lines.line([words, ""], ["e_p", ""], ultimate),
     }
@@ -198,6 +199,39 @@ fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
     table(&heads(case, &["force of the tie, of anchor and bar", "d [mm]"], &["state"]), &rows)
 }
 
+/// The formula of the strength that brings `ζ_E` of a check at the activation to 1.
+fn required_by(case: &Checked<'_>, side: &SideVerdict) -> Calculation {
+    let (fc, q) = (case.statement.confidence_factor, case.statement.behaviour_factor);
+    let Parameters { tie_height, height, gravity, .. } = case.parameters;
+    let own = if side.t0 > 0.0 { ("a_y", side.ay) } else { ("a_0", side.a0) };
+    let mut lines = Calculation::default();
+    let all = [("SLD", side.sld, 1.0), ("SLV with q", side.slv_q, q)];
+    for (name, check, factor) in all {
+        let Some((check, force)) = check.and_then(|check| Some((check, check.required?))) else { continue };
+        let lacking = fc * check.demand / factor - own.1;
+        let lever = 2.0 * tie_height / height;
+        let found = (lacking * side.pushed_weight / (gravity * lever)).max(0.0);
+        let put = format!(
+            "max[0; ({} · {}{} − {}) · {}/({} · 2 · {}/{})]",
+            n(fc),
+            n(check.demand),
+            if factor == 1.0 { String::new() } else { format!("/{}", n(factor)) },
+            n(own.1),
+            kilonewtons(side.pushed_weight),
+            n(gravity),
+            n(tie_height),
+            n(height)
+        );
+        // a tie that does not count here changes the period, and with it the demand
+        let put = if gives(found, force) || found == force { put } else { String::new() };
+        let divisor = if factor == 1.0 { "" } else { "/q" };
+        let left = format!("N = max[0; (FC S{divisor} − {}) (W + 2 r O) e*/(g 2 y/h)]", own.0);
+        let words = format!("Required force for ζ_E = 1, {name}");
+        lines.line([&words, ""], [&left, &put], (1e-3 * force, "kN"));
+    }
+    lines
+}
+
 /// The strength that brings `ζ_E` of the checks at the activation to 1, and `ζ_E` without the tie.
 fn required(case: &Checked<'_>, side: &SideVerdict) -> String {
     let checks: [(&str, Option<ActivationCheck>); 2] = [("SLD", side.sld), ("SLV with q", side.slv_q)];
@@ -205,6 +239,7 @@ fn required(case: &Checked<'_>, side: &SideVerdict) -> String {
     let rows: Vec<_> = needed.map(|(name, force)| [name.to_owned(), cells(case, force)]).collect();
     let mut text = String::new();
     if !rows.is_empty() {
+        text += &required_by(case, side).table();
         text += &table(&heads(case, &["required force, at the activation"], &[]), &rows);
     }
     let Some(untied) = side.untied else { return text };

@@ -1,0 +1,201 @@
+//! What a reader of the Italian report has to find: each number with its formula, each sign and each limit
+//! said, and nothing in English.
+
+use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_walls, read};
+use rocking_wall::scene::Scene;
+use run::walls::read_walls;
+
+use crate::circolare_second::palazzo;
+
+/// A parapet, a strip whose hinges are searched and set back, and a façade with a tie, on one building.
+fn walls() -> String {
+    let at = |height_ratio: f64| format!("building = {{ height_ratio = {height_ratio} }}");
+    format!(
+        "{}[report]\nproject = \"Palazzo\"\nrevision = \"2\"\nnominal_life = 50\nuse_coefficient = 1\n\
+         [[walls]]\nname = \"P1\"\n\
+         geometry = {{ height = 1.2, thickness = 0.3, density = 1800 }}\nforce_law = {{ a1 = 0.05 }}\n\
+         check = {{ before_activation = \"law\", {} }}\n\
+         [[walls]]\nname = \"P2\"\n\
+         geometry = {{ mechanism = \"vertical_spanning\", height = 3.4, thickness = 0.4, density = 1900, \
+         overburden = 60e3, overburden_eccentricity = 0.05 }}\n\
+         force_law = {{ a1 = 0.03 }}\n\
+         check = {{ before_activation = \"law\", hinge = \"worst\", masonry_strength = 1.5e6, {} }}\n\
+         [[walls]]\nname = \"P3\"\n\
+         geometry = {{ height = 7, thickness = 0.5, density = 1900, overburden = 12e3, \
+         overburden_eccentricity = 0.1 }}\n\
+         tie = {{ tie_height = 6.8, tie_side = \"positive\" }}\n\
+         check = {{ before_activation = \"rigid\", overburden_mass = 1, \
+         rocking = \"one_sided_positive\", {}, tie = {{ at_activation = \"yield\", \
+         bar = {{ diameter = 0.016, length = 6, yield_stress = 235e6, \
+         ultimate_strain = 0.02, spacing = 3 }} }} }}\n",
+        palazzo(1.0, "knowledge_level = \"LC1\""),
+        at(1.0),
+        at(0.83),
+        at(0.37)
+    )
+}
+
+fn report_of_walls(language: Language) -> String {
+    let text = walls();
+    let walls = read_walls(&text, "walls.toml".as_ref(), &mut Vec::new(), &mut Vec::new()).unwrap();
+    let file = CheckFile::parse("walls.toml", &text).unwrap();
+    let codes = WallCodes::read(&file, &walls).unwrap();
+    let verdicts = check_walls(&codes, &walls, 1);
+    let mut report = file.report().unwrap();
+    report.language = language;
+    let records = codes.shared().records();
+    let origin = Origin { title: "walls", wall: None, file: &file, set: &[], records, report: &report };
+    page_of_walls(&verdicts, (&walls, &codes), &origin).unwrap()
+}
+
+/// The text of a page without its markup; spaces do not break and powers have `^`.
+fn plain(page: &str) -> String {
+    let mut text = String::new();
+    for part in page.replace("<sup>", "<sup>^").split('<') {
+        text.push_str(part.split_once('>').map_or(part, |(_, after)| after));
+        // cells and sentences stay apart
+        let is_end = ["/td", "/th", "/p", "/li", "/h2", "/text"].iter().any(|end| part.starts_with(end));
+        text.push_str(if is_end { "\n" } else { "" });
+    }
+    text.replace("&gt;", ">").replace("&lt;", "<").replace("&quot;", "\"").replace('\u{a0}', " ")
+}
+
+fn assert_says(text: &str, all: &[&str]) {
+    for said in all {
+        assert!(text.contains(said), "the report does not say: {said}");
+    }
+}
+
+fn assert_never_says(text: &str, all: &[&str]) {
+    for said in all {
+        assert!(!text.contains(said), "the report says: {said}");
+    }
+}
+
+#[test]
+fn assumptions_signs_and_limits_are_declared() {
+    let text = plain(&report_of_walls(Language::It));
+    assert_says(
+        &text,
+        &[
+            "FC = 1,35 (livello di conoscenza LC1), applicato ad a e a fm.",
+            "fm = 1,5 MPa, γ = 1 anziché 2 (C8.7.1), κ = 0,85.",
+            "la più sfavorevole tra 0,1 h e 0,9 h, per ogni verifica.",
+            // the sign of u
+            "u > 0: verso l'esterno",
+            "interno",
+            "esterno\n",
+            "verso l'esterno (u > 0)\n",
+            "eccentricità del carico in sommità, positiva verso l'esterno (u > 0)",
+            // the raise that the code has for SLV only: on the headline and among the warnings
+            "ζE = 0,665 per analogia con C8.7.1.2.1.8; in spostamento 0,557",
+            "lo SLC ha ζE = 0,557 in spostamento; 0,665 è per analogia con C8.7.1.2.1.8",
+            "lo SLD considera la catena, che a dSLC è rotta",
+            // beyond the spectra of the code
+            "la domanda allo SLC è fuori dal campo di validità: occorre uno spettro da apposite analisi",
+            "T > 4 s: la domanda è fuori dal campo di validità",
+            // what a1 turns
+            "in questo verso, non quello della parete: con a1 = 0,015 lo SLV passa da 0,877 a 1,098",
+            "analisi di sensibilità: con a1 = 0,015 ζE = 1,031",
+            // what the engineer stated
+            "T1 dell'edificio è dichiarato dal progettista.",
+            "γ1 = 3n/(2n + 1)",
+            "[C7.2.10]",
+            "Tensione di snervamento di progetto",
+            "L'esito è riferito a ζE ≥ 1; per gli interventi di miglioramento si veda NTC 8.4.2.",
+            "dSLC è riferito alla cerniera h1/h = 0,8233.",
+            "475 anni",
+        ],
+    );
+    assert_never_says(&text, &["si veda NTC 8,4", "Verso trattenuto dalla catena tie_side\npositivo"]);
+}
+
+#[test]
+fn every_number_has_its_formula() {
+    let text = plain(&report_of_walls(Language::It));
+    assert_says(
+        &text,
+        &[
+            "a = 0,8 e b = 1,1 nella [C7.2.6]",
+            "= aZ A/[1 + (A − 1) (TSLV/(b T1) − 1)^1,2] = 7,473 · \
+             3,051/[1 + 2,051 · (1,238/(1,1 · 0,32) − 1)^1,2] = 3,161 m/s²",
+            "aZ,k = Se(Tk, ξk) γk ψk √(1 + 4 ξk²)",
+            "a0 (1 − d/d0)/FC = 2,453 · (1 − 60/150)/1,35 = 1,09 m/s²",
+            "ay = a0 (1 − dy/d0) = 2,453 · (1 − 7,5/150) = 2,330 m/s²",
+            "T0 = 2π √(dy/ay) = 2π √(7,5 · 10⁻³/2,330)",
+            "k0 = 2 (W + 2 O)/h = 2 · (6,357 + 2 · 0)/1,2 = 10,59 kN/m",
+            "u0 = Fact/k0 = 1,589/10,59 · 10³ = 150 mm",
+            // the strip at the hinge of each check
+            "81,89",
+            "0,8233",
+            // the tie
+            "N = max[0; (FC S − a0) (W + 2 r O) e*/(g 2 y/h)] = max[0; (1,35 · 1,365 − \
+             0,5688) · 89,24/(9,81 · 2 · 6,8/7)] = 5,964 kN",
+            "((W + 2 r O) e*)]/FC = [0,5688",
+            "Simboli",
+            "pendenza della retta che si annulla a u0",
+        ],
+    );
+}
+
+/// Headings of numbers are looked up, too: their spaces do not break.
+#[test]
+fn headings_are_italian() {
+    let text = plain(&report_of_walls(Language::It));
+    assert_says(
+        &text,
+        &[
+            "ag sopportata [g]",
+            "ag del sito [g]",
+            "SLV con q",
+            "in ordine di ζE crescente",
+            "Verifica dei meccanismi locali",
+        ],
+    );
+    assert_never_says(&text, &["SLV with q", "bears", "site ag [g]", "\"worst\""]);
+    let english = plain(&report_of_walls(Language::En));
+    assert_says(
+        &english,
+        &["bears ag [g]", "u > 0: outwards", "Symbols", "local out-of-plane mechanisms by"],
+    );
+}
+
+/// Numbers of sections are unique; the foot of a page names project, revision and wall.
+#[test]
+fn pages_name_project_and_wall() {
+    let page = report_of_walls(Language::It);
+    let foot = |text: &str| {
+        let letters = text.chars().map(|letter| format!("\\{:x} ", u32::from(letter)));
+        format!("content: \"{}\"", letters.collect::<String>())
+    };
+    for text in ["Palazzo · rev. 2", "Palazzo · rev. 2 · P2"] {
+        assert!(page.contains(&foot(text)), "{text}");
+    }
+    assert!(page.contains("style=\"page: wall2\"") && page.contains("counter(part) \".\" counter(own)"));
+}
+
+/// Only what has a hazard is said to decide.
+#[test]
+fn limit_states_without_hazard_do_not_decide() {
+    let text = "[geometry]\nheight = 6\nthickness = 0.5\ndensity = 1900\n[tie]\ntie_height = 5.8\n\
+                tie_stiffness = 5e6\ntie_strength = 10e3\n\
+                [check]\ncode = \"circolare-2019\"\nsoil = \"C\"\nbefore_activation = \"rigid\"\n\
+                SLV = { ag = 0.18, F0 = 2.45, TC = 0.34 }\n[report]\nlanguage = \"it\"\n";
+    let file = CheckFile::parse("one.toml", text).unwrap();
+    let code = read(&file).unwrap();
+    let scene = Scene::parse("one.toml", text, ".".as_ref()).unwrap();
+    let verdict = code.check((&scene).into()).unwrap();
+    let (records, report) = (code.records(), file.report().unwrap());
+    let origin = Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report };
+    let text = plain(&page(&verdict, &origin).unwrap());
+    assert_says(
+        &text,
+        &[
+            "Non verificati: dati sismici non forniti per SLD, SLC (NTC 8.3, 7.3.6).",
+            "Decide lo SLV in spostamento; le altre verifiche sono a titolo informativo.",
+            "Decide lo SLV in spostamento (C8.7.1.2.1.8).",
+            "in assenza di catena, SLV ",
+        ],
+    );
+    assert_never_says(&text, &["SLC –", "Decidono"]);
+}
