@@ -4,12 +4,11 @@
 //! factor s, is s times that of the record itself: a table of it, from each sample on, leaves a run two
 //! products for each of u and u̇.
 
-use rocking_wall::solver::Motion;
-
 use crate::affine::Affine;
 use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
 use crate::number::WIDTH;
-use crate::table::{LONGEST, Stepping, Table};
+use crate::solver::RecordSolver;
+use crate::table::{LONGEST, Stepping};
 use crate::together::FEWEST_SAMPLES;
 
 /// Rows that a lane may read from where it is: those of a block by four steps at once, and one more. By two
@@ -20,7 +19,9 @@ const MOST_SAMPLES: usize = 1 << 16;
 
 /// For each oscillator its response to a record.
 #[derive(Debug)]
-pub(crate) struct Responses {
+pub(crate) struct Responses<'a> {
+    /// The wall whose branches respond.
+    pub(crate) solver: &'a RecordSolver<'a>,
     /// For each branch the first row of its response.
     starts: [usize; WIDTH],
     /// The response over plain steps at once, of u and u̇, for four: from samples 0, 4, 8, …, then from 1, 5,
@@ -31,10 +32,11 @@ pub(crate) struct Responses {
     length: usize,
 }
 
-impl Responses {
+impl<'a> Responses<'a> {
     /// Prepares the responses of a wall to a record; `None` where runs do not go side by side by affine maps:
     /// few or very many samples, many branches, steps without a map, or long beside the wall's period.
-    pub(crate) fn new(motion: &Motion, table: &Table, forcing: Forcing<'_>) -> Option<Self> {
+    pub(crate) fn new(solver: &'a RecordSolver<'a>, forcing: Forcing<'_>) -> Option<Self> {
+        let RecordSolver { motion, table, .. } = solver;
         let count = forcing.count();
         if !(FEWEST_SAMPLES..=MOST_SAMPLES).contains(&count)
             || table.steppings.len() > WIDTH
@@ -47,7 +49,7 @@ impl Responses {
         let length = count / at_once + 1 + ROWS_AHEAD;
         let oscillators = motion.oscillators();
         let rows = Vec::with_capacity(oscillators.len() * at_once * length);
-        let mut responses = Self { starts: [0; WIDTH], rows, at_once, length };
+        let mut responses = Self { solver, starts: [0; WIDTH], rows, at_once, length };
         for (branch, oscillator) in oscillators.iter().enumerate() {
             let known = oscillators[..branch].iter().position(|known| known == oscillator);
             responses.starts[branch] = known.map_or(responses.rows.len(), |known| responses.starts[known]);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::batch::LANES;
-use crate::together::run_together_on;
+use crate::together::{Kind, run_together_on};
 
 /// Every wall through every record at a few factors, in an order that mixes all three.
 fn mixed<'a>(solvers: &'a [RecordSolver<'a>], records: &'a [Blocks<'a>]) -> Vec<BatchRun<'a>> {
@@ -53,6 +53,30 @@ fn runs_with_constant_damping_are_those_by_themselves() {
             for (number, (together, alone)) in together.into_iter().zip(&alone).enumerate() {
                 assert_eq!(together.as_ref(), Ok(alone), "run {number}, {end:?}, {vectors:?}");
             }
+        }
+    }
+}
+
+/// Records prepared for a wall change no bit: its runs go together through all of them, and those of another
+/// wall as without.
+#[test]
+fn prepared_records_change_no_bit() {
+    let motions = [motion(0.018), losing(0.018, DampingModel::None, Impact::Restitution)];
+    let samples = shaking();
+    let (solvers, records): (Vec<_>, _) =
+        (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
+    for vectors in all_vectors() {
+        let prepared: Vec<_> =
+            records.iter().map(|record| Blocks::on(&solvers[0], record.forcing, vectors)).collect();
+        let is_prepared =
+            |run: &BatchRun<'_>| matches!(Kind::of(run.solver, run.record), Some(Kind::Prepared(_)));
+        let runs = mixed(&solvers, &prepared);
+        // all but the record of four samples, for one wall of two
+        let expected = if vectors.is_some() { runs.len() * 3 / 8 } else { 0 };
+        assert_eq!(runs.iter().filter(|run| is_prepared(run)).count(), expected);
+        for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
+            let wanted = run_together_on(&mixed(&solvers, &records), end, None);
+            assert_eq!(run_together_on(&runs, end, vectors), wanted, "{end:?}, {vectors:?}");
         }
     }
 }
