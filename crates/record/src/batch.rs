@@ -9,10 +9,9 @@ use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 use crate::forcing::{Blocks, Forcing};
 use crate::lanes::Lanes;
 use crate::number::{Eight, WIDTH};
-use crate::responses::Responses;
 use crate::solver::{BatchRun, NoObserver, Observer, Outcome, RecordSolver, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
-use crate::together::Kind;
+use crate::together::{Kind, run_together_on};
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
 pub const LANES: usize = WIDTH;
@@ -81,8 +80,7 @@ impl RecordSolver<'_> {
 
     /// Prepares a record for some vectors; `None` lets runs go one by one.
     pub(crate) fn batch_on<'b>(&'b self, forcing: Forcing<'b>, vectors: Option<Vectors>) -> Batch<'b> {
-        let side_by_side = vectors.and_then(|vectors| Some((vectors, SideBySide::new(self, forcing)?)));
-        Batch { solver: self, record: Blocks::new(forcing), side_by_side }
+        Batch { solver: self, record: Blocks::on(self, forcing, vectors), vectors }
     }
 }
 
@@ -110,22 +108,15 @@ impl Vectors {
 }
 
 /// The steps that runs take side by side.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum SideBySide {
-    /// Steps on every branch, by affine maps of several steps at once: of one wall and record by the
-    /// responses of its branches, of others by the samples of their records.
-    Affine(Option<Responses>),
+    /// Steps on every branch, by affine maps of several steps at once: of one wall, by the responses of its
+    /// branches to the records.
+    Responses,
+    /// The same of any walls, by the samples of the records.
+    Samples,
     /// Steps on branches with secant damping, by Taylor series.
     Curved(Law),
-}
-
-impl SideBySide {
-    pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
-        match Kind::of(solver, forcing.count())? {
-            Kind::Curved { law, .. } => Some(Self::Curved(law)),
-            Kind::Affine { .. } => Responses::new(solver, forcing).map(|made| Self::Affine(Some(made))),
-        }
-    }
 }
 
 /// A record prepared for many runs of one wall.
@@ -153,14 +144,14 @@ impl SideBySide {
 pub struct Batch<'a> {
     solver: &'a RecordSolver<'a>,
     record: Blocks<'a>,
-    side_by_side: Option<(Vectors, SideBySide)>,
+    vectors: Option<Vectors>,
 }
 
 impl Batch<'_> {
     /// Returns whether runs go side by side, not one by one. They go one by one on a processor without AVX2,
     /// and where the wall, the step or the length of the record does not suit.
     pub fn is_side_by_side(&self) -> bool {
-        self.side_by_side.is_some()
+        self.vectors.is_some() && Kind::of(self.solver, &self.record).is_some()
     }
 
     /// Moves walls through the record, each as if it were alone and up to `end`. Returns one outcome for each
@@ -171,18 +162,13 @@ impl Batch<'_> {
     pub fn run(&self, starts: &[RunStart], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
         let given = |&start| BatchRun { solver: self.solver, record: &self.record, start };
         let given: Vec<_> = starts.iter().map(given).collect();
-        if given.is_empty() {
-            return Ok(Vec::new());
-        }
-        let lanes = Lanes::new(&given, end, NoObserver);
-        let side_by_side = self.side_by_side.as_ref();
-        follow(side_by_side.map(|(vectors, steps)| (*vectors, steps)), lanes).into_iter().collect()
+        run_together_on(&given, end, self.vectors).into_iter().collect()
     }
 }
 
 /// Follows runs, side by side with some vectors or one by one.
 pub(crate) fn follow(
-    side_by_side: Option<(Vectors, &SideBySide)>,
+    side_by_side: Option<(Vectors, SideBySide)>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     match side_by_side {
@@ -197,21 +183,21 @@ pub(crate) fn follow(
 /// Follows runs side by side.
 pub(crate) fn in_lanes<S: Simd>(
     simd: S,
-    steps: &SideBySide,
+    steps: SideBySide,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
         || match steps {
-            SideBySide::Affine(Some(responses)) => lanes.side_by_side(
+            SideBySide::Responses => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy, Some(responses)),
+                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
             ),
-            SideBySide::Affine(None) => lanes.side_by_side(
+            SideBySide::Samples => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy, None),
+                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
             ),
             SideBySide::Curved(Law::Ratio) => lanes.side_by_side(
                 Stepping::Curved,

@@ -2,6 +2,11 @@
 
 use std::ops::Range;
 
+use crate::batch::Vectors;
+use crate::responses::Responses;
+use crate::solver::RecordSolver;
+use crate::together::Kind;
+
 /// Samples of a block.
 pub(crate) const BLOCK: usize = 256;
 /// Most plain steps taken at once. The last ones of a block may end beyond it, by one step less than this.
@@ -81,6 +86,8 @@ pub struct Blocks<'a> {
     rest: Vec<f64>,
     /// The last [`AHEAD`] samples, and after them zeros.
     tail: Vec<f64>,
+    /// The responses of a wall whose many runs go by them.
+    pub(crate) responses: Option<Responses<'a>>,
 }
 
 impl<'a> Blocks<'a> {
@@ -95,12 +102,29 @@ impl<'a> Blocks<'a> {
             (*rest, end) = (sum, block * BLOCK);
         }
         let Forcing::Samples(samples) = forcing else {
-            return Self { forcing, largest, rest, tail: Vec::new() };
+            return Self { forcing, largest, rest, tail: Vec::new(), responses: None };
         };
         let mut tail = vec![0.0; 2 * AHEAD];
         let known = samples.len().min(AHEAD);
         tail[AHEAD - known..AHEAD].copy_from_slice(&samples[samples.len() - known..]);
-        Self { forcing, largest, rest, tail }
+        Self { forcing, largest, rest, tail, responses: None }
+    }
+
+    /// Prepares a forcing for many runs of one wall. The response of the wall's branches to the record is
+    /// taken once for all of them, where they go side by side with constant damping. A large record may take
+    /// some MB for each branch.
+    pub fn for_many(solver: &'a RecordSolver<'a>, forcing: Forcing<'a>) -> Self {
+        Self::on(solver, forcing, Vectors::widest())
+    }
+
+    /// Prepares a forcing for many runs of one wall with some vectors.
+    pub(crate) fn on(solver: &'a RecordSolver<'a>, forcing: Forcing<'a>, vectors: Option<Vectors>) -> Self {
+        let record = Self::new(forcing);
+        let responses = match vectors.and_then(|_| Kind::of(solver, &record)) {
+            Some(Kind::Affine { .. }) => Responses::new(solver, forcing),
+            _ => None,
+        };
+        Self { responses, ..record }
     }
 
     /// Returns the forcing at [`AHEAD`] samples from `index` on: zeros beyond the end of the record.

@@ -6,7 +6,7 @@ use crate::forcing::{AHEAD, MOST_AT_ONCE};
 use crate::lanes::{Lanes, Rows, Waiting};
 use crate::line::{Bounds, Line};
 use crate::number::{Number, WIDTH, index};
-use crate::responses::{ROWS_AHEAD, Responses};
+use crate::responses::ROWS_AHEAD;
 use crate::solver::Observer;
 use crate::table::{Table, get};
 
@@ -90,13 +90,7 @@ fn respond<N: Number>(by: &[[N; 2]; MOST_AT_ONCE + 1], part: usize, p: [N; MOST_
 impl<O: Observer> Lanes<'_, O> {
     /// Takes steps of the lanes from `first` on, until some wait for what is not done here; returns these.
     #[inline(always)]
-    pub(crate) fn affine_steps<N: Number>(
-        &mut self,
-        token: N::Token,
-        first: usize,
-        busy: u8,
-        responses: Option<&Responses>,
-    ) -> Waiting {
+    pub(crate) fn affine_steps<N: Number>(&mut self, token: N::Token, first: usize, busy: u8) -> Waiting {
         if N::LANES == 1 && self.rows.share[first] > 0.0 {
             return self.rest_of_step::<N>(token, first);
         }
@@ -113,8 +107,8 @@ impl<O: Observer> Lanes<'_, O> {
         if ready.count_ones() > few {
             let goes = if N::LANES == 1 {
                 self.plain_alone(token, first, &range, ready)
-            } else if let Some(responses) = responses {
-                self.plain_in_lanes(token, first, &range, (ready, few), responses)
+            } else if N::ONE_TABLE {
+                self.plain_in_lanes(token, first, &range, (ready, few))
             } else {
                 self.plain_by_samples(token, first, &range, (ready, few))
             };
@@ -145,7 +139,7 @@ impl<O: Observer> Lanes<'_, O> {
         (Range { low, high, speed: bounds.speed }, most * length)
     }
 
-    /// Takes plain steps side by side, by the responses of the branches to the record.
+    /// Takes plain steps side by side, of one wall, by the responses of its branches to the records.
     #[inline(always)]
     fn plain_in_lanes<N: Number>(
         &mut self,
@@ -153,11 +147,12 @@ impl<O: Observer> Lanes<'_, O> {
         first: usize,
         range: &Range<N>,
         ready: (u8, u32),
-        responses: &Responses,
     ) -> N::Mask {
-        let rows = &self.rows;
+        let (rows, records) = (&self.rows, self.records);
         let mut ahead: [&[[f64; 2]]; WIDTH] = [&[]; WIDTH];
         for (lane, ahead) in ahead.iter_mut().enumerate() {
+            let responses = records[lane].responses.as_ref();
+            let responses = responses.unwrap_or_else(|| unreachable!("runs of this kind have them"));
             *ahead = responses.ahead(index(rows.branch[lane]), index(rows.index[lane]));
         }
         self.plain_steps(token, first, range, ready, ROWS_AHEAD, |row| {

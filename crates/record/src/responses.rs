@@ -17,7 +17,9 @@ const MOST_SAMPLES: usize = 1 << 16;
 
 /// For each oscillator its response to a record.
 #[derive(Debug)]
-pub(crate) struct Responses {
+pub(crate) struct Responses<'a> {
+    /// The wall whose branches respond.
+    pub(crate) solver: &'a RecordSolver<'a>,
     /// For each branch the first row of its response.
     starts: [usize; WIDTH],
     /// The response over plain steps at once, of u and u̇, for four: from samples 0, 4, 8, …, then from 1, 5,
@@ -28,10 +30,10 @@ pub(crate) struct Responses {
     length: usize,
 }
 
-impl Responses {
+impl<'a> Responses<'a> {
     /// Prepares the responses of a wall with constant damping to a record; `None` for very many samples or
     /// many branches.
-    pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
+    pub(crate) fn new(solver: &'a RecordSolver<'a>, forcing: Forcing<'_>) -> Option<Self> {
         let RecordSolver { motion, table, .. } = solver;
         let count = forcing.count();
         if count > MOST_SAMPLES || table.steppings.len() > WIDTH {
@@ -41,7 +43,7 @@ impl Responses {
         let length = count / at_once + 1 + ROWS_AHEAD;
         let oscillators = motion.oscillators();
         let rows = Vec::with_capacity(oscillators.len() * at_once * length);
-        let mut responses = Self { starts: [0; WIDTH], rows, at_once, length };
+        let mut responses = Self { solver, starts: [0; WIDTH], rows, at_once, length };
         for (branch, oscillator) in oscillators.iter().enumerate() {
             let known = oscillators[..branch].iter().position(|known| known == oscillator);
             responses.starts[branch] = known.map_or(responses.rows.len(), |known| responses.starts[known]);

@@ -156,7 +156,7 @@ impl<O: Observer> Lanes<'_, O> {
                 return true;
             }
             let waiting = match stepping {
-                Stepping::Affine => self.affine_steps::<f64>((), lane, 1, None),
+                Stepping::Affine => self.affine_steps::<f64>((), lane, 1),
                 Stepping::Curved => self.take_parts_by_law(lane),
                 Stepping::General => Waiting { ended: 0, stuck: u8::from(!self.rest_on(lane)) },
             };

@@ -53,10 +53,10 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 /// Moves walls side by side with the vectors that every processor has.
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
-    let steps = SideBySide::new(solver, forcing).expect("a wall for lanes");
-    let record = Blocks::new(forcing);
+    let record = Blocks::on(solver, forcing, Vectors::widest());
+    let steps = crate::together::Kind::of(solver, &record).expect("a wall for lanes").steps();
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    let outcomes = in_lanes(simd, &steps, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
+    let outcomes = in_lanes(simd, steps, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
     outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 

@@ -3,6 +3,7 @@
 use rocking_wall::solver::SolverError;
 
 use crate::batch::{SideBySide, Vectors, follow};
+use crate::forcing::Blocks;
 use crate::lanes::Lanes;
 use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd};
 use crate::table::{LONGEST, Law, Stepping};
@@ -12,7 +13,9 @@ const FEWEST_SAMPLES: usize = 16;
 
 /// What runs have in common that go side by side: the numbers that a vector has once for all of its lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum Kind<'a> {
+    /// One wall, with constant damping on all branches, through records prepared for it.
+    Prepared(*const RecordSolver<'a>),
     /// All branches have constant damping.
     Affine {
         step: f64,
@@ -24,16 +27,28 @@ pub(crate) enum Kind {
     Curved { step: f64, law: Law },
 }
 
-impl Kind {
-    /// Returns the kind of runs of a wall through so many samples; `None` if they go one by one.
-    pub(crate) fn of(solver: &RecordSolver<'_>, count: usize) -> Option<Self> {
+impl<'a> Kind<'a> {
+    /// Returns the kind of a run; `None` if it goes by itself.
+    pub(crate) fn of(solver: &'a RecordSolver<'a>, record: &Blocks<'_>) -> Option<Self> {
         let RecordSolver { step, table, .. } = solver;
         if table.steppings.contains(&Stepping::Curved) {
             return Some(Self::Curved { step: *step, law: table.law });
         }
+        if record.responses.as_ref().is_some_and(|responses| std::ptr::eq(responses.solver, solver)) {
+            return Some(Self::Prepared(std::ptr::from_ref(solver)));
+        }
         let is_affine = table.steppings.iter().all(|stepping| *stepping == Stepping::Affine);
-        let suits = is_affine && table.longest <= LONGEST && count >= FEWEST_SAMPLES;
+        let suits = is_affine && table.longest <= LONGEST && record.count() >= FEWEST_SAMPLES;
         suits.then(|| Self::Affine { step: *step, at_once: table.at_once, pairs: table.terms.div_ceil(2) })
+    }
+
+    /// Returns the steps that runs of this kind take side by side.
+    pub(crate) fn steps(self) -> SideBySide {
+        match self {
+            Self::Prepared(_) => SideBySide::Responses,
+            Self::Affine { .. } => SideBySide::Samples,
+            Self::Curved { law, .. } => SideBySide::Curved(law),
+        }
     }
 }
 
@@ -44,7 +59,8 @@ impl Kind {
 /// several. A run never depends on the others: with constant damping it has the bits of
 /// [`RecordSolver::run`], with secant damping those of a [`Batch`](crate::Batch).
 ///
-/// Many factors of one wall and record are faster still in a [`Batch`](crate::Batch).
+/// Many factors of one wall and record are faster still in a [`Batch`](crate::Batch), or here if the record
+/// is prepared for the wall ([`Blocks::for_many`]).
 ///
 /// ```
 /// use record::{BatchRun, Blocks, Forcing, RecordSolver, RunEnd, RunStart, run_together};
@@ -79,9 +95,9 @@ pub(crate) fn run_together_on(
     end: RunEnd,
     vectors: Option<Vectors>,
 ) -> Vec<Result<Outcome, SolverError>> {
-    let mut kinds: Vec<(Option<Kind>, Vec<usize>)> = Vec::new();
+    let mut kinds: Vec<(Option<Kind<'_>>, Vec<usize>)> = Vec::new();
     for (number, run) in runs.iter().enumerate() {
-        let kind = vectors.and_then(|_| Kind::of(run.solver, run.record.count()));
+        let kind = vectors.and_then(|_| Kind::of(run.solver, run.record));
         match kinds.iter_mut().find(|(known, _)| *known == kind) {
             Some((_, numbers)) => numbers.push(number),
             None => kinds.push((kind, vec![number])),
@@ -91,11 +107,8 @@ pub(crate) fn run_together_on(
     for (kind, numbers) in kinds {
         let given: Vec<_> = numbers.iter().map(|&number| runs[number]).collect();
         let lanes = Lanes::new(&given, end, NoObserver);
-        let steps = kind.map(|kind| match kind {
-            Kind::Affine { .. } => SideBySide::Affine(None),
-            Kind::Curved { law, .. } => SideBySide::Curved(law),
-        });
-        outcomes.extend(numbers.into_iter().zip(follow(vectors.zip(steps.as_ref()), lanes)));
+        let steps = vectors.zip(kind.map(Kind::steps));
+        outcomes.extend(numbers.into_iter().zip(follow(steps, lanes)));
     }
     outcomes.sort_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use ground_motion::GroundMotion;
-use record::{Batch, BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
+use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::Support;
 
@@ -32,8 +32,8 @@ use crate::free_motion::peak_is_final;
 pub struct Shaking<'a> {
     motion: &'a Motion,
     solver: &'a RecordSolver<'a>,
-    /// What many factors share, prepared for the first of them.
-    batch: OnceLock<Batch<'a>>,
+    /// The record, prepared for many factors.
+    blocks: OnceLock<Blocks<'a>>,
     record: &'a GroundMotion,
     tail: f64,
 }
@@ -47,7 +47,7 @@ impl<'a> Shaking<'a> {
         record: &'a GroundMotion,
         tail: f64,
     ) -> Self {
-        Self { motion, solver, batch: OnceLock::new(), record, tail }
+        Self { motion, solver, blocks: OnceLock::new(), record, tail }
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of
@@ -58,10 +58,17 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn runs(&self, start: [f64; 2], factors: &[f64], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
-        let batch = self.batch.get_or_init(|| self.solver.batch(Forcing::Samples(self.record.samples())));
-        let starts: Vec<_> = factors.iter().map(|factor| self.start(start, *factor)).collect();
-        let outcomes = batch.run(&starts, end)?;
+        let record = self.prepare();
+        let run = |factor: &f64| BatchRun { solver: self.solver, record, start: self.start(start, *factor) };
+        let runs: Vec<_> = factors.iter().map(run).collect();
+        let outcomes = run_together(&runs, end).into_iter().collect::<Result<Vec<_>, _>>()?;
         outcomes.into_iter().map(|outcome| self.free_vibration(outcome, end)).collect()
+    }
+
+    /// Prepares the record for many factors, which [`together`] then makes use of.
+    pub fn prepare(&self) -> &Blocks<'a> {
+        let forcing = Forcing::Samples(self.record.samples());
+        self.blocks.get_or_init(|| Blocks::for_many(self.solver, forcing))
     }
 
     /// Returns the start of a run from u and u̇, with a factor on the record.
@@ -109,23 +116,28 @@ pub struct Shaken<'s, 'a> {
 /// Runs any walls through any records, and returns what became of each, in their order, with the same bits as
 /// [`Shaking::runs`].
 ///
-/// Many factors of one wall and record are faster there; few factors of many walls and records are faster
-/// here.
+/// Few factors of many walls and records are faster here than there, and so are many factors of each where
+/// records are prepared for them ([`Shaking::prepare`]).
 pub fn together(runs: &[Shaken<'_, '_>], end: RunEnd) -> Vec<Result<Outcome, SolverError>> {
-    // each record is prepared once, for all of its walls
+    // each record is prepared once, for all of its walls, unless it is for one of them
     let (mut records, mut places) = (Vec::new(), HashMap::new());
     let mut of_run = Vec::with_capacity(runs.len());
-    for Shaken { shaking: Shaking { record, .. }, .. } in runs {
+    for Shaken { shaking: Shaking { record, blocks, .. }, .. } in runs {
+        if blocks.get().is_some() {
+            of_run.push(None);
+            continue;
+        }
         let place = *places.entry(std::ptr::from_ref(*record)).or_insert(records.len());
         if place == records.len() {
             records.push(Blocks::new(Forcing::Samples(record.samples())));
         }
-        of_run.push(place);
+        of_run.push(Some(place));
     }
     let mut given = Vec::with_capacity(runs.len());
     for (Shaken { shaking, start, factor }, place) in runs.iter().zip(of_run) {
         let start = shaking.start(*start, *factor);
-        given.push(BatchRun { solver: shaking.solver, record: &records[place], start });
+        let record = place.map_or_else(|| shaking.prepare(), |place: usize| &records[place]);
+        given.push(BatchRun { solver: shaking.solver, record, start });
     }
     let outcomes = run_together(&given, end).into_iter().zip(runs);
     outcomes.map(|(outcome, run)| run.shaking.free_vibration(outcome?, end)).collect()

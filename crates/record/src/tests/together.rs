@@ -40,7 +40,7 @@ fn runs_with_constant_damping_are_those_by_themselves() {
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
     assert!(solvers.iter().any(|solver| solver.table.at_once != solvers[0].table.at_once));
-    let by_itself: Vec<_> = solvers.iter().map(|solver| Kind::of(solver, 100).is_none()).collect();
+    let by_itself: Vec<_> = solvers.iter().map(|solver| Kind::of(solver, &records[0]).is_none()).collect();
     assert_eq!(by_itself, [false, false, false, false, false, false, true]);
     let runs = mixed(&solvers, &records);
     for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
@@ -55,6 +55,30 @@ fn runs_with_constant_damping_are_those_by_themselves() {
             for (number, (together, alone)) in together.into_iter().zip(&alone).enumerate() {
                 assert_eq!(together.as_ref(), Ok(alone), "run {number}, {end:?}, {vectors:?}");
             }
+        }
+    }
+}
+
+/// Records prepared for a wall change no bit: its runs go together through all of them, and those of another
+/// wall as without.
+#[test]
+fn prepared_records_change_no_bit() {
+    let motions = [motion(0.018), losing(0.018, DampingModel::None, Impact::Restitution)];
+    let samples = shaking();
+    let (solvers, records): (Vec<_>, _) =
+        (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
+    for vectors in all_vectors() {
+        let prepared: Vec<_> =
+            records.iter().map(|record| Blocks::on(&solvers[0], record.forcing, vectors)).collect();
+        let is_prepared =
+            |run: &BatchRun<'_>| matches!(Kind::of(run.solver, run.record), Some(Kind::Prepared(_)));
+        let runs = mixed(&solvers, &prepared);
+        // all but the record of four samples, for one wall of two
+        let expected = if vectors.is_some() { runs.len() * 3 / 8 } else { 0 };
+        assert_eq!(runs.iter().filter(|run| is_prepared(run)).count(), expected);
+        for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
+            let wanted = run_together_on(&mixed(&solvers, &records), end, None);
+            assert_eq!(run_together_on(&runs, end, vectors), wanted, "{end:?}, {vectors:?}");
         }
     }
 }

@@ -8,6 +8,7 @@ use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 use super::*;
 use crate::lanes::Waiting;
 use crate::table::{Law, Stepping};
+use crate::together::Kind;
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
@@ -28,7 +29,7 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     // rounded, so that another library of sines changes no count
     let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
     let (solver, forcing) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
-    let (record, starts) = (Blocks::new(forcing), starts(&motion));
+    let (record, starts) = (Blocks::on(&solver, forcing, Vectors::widest()), starts(&motion));
     let given = |start: &RunStart| BatchRun { solver: &solver, record: &record, start: *start };
     let given: Vec<_> = starts.iter().map(given).collect();
     let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
@@ -38,10 +39,11 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         stuck.set(stuck.get() + waiting.stuck.count_ones());
         waiting
     };
-    let outcomes = match SideBySide::new(&solver, forcing).expect("a wall for lanes") {
-        SideBySide::Affine(responses) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
-            count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy, responses.as_ref()))
+    let outcomes = match Kind::of(&solver, &record).expect("a wall for lanes").steps() {
+        SideBySide::Responses => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+            count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
         }),
+        SideBySide::Samples => unreachable!("the record is prepared for the wall"),
         SideBySide::Curved(Law::Ratio) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
         }),

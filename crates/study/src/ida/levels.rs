@@ -160,38 +160,63 @@ impl Levels {
             }
         }
     }
+}
 
-    /// Runs the levels of one curve. `own` is the level of the record in a cloud; `run` takes some levels and
-    /// returns a run for each.
-    pub(super) fn trace<E>(
-        &self,
-        own: f64,
-        mut run: impl FnMut(&[f64]) -> Result<Vec<Run>, E>,
-    ) -> Result<Vec<Run>, E> {
-        match *self {
-            Self::Cloud { .. } => run(&[own]),
-            Self::Grid(ref levels) => run(levels),
-            Self::ToOverturning { step, top } => {
-                let mut runs = ascend(multiples(step, top), &mut run)?;
-                runs.truncate(first_overturning(&runs).map_or(runs.len(), |first| first + 1));
-                Ok(runs)
-            }
-            Self::HuntAndFill { first, increase, top, resolution, gap } => {
-                let mut runs = ascend(hunt([first, increase, top]), &mut run)?;
-                for _ in 0..MOST_ROUNDS {
-                    runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
-                    let mut wanted = bracket(&runs, resolution);
+/// The runs of one curve so far, which decide on the levels of the next ones.
+pub(super) struct Trace<'a> {
+    levels: &'a Levels,
+    /// Level of the record in a cloud.
+    own: f64,
+    /// Runs, by rising intensity.
+    runs: Vec<Run>,
+    /// Rounds of bracketing and filling.
+    rounds: usize,
+}
+
+impl<'a> Trace<'a> {
+    pub(super) fn new(levels: &'a Levels, own: f64) -> Self {
+        Self { levels, own, runs: Vec::new(), rounds: 0 }
+    }
+
+    /// Returns the levels to run next; none once the curve is complete.
+    pub(super) fn wanted(&mut self) -> Vec<f64> {
+        match *self.levels {
+            Levels::Cloud { .. } if self.runs.is_empty() => vec![self.own],
+            Levels::Grid(ref levels) if self.runs.is_empty() => levels.clone(),
+            Levels::Cloud { .. } | Levels::Grid(_) => Vec::new(),
+            Levels::ToOverturning { step, top } => self.ascend(multiples(step, top)),
+            Levels::HuntAndFill { first, increase, top, resolution, gap } => {
+                let mut wanted = self.ascend(hunt([first, increase, top]));
+                if wanted.is_empty() && self.rounds < MOST_ROUNDS {
+                    self.rounds += 1;
+                    wanted = bracket(&self.runs, resolution);
                     if wanted.is_empty() {
-                        wanted = gaps(&runs, gap);
+                        wanted = gaps(&self.runs, gap);
                     }
-                    if wanted.is_empty() {
-                        break;
-                    }
-                    runs.extend(run(&wanted)?);
                 }
-                Ok(runs)
+                wanted
             }
         }
+    }
+
+    /// Returns the next of some levels, so many as go side by side; none once the wall has overturned.
+    fn ascend(&self, levels: impl Iterator<Item = f64>) -> Vec<f64> {
+        let more = if first_overturning(&self.runs).is_some() { 0 } else { LANES };
+        levels.skip(self.runs.len()).take(more).collect()
+    }
+
+    /// Adds the runs at the levels that were wanted.
+    pub(super) fn add(&mut self, runs: impl IntoIterator<Item = Run>) {
+        self.runs.extend(runs);
+        self.runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
+    }
+
+    /// Returns the runs of the complete curve.
+    pub(super) fn finish(mut self) -> Vec<Run> {
+        if let (Levels::ToOverturning { .. }, Some(first)) = (self.levels, first_overturning(&self.runs)) {
+            self.runs.truncate(first + 1);
+        }
+        self.runs
     }
 }
 
@@ -212,22 +237,6 @@ fn hunt([first, increase, top]: [f64; 3]) -> impl Iterator<Item = f64> {
         step += increase;
         Some(level)
     })
-}
-
-/// Runs levels in groups, each at once, up to the group in which the wall first overturns.
-fn ascend<E>(
-    levels: impl Iterator<Item = f64>,
-    run: &mut impl FnMut(&[f64]) -> Result<Vec<Run>, E>,
-) -> Result<Vec<Run>, E> {
-    let levels: Vec<f64> = levels.collect();
-    let mut runs: Vec<Run> = Vec::new();
-    for group in levels.chunks(LANES) {
-        runs.extend(run(group)?);
-        if first_overturning(&runs).is_some() {
-            break;
-        }
-    }
-    Ok(runs)
 }
 
 fn first_overturning(runs: &[Run]) -> Option<usize> {

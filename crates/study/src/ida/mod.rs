@@ -35,7 +35,6 @@ mod unit;
 use std::borrow::Cow;
 
 use ground_motion::{GroundMotion, Warning};
-use record::RecordSolver;
 pub use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::scene::SceneError;
 use rocking_wall::simulation::Excitation;
@@ -44,10 +43,7 @@ use rocking_wall::wall::Wall;
 use run::model::Model;
 use run::parallel;
 use run::records::NamedRecord;
-use run::shaking::Shaking;
 use run::walls::NamedWall;
-
-use polarity::worse;
 
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
 pub use error::IdaError;
@@ -250,14 +246,9 @@ impl Study {
     /// # Errors
     /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
-        let motion = self.motion(case.wall, case.model);
-        let support = self.support_motion(case)?;
-        let solver = RecordSolver::new(&motion, support.step());
-        let shaking = Shaking::new(&motion, &solver, &support, self.tail);
-        let runs = self.levels.trace(self.own_level(case.record), |levels| {
-            self.runs(case, &motion, &shaking, levels).map_err(|source| self.failed(case, levels[0], source))
-        })?;
-        Ok(Curve::new(runs))
+        let index = self.index(case);
+        let mut curves = self.curves(index..index + 1)?;
+        Ok(curves.remove(0))
     }
 
     /// Names the combination and the level of a run that failed.
@@ -303,28 +294,6 @@ impl Study {
         let groups: Vec<_> = self.groups(0..self.count()).collect();
         let curves = parallel::map(groups.len(), threads, |group| self.curves(groups[group].clone()))?;
         Ok(curves.into_iter().flatten().collect())
-    }
-
-    /// Runs the record of a combination scaled to each of some levels, in the SI unit of the measure.
-    fn runs(
-        &self,
-        case: Case,
-        motion: &Motion,
-        shaking: &Shaking<'_>,
-        levels: &[f64],
-    ) -> Result<Vec<Run>, SolverError> {
-        let factors: Vec<_> = levels.iter().map(|level| self.factor(case, *level)).collect();
-        let of = |factors: &[f64]| {
-            let outcomes = shaking.runs([0.0, 0.0], factors, self.collapse.end())?;
-            let runs = levels.iter().zip(outcomes);
-            Ok(runs.map(|(level, outcome)| Run::of(motion, *level, &outcome)).collect())
-        };
-        let runs = of(&factors)?;
-        if !self.takes_the_worse(motion) {
-            return Ok(runs);
-        }
-        let reversed: Vec<_> = factors.iter().map(|factor| -factor).collect();
-        Ok(runs.into_iter().zip(of(&reversed)?).map(|(run, reversed)| worse(run, reversed)).collect())
     }
 
     /// Returns the factor on a record at a level.

@@ -137,7 +137,7 @@ fn worst(class: &Class, models: &[&str]) -> Table {
         falls.truncate(WORST);
         falls.into_iter().map(move |(member, found)| (model, member, found))
     });
-    let three = Digits::AtMost(3);
+    let three = Digits::Significant(3);
     let mut table = Table::over(rows)
         .text("", "model", |(model, ..)| models[*model].to_owned())
         .text("", "wall", |(_, member, _)| member.name.clone())
@@ -145,7 +145,7 @@ fn worst(class: &Class, models: &[&str]) -> Table {
         .number("", "P(fall)", Digits::Decimals(4), |(.., found)| found.probability)
         .number("", "θ/a_g,code", three, |(.., found)| found.margin);
     for (place, name) in QUANTITIES.into_iter().enumerate() {
-        table = table.number("", name, three, move |(_, member, _)| member.quantities[place]);
+        table = table.number("", name, Digits::AtMost(3), move |(_, member, _)| member.quantities[place]);
     }
     table.done()
 }
@@ -154,7 +154,7 @@ fn worst(class: &Class, models: &[&str]) -> Table {
 fn records(manifest: &Manifest) -> Option<String> {
     let contents = &manifest.contents;
     let [periods, shape] = contents.spectrum.as_ref()?;
-    let three = Digits::AtMost(3);
+    let three = Digits::Significant(3);
     let misfit = |ratios: &[f64]| Misfit::of(ratios);
     let table = Table::over(&contents.records)
         .text("", "record", |record| record.name.clone())

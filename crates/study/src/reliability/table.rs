@@ -11,7 +11,9 @@ use crate::fragility::Interval;
 use crate::hazard::HazardCurve;
 use crate::tables::in_g;
 
-const THREE: Digits = Digits::AtMost(3);
+const THREE: Digits = Digits::Significant(3);
+/// Digits of the numbers that the code or the user gives.
+const GIVEN: Digits = Digits::AtMost(3);
 /// Digits of a probability.
 const OF_PROBABILITY: Digits = Digits::Decimals(4);
 /// Fractiles that tables for people have; files have all.
@@ -78,8 +80,8 @@ pub(super) fn rules(name: &str, models: &[&str], found: &WallReliability, target
         .text("model", "model", |(model, _)| models[*model].to_owned())
         .text("check", "check", |(_, one)| one.check)
         .text("number", "number", |(_, one)| one.rule.name())
-        .number("code", "code", THREE, |(_, one)| one.code)
-        .number("probability", "P of a fall", THREE, |_| target)
+        .number("code", "code", GIVEN, |(_, one)| one.code)
+        .number("probability", "P of a fall", GIVEN, |_| target)
         .number("value", "value", THREE, |(_, one)| one.value)
         .done()
 }
@@ -134,7 +136,7 @@ pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table
         .text("", "model", |((model, ..), _)| models[*model].to_owned())
         .text("", "check", |((_, check, ..), _)| *check)
         .text("", format!("number for P(fall) = {target}"), |((_, _, rule, _), _)| rule.name())
-        .number("", "code", THREE, |((.., code), _)| *code)
+        .number("", "code", GIVEN, |((.., code), _)| *code)
         .number("", "walls", THREE, |(_, values)| values.len());
     for part in FRACTILES {
         let heading = format!("{:.0} %", 100.0 * part);

@@ -117,7 +117,7 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
-/// At few levels the runs of all records go together, also of records with other steps, with both signs and
+/// The runs of several records go together, also of records with other steps, with both signs and
 /// to the end of the tail. No curve changes a bit, nor does one among fewer others.
 #[test]
 fn curves_together_are_those_by_themselves() {
@@ -133,7 +133,8 @@ fn curves_together_are_those_by_themselves() {
     };
     let walls = || walls().into_iter().chain([NamedWall::new("tied", tied.clone())]).collect();
     let mut overturned = 0;
-    for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0])] {
+    let stepping = Levels::ToOverturning { step: 0.5, top: 12.0 };
+    for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0]), stepping, HUNT] {
         let measure = IntensityMeasure::default();
         let study = Study::new(walls(), all.clone(), Model::figure_15(), measure, levels).unwrap();
         assert!(!study.wall(2, 0).has_equal_sides());
@@ -152,6 +153,15 @@ fn curves_together_are_those_by_themselves() {
         }
     }
     assert!(overturned > 100, "{overturned}");
+}
+
+/// Curves of many levels go together by sixteen at most, of one wall and model, from wherever a part starts.
+#[test]
+fn groups_of_hunts_are_small() {
+    let study = Study::new(walls(), records(20), Model::figure_15(), IntensityMeasure::Pga, HUNT).unwrap();
+    let groups: Vec<_> = study.groups(5..45).collect();
+    assert_eq!(groups, [5..16, 16..20, 20..36, 36..40, 40..45]);
+    assert_eq!(study.groups(7..7).count(), 0);
 }
 
 /// Hunt and fill finds the same collapse as a grid of its resolution, except for windows of collapse below.
