@@ -73,9 +73,13 @@ impl Thresholds {
             let tie = wall.tie().filter(|tie| tie.holds(sign))?;
             Some(side.d_per_u * tie.strength_displacement()?)
         };
+        let end = [positive.min(falls(1.0)), negative.min(falls(-1.0))];
+        let limits = each(&|_, side| limit(side));
+        // where the static checks leave a side out, its runs may go up to overturning
+        let limit = [0, 1].map(|side| if limits[side].is_finite() { limits[side] } else { end[side] });
         Self {
-            limit: each(&|_, side| limit(side)),
-            end: [positive.min(falls(1.0)), negative.min(falls(-1.0))],
+            limit,
+            end,
             strength: each(&strength),
             tie_is_end: wall.tie().and_then(Tie::fracture_displacement).is_none(),
         }
@@ -211,8 +215,8 @@ pub(super) fn check(
     let motion = Motion::of(&divided, divided.tolerance)?;
     let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
     let decides = statement.table.method == Method::Dynamic;
-    // a wall that is alike on both sides has mirrored runs
-    let is_alike = motion.wall().has_equal_sides();
+    // a wall that rocks, and is checked, alike on both sides has mirrored runs
+    let is_alike = case.alike && motion.wall().has_equal_sides();
     let both = statement.table.polarities == Polarities::Both && !is_alike;
     let signs: &[f64] = if both { &[1.0, -1.0] } else { &[1.0] };
     let tie_is_end = motion

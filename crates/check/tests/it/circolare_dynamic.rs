@@ -189,6 +189,15 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     let fallen = state.runs.iter().filter(|run| run.d[1] > 0.2).count();
     assert!(fallen > 0 && !state.passed, "{:?}", state.runs);
     assert!(state.runs.iter().all(|run| run.beyond_d0 == (run.d[0] > 0.2 || run.d[1] > 0.2)));
+    // both signs, since the side that is not checked has a threshold of its own: overturning
+    assert_eq!(state.runs.len(), 6);
+    let share = |run: &check::circolare::DynamicRun, limits: [f64; 2]| {
+        (run.d[0] / limits[0]).max(run.d[1] / limits[1])
+    };
+    let limit = outcome.sides.positive.as_ref().unwrap().slv.as_ref().unwrap().d;
+    let worst = state.runs.iter().map(|run| share(run, [limit, 0.2])).fold(0.0, f64::max);
+    near(state.ratio, 1.0 / worst, "the largest share of a threshold");
+    assert!(state.ratio < 1.0);
 }
 
 /// Records are held against the spectrum up to 2 s, or to 2 `T_1` of a soft building.

@@ -49,7 +49,9 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     lines.line([words, "NTC 7.3.5"], ["d", ""], (1e3 * state.d, "mm"));
     // with sides of different thresholds the ratio is no quotient of these numbers
     let put = match thresholds[..] {
-        [threshold] => format!("{}/{}", millimetres(threshold), millimetres(state.d)),
+        [threshold] if (threshold / state.d - state.ratio).abs() < 1e-9 * state.ratio => {
+            format!("{}/{}", millimetres(threshold), millimetres(state.d))
+        }
         _ => String::new(),
     };
     lines.line(
