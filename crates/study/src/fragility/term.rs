@@ -133,9 +133,9 @@ const P: [f64; 4] = [1.0 / 24.0, 1.0 / 2880.0, 1.0 / 181_440.0, 1.0 / 29_030_400
 ///                    + w⁶ (z⁶ + 6 z⁴ + 3 z² − 1)/181440
 ///                    − w⁸ (3 z⁸ + 24 z⁶ + 36 z⁴ − 8 z² + 2)/29030400 + …     from t = −w/2 to w/2
 /// ```
-/// For w (1 + |z|) < 0.2 the next term is below 3e-16, and 2e-15 in w times the slope along w. Without ln w and
-/// ln √(2π). The curvature is that of the first two, to 1e-8 of it: it leads Newton's steps, and has no part in
-/// where they end.
+/// For w (1 + |z|) < 0.2 the next term is below 3e-16, and 2e-15 in w times the slope along w. Without ln w
+/// and ln √(2π). The curvature is that of the first two, to 1e-8 of it: it leads Newton's steps, and has no
+/// part in where they end.
 #[inline]
 fn narrow([y, z, width]: [f64; 3], beta: f64) -> Likelihood {
     let (s, w) = (z * z, width * width);
