@@ -33,7 +33,7 @@ const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
 const HALVINGS: u32 = 10;
 
-/// Thresholds of both sides; those of limit states are infinite on a side that is not checked \[m\].
+/// Thresholds of both sides; those of limit states are overturning on a side that is not checked \[m\].
 #[derive(Clone, Copy, Debug)]
 struct Thresholds {
     limit: [f64; 2],

@@ -11,7 +11,7 @@ use super::demand::Demand;
 use super::side_verdict::SideVerdict;
 use super::statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 use super::states::Source;
-use super::table::{AtActivation, UseClass};
+use super::table::{AtActivation, Method, UseClass};
 use super::tie::TieState;
 use super::verdict::{Deciding, Side, SideVerdicts};
 
@@ -247,12 +247,16 @@ pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
 /// Where another a₁ or E turns the verdict on a side: which check turns, and whether the wall does.
 pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<String> {
     let statement = case.statement;
+    if statement.table.method == Method::Dynamic {
+        // the runs decide, and no a₁ of theirs is varied
+        return Vec::new();
+    }
     let passes = |zeta: f64| zeta >= 1.0;
     let own = |side: &SideVerdict| side.checks().governing(statement);
     let mut warnings = Vec::new();
     for (name, side) in sides.iter() {
         for (index, varied) in side.sensitivity.iter().enumerate() {
-            let ((governs, zeta), Some(other)) = (own(side), varied.zeta) else { continue };
+            let ((_, zeta), Some(other)) = (own(side), varied.zeta) else { continue };
             if passes(zeta) == passes(other) {
                 continue;
             }
@@ -262,8 +266,10 @@ pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Strin
             ];
             let turned = turned.into_iter().filter(|(check, ..)| statement.decides(*check));
             let mut turned = turned.filter_map(|(check, from, to)| Some((check, from?, to?)));
-            let (check, from, to) =
-                turned.find(|(_, from, to)| passes(*from) != passes(*to)).unwrap_or((governs, zeta, other));
+            let turned = turned.find(|(_, from, to)| passes(*from) != passes(*to));
+            // else it is SLD, or SLV with q: the least that decides is told
+            let turned = turned.map(|(check, from, to)| (check.name(), from, to));
+            let (name_of_check, from, to) = turned.unwrap_or(("ζ_E", zeta, other));
             let all = |zeta: fn(&SideVerdict, usize, &Statement) -> f64| {
                 sides.iter().all(|(_, side)| zeta(side, index, statement) >= 1.0)
             };
@@ -275,7 +281,7 @@ pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Strin
                 varied.parameter,
                 if is_turned { "" } else { " on this side, not that on the wall" },
                 varied.assigned(),
-                check.name(),
+                name_of_check,
                 if passes(to) { "passed" } else { "not passed" }
             ));
         }

@@ -123,8 +123,11 @@ impl Records {
 }
 
 /// Replaces a word where it does not belong to a longer one: the record `r` is not in every word with an r.
+/// Folders before a path with folders are part of the same file.
 fn with_word(text: &str, word: &str, new: &str) -> String {
-    let belongs = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '/' | '\\');
+    let is_bare = !word.contains(['/', '\\']);
+    let belongs =
+        |c: char| c.is_alphanumeric() || matches!(c, '_' | '-') || is_bare && matches!(c, '/' | '\\');
     let (mut written, mut rest) = (String::new(), text);
     while let Some(at) = rest.find(word).filter(|_| !word.is_empty()) {
         let (before, after) = (&rest[..at], &rest[at + word.len()..]);
@@ -255,6 +258,6 @@ mod tests {
         let text = "r: the record r.csv of a/r is shorter than r. Error of 'r', rr";
         let written = "*: the record r.csv of a/r is shorter than *. Error of '*', rr";
         assert_eq!(with_word(text, "r", "*"), written);
-        assert_eq!(with_word("x a/r y", "a/r", "*"), "x * y");
+        assert_eq!(with_word("x a/r y ./a/r", "a/r", "*"), "x * y ./*");
     }
 }

@@ -76,7 +76,7 @@ def _objects(given: Any, kind: type, name: str) -> Objects:
         if len({part.shape for part in parts}) > 1:
             raise ValueError(f"{name} has parts of different shapes; nest lists of equal lengths")
         return np.stack(parts) if parts else np.empty(0, dtype=object)
-    array = given
+    array: Objects = given
     if not (isinstance(given, np.ndarray) and given.dtype == object):
         array = np.empty((), dtype=object)
         array[()] = given
