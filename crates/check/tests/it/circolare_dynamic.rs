@@ -200,6 +200,21 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     assert!(state.ratio < 1.0);
 }
 
+/// A wall may stand under the records and fall under weaker ones, which is said.
+#[test]
+fn a_response_that_is_not_monotonic_is_told() {
+    let outcome = checked(&format!(
+        "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+         method = \"dynamic\"\nrecords = {{ synthetic = {{ count = 3 }} }}\n\
+         SLV = {{ ag = 0.17, F0 = 2.45, TC = 0.32 }}\n"
+    ));
+    let outcome = outcome.unwrap();
+    let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
+    assert!(state.passed && state.zeta < 1.0, "{}", state.zeta);
+    let said = format!("fails when they are scaled by {:.3}: the response is not monotonic", state.zeta);
+    assert!(outcome.warnings.iter().any(|warning| warning.contains(&said)), "{:?}", outcome.warnings);
+}
+
 /// Records are held against the spectrum up to 2 s, or to 2 `T_1` of a soft building.
 #[test]
 fn the_range_of_a_soft_building_is_longer() {
