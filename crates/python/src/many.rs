@@ -161,8 +161,8 @@ fn run_group(
         of_pair.push(place);
     }
     let mut shakings = Vec::with_capacity(pairs.len());
-    for ((wall, felt), place) in pairs.iter().zip(of_pair) {
-        shakings.push(Shaking::new(&walls[*wall].motion, &solvers[place], felt, tail));
+    for ((_, felt), place) in pairs.iter().zip(of_pair) {
+        shakings.push(Shaking::new(&solvers[place], felt, tail));
     }
     let mut shaken = Vec::with_capacity(runs.len());
     for &(wall, record, factor) in runs {

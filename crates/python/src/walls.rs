@@ -245,7 +245,7 @@ impl Wall {
         let prepared = Prepared::new(self)?;
         let felt = prepared.felt(&record, tail).map_err(of_scene)?;
         let solver = RecordSolver::new(&prepared.motion, felt.step());
-        let shaking = Shaking::new(&prepared.motion, &solver, &felt, tail);
+        let shaking = Shaking::new(&solver, &felt, tail);
         let mut outcomes = Vec::with_capacity(factors.len());
         for factors in factors.chunks(RUNS_AT_ONCE) {
             let runs = py.detach(|| shaking.runs(prepared.start, factors, RunEnd::AtPeaks));

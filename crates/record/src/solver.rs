@@ -118,9 +118,4 @@ impl<'a> RecordSolver<'a> {
     pub fn motion(&self) -> &'a Motion {
         self.motion
     }
-
-    /// Returns the length of the steps \[s\].
-    pub fn step(&self) -> f64 {
-        self.step
-    }
 }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use ground_motion::GroundMotion;
 use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
-use rocking_wall::solver::{Motion, SolverError};
+use rocking_wall::solver::SolverError;
 use rocking_wall::wall::Support;
 
 use crate::free_motion::peak_is_final;
@@ -23,14 +23,13 @@ use crate::free_motion::peak_is_final;
 /// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };
 /// let motion = Motion::of(&parameters, parameters.tolerance)?;
 /// let solver = RecordSolver::new(&motion, record.step());
-/// let shaking = Shaking::new(&motion, &solver, &record, 10.0);
+/// let shaking = Shaking::new(&solver, &record, 10.0);
 /// let runs = shaking.runs([0.0, 0.0], &[0.1, 100.0], RunEnd::AtOverturning)?;
 /// assert!(runs[0].overturning.is_none() && runs[1].overturning.is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct Shaking<'a> {
-    motion: &'a Motion,
     solver: &'a RecordSolver<'a>,
     /// The record, prepared for many factors.
     blocks: OnceLock<Blocks<'a>>,
@@ -41,13 +40,8 @@ pub struct Shaking<'a> {
 impl<'a> Shaking<'a> {
     /// Prepares the runs of a wall through a record and, for `tail` \[s\] after it, in free vibration. The
     /// steps of `solver` are those of the record.
-    pub fn new(
-        motion: &'a Motion,
-        solver: &'a RecordSolver<'a>,
-        record: &'a GroundMotion,
-        tail: f64,
-    ) -> Self {
-        Self { motion, solver, blocks: OnceLock::new(), record, tail }
+    pub fn new(solver: &'a RecordSolver<'a>, record: &'a GroundMotion, tail: f64) -> Self {
+        Self { solver, blocks: OnceLock::new(), record, tail }
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of
@@ -74,8 +68,8 @@ impl<'a> Shaking<'a> {
     /// Returns the start of a run from u and u̇, with a factor on the record.
     fn start(&self, [u, v]: [f64; 2], factor: f64) -> RunStart {
         // p = −λ a_g
-        let factor = factor * self.motion.wall().body().forcing(Support::rigid(1.0));
-        RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
+        let factor = factor * self.solver.motion().wall().body().forcing(Support::rigid(1.0));
+        RunStart { state: self.solver.motion().start_under(u, v, factor * self.record.samples()[0]), factor }
     }
 
     /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
@@ -84,7 +78,7 @@ impl<'a> Shaking<'a> {
         let to_the_end = end == RunEnd::OfRecord;
         let is_final = match outcome.overturning {
             Some(_) => !to_the_end,
-            None => peak_is_final(self.motion.wall(), &outcome.state),
+            None => peak_is_final(self.solver.motion().wall(), &outcome.state),
         };
         if is_final {
             return Ok(outcome);
@@ -96,7 +90,7 @@ impl<'a> Shaking<'a> {
         let after = self.solver.run(start, Forcing::Still(count), rest)?;
         let later = after.overturning.map(|time| self.record.duration() + time);
         let u = after.state.displacement;
-        let comes_back = to_the_end && u.abs() < self.motion.wall().body().instability.of(u);
+        let comes_back = to_the_end && u.abs() < self.solver.motion().wall().body().instability.of(u);
         let overturning = outcome.overturning.or(later).filter(|_| !comes_back);
         Ok(Outcome { state: after.state, overturning, ..outcome })
     }

@@ -234,7 +234,7 @@ pub(super) fn check(
         let floors = floors.map(|floors| floors.in_state(given.building_damping, given.building_period));
         let felt = records.felt(floors.transpose()?.as_ref(), motion.wall().body())?;
         let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
-        let shake = |(record, solver)| Shaking::new(&motion, solver, record, DEFAULT_TAIL);
+        let shake = |(record, solver)| Shaking::new(solver, record, DEFAULT_TAIL);
         let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch, signs };
         let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(of(side)?.0));
         Ok(Some(DynamicState { compatibility, ..runs.check(&thresholds, &factors, records)? }))

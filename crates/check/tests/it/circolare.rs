@@ -34,6 +34,22 @@ pub(crate) fn checked(text: &str) -> Result<Outcome, String> {
     outcome().map_err(|error: CheckError| file.located(error).to_string())
 }
 
+/// Checks that a scene is refused with a message, which is returned whole.
+pub(crate) fn refuses(text: &str, message: &str) -> String {
+    let error = checked(text).expect_err(message);
+    assert!(error.contains(message), "{error}\nexpected {message}\nfor {text}");
+    error
+}
+
+/// Checks that a scene is checked with a warning.
+pub(crate) fn warns(text: &str, message: &str) {
+    let warnings = checked(text).unwrap().warnings;
+    assert!(
+        warnings.iter().any(|warning| warning.contains(message)),
+        "{warnings:?}\nlack {message}\nfor {text}"
+    );
+}
+
 pub(crate) const PARAPET: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
 

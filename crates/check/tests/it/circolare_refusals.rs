@@ -1,6 +1,6 @@
 //! What a check by Circolare 7/2019 refuses, and what it warns of.
 
-use crate::circolare::{PARAPET, checked};
+use crate::circolare::{PARAPET, checked, refuses};
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
 
@@ -134,13 +134,6 @@ fn demands_that_do_not_serve_are_refused() {
     ] {
         refuses(&format!("{PARAPET}{table}"), message);
     }
-}
-
-/// Checks that a scene is refused with a message, which is returned whole.
-fn refuses(text: &str, message: &str) -> String {
-    let error = checked(text).expect_err(message);
-    assert!(error.contains(message), "{error}\nfor {text}");
-    error
 }
 
 #[test]

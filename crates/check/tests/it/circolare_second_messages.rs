@@ -5,21 +5,8 @@ use check::{CheckFile, Subject, WallCodes, check_walls, read, with_assignments};
 use rocking_wall::scene::Scene;
 use run::walls::read_walls;
 
-use crate::circolare::{PARAPET, checked};
+use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_second::{facade, palazzo, strip};
-
-fn refuses(text: &str, message: &str) {
-    let error = checked(text).expect_err(message);
-    assert!(error.contains(message), "{error}\nexpected {message}\nfor {text}");
-}
-
-fn warns(text: &str, message: &str) {
-    let warnings = checked(text).unwrap().warnings;
-    assert!(
-        warnings.iter().any(|warning| warning.contains(message)),
-        "{warnings:?}\nlack {message}\nfor {text}"
-    );
-}
 
 const LAW: &str = "before_activation = \"law\"";
 const YIELD: &str = "tie.at_activation = \"yield\"";

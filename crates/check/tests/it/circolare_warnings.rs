@@ -4,7 +4,7 @@
 use check::{CheckFile, Found, Sought, find, read};
 use rocking_wall::scene::Scene;
 
-use crate::circolare::{PARAPET, checked};
+use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_second::{facade, strip};
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
@@ -17,19 +17,6 @@ fn parapet(scene: &str, more: &str) -> String {
         "{PARAPET}{scene}\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nbefore_activation = \"rigid\"\n\
          {more}\n"
     )
-}
-
-fn refuses(text: &str, message: &str) {
-    let error = checked(text).expect_err(message);
-    assert!(error.contains(message), "{error}\nexpected {message}\nfor {text}");
-}
-
-fn warns(text: &str, message: &str) {
-    let warnings = checked(text).unwrap().warnings;
-    assert!(
-        warnings.iter().any(|warning| warning.contains(message)),
-        "{warnings:?}\nlack {message}\nfor {text}"
-    );
 }
 
 #[test]

@@ -47,7 +47,7 @@ impl Study {
         let mut shakings = Vec::with_capacity(cases.len());
         for support in &supports {
             let solver = &solvers[steps.partition_point(|step| *step < support.step())];
-            shakings.push(Shaking::new(&motion, solver, support, self.tail));
+            shakings.push(Shaking::new(solver, support, self.tail));
         }
         if !self.levels.are_few() {
             for shaking in &shakings {
