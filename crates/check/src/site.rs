@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
-use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Body;
 use run::records::NamedRecord;
+use run::shaking::felt;
 
 use crate::error::CheckError;
 
@@ -39,10 +39,7 @@ impl Records {
     /// floors, those of a strip wall by their weights.
     pub(crate) fn felt(&self, floors: Option<&Floors>, body: &Body) -> Result<Vec<GroundMotion>, CheckError> {
         let one = |NamedRecord { motion, .. }: &NamedRecord| {
-            let Some(floors) = floors else { return Ok(motion.clone()) };
-            let end = motion.duration() + DEFAULT_TAIL;
-            let at = floors.motion(body.mechanism, &Excitation::new(motion.clone(), None), end)?;
-            Ok(at.effective(body)?)
+            Ok(felt(floors, body, motion, DEFAULT_TAIL)?.into_owned())
         };
         self.named.iter().map(one).collect()
     }

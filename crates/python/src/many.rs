@@ -10,11 +10,10 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
 use rocking_wall::scene::{SceneError, check_tail};
-use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Motion as Solved, SolverError};
 use rocking_wall::wall::Sides;
 use run::parallel;
-use run::shaking::{Shaken, Shaking, together};
+use run::shaking::{Shaken, Shaking, felt, together};
 
 use crate::arrays::{Motion, Numbers, samples};
 use crate::errors::{failed, of_scene, refused};
@@ -48,12 +47,7 @@ impl<'a> Prepared<'a> {
         record: &'r GroundMotion,
         tail: f64,
     ) -> Result<Cow<'r, GroundMotion>, SceneError> {
-        let Some(floors) = &self.wall.scene.floors else { return Ok(Cow::Borrowed(record)) };
-        let ground = Excitation::new(record.clone(), None);
-        let end = ground.duration() + tail;
-        let supports = floors.motion(self.wall.scene.parameters.mechanism, &ground, end)?;
-        let effective = supports.effective(self.wall.equation.body());
-        effective.map(Cow::Owned).map_err(|error| SceneError::Value { message: error.to_string() })
+        felt(self.wall.scene.floors.as_ref(), self.wall.equation.body(), record, tail)
     }
 
     /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none).

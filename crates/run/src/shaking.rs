@@ -1,14 +1,35 @@
 //! Runs of one wall through one record, multiplied by factors.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use ground_motion::GroundMotion;
 use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
+use rocking_wall::scene::{Floors, SceneError};
+use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::SolverError;
-use rocking_wall::wall::Support;
+use rocking_wall::wall::{Body, Support};
 
 use crate::free_motion::peak_is_final;
+
+/// Returns the motion that a wall feels under a record: on floors theirs, until a `tail` \[s\] after the
+/// record ends; that of a strip wall is the mean of its two by their weights.
+///
+/// # Errors
+/// [`SceneError`] of floors whose motion cannot be computed.
+pub fn felt<'r>(
+    floors: Option<&Floors>,
+    body: &Body,
+    record: &'r GroundMotion,
+    tail: f64,
+) -> Result<Cow<'r, GroundMotion>, SceneError> {
+    let Some(floors) = floors else { return Ok(Cow::Borrowed(record)) };
+    let ground = Excitation::new(record.clone(), None);
+    let supports = floors.motion(body.mechanism, &ground, record.duration() + tail)?;
+    let effective = supports.effective(body);
+    effective.map(Cow::Owned).map_err(|error| SceneError::Value { message: error.to_string() })
+}
 
 /// A wall under a record: what its runs share.
 ///

@@ -37,13 +37,12 @@ use std::ops::Range;
 
 use ground_motion::{GroundMotion, Warning};
 pub use rocking_wall::scene::DEFAULT_TAIL;
-use rocking_wall::scene::SceneError;
-use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::Wall;
 use run::model::Model;
 use run::parallel;
 use run::records::NamedRecord;
+use run::shaking::felt;
 use run::walls::NamedWall;
 
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
@@ -273,17 +272,17 @@ impl Study {
     /// until the tail ends.
     fn support_motion(&self, case: Case) -> Result<Cow<'_, GroundMotion>, IdaError> {
         let (wall, record) = (&self.walls[case.wall], &self.records[case.record]);
-        let Some(floors) = &wall.floors else { return Ok(Cow::Borrowed(&record.motion)) };
-        let ground = Excitation::new(record.motion.clone(), None);
-        let end = ground.duration() + self.tail;
-        let failed = |source: SceneError| IdaError::Floors {
+        // only on floors the body counts
+        if wall.floors.is_none() {
+            return Ok(Cow::Borrowed(&record.motion));
+        }
+        let of_model = self.wall(case.wall, case.model);
+        let motion = felt(wall.floors.as_ref(), of_model.body(), &record.motion, self.tail);
+        motion.map_err(|source| IdaError::Floors {
             wall: wall.name.clone(),
             record: record.name.clone(),
             source: Box::new(source),
-        };
-        let supports = floors.motion(wall.parameters.mechanism, &ground, end).map_err(failed)?;
-        let common = supports.effective(self.wall(case.wall, case.model).body());
-        common.map(Cow::Owned).map_err(|error| failed(SceneError::Value { message: error.to_string() }))
+        })
     }
 
     /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend
