@@ -158,15 +158,12 @@ pub(super) fn load(
 }
 
 /// What is wrong with a motion: something in the table itself, or in the record.
+#[derive(Debug, thiserror::Error)]
 enum Problem {
+    #[error("{0}")]
     Table(String),
-    Motion(GroundMotionError),
-}
-
-impl From<GroundMotionError> for Problem {
-    fn from(error: GroundMotionError) -> Self {
-        Self::Motion(error)
-    }
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
 }
 
 /// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
