@@ -75,8 +75,8 @@ impl Additions {
 }
 
 impl Description {
-    /// The FMI 3.0 description, whose instantiation token is the guid, and `terminalsAndIcons.xml` if there are
-    /// terminals.
+    /// The FMI 3.0 description, whose instantiation token is the guid, and `terminalsAndIcons.xml` if there
+    /// are terminals.
     ///
     /// Variables keep their value references. Units and nominal values of Reals stand in their types, which
     /// get variants where they differ. The independent variable `time` is added if there is none, and

@@ -48,8 +48,8 @@ pub enum ReductionError {
 }
 
 impl Description {
-    /// The description with the variables, start values, names and experiment of `reduction`, and with `guid`,
-    /// braces included.
+    /// The description with the variables, start values, names and experiment of `reduction`, and with
+    /// `guid`, braces included.
     ///
     /// Value references are kept, and indices are renumbered. Model Exchange is removed if a state or
     /// derivative is. Units, types and dependencies that are no longer used are removed, too.
