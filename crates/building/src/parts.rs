@@ -1,7 +1,6 @@
 //! The contents of a building's units, scenes of walls and values of storeys; and their system as an SSP
 //! archive.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use fmu_export::VariableId;
@@ -141,12 +140,8 @@ fn general(path: &Path, option: &str) -> Result<General, BuildingError> {
 
 /// The values of a storey, as its `resources/floor.toml`.
 fn payload(floor: &Floor) -> String {
-    let mut payload = String::new();
-    for Parameter { name, text, .. } in &floor.parameters {
-        // writing to a String cannot fail
-        let _ = writeln!(payload, "{name} = {text}");
-    }
-    payload
+    let line = |Parameter { name, text, .. }: &Parameter| format!("{name} = {text}\n");
+    floor.parameters.iter().map(line).collect()
 }
 
 /// The FMU of a storey, made from the general one.

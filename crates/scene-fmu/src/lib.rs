@@ -5,8 +5,6 @@
 mod error;
 mod general;
 
-use std::fmt::Write;
-
 use fmu_export_build::archive::Archive;
 use fmu_export_build::{DefaultExperiment, Reduction};
 use ground_motion::GroundMotion;
@@ -102,11 +100,8 @@ pub fn check(scene: &Scene) -> Result<Wall, SceneFmuError> {
 
 /// Puts a motion into the archive and returns the keys that read it.
 fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
-    let mut csv = String::new();
-    for sample in motion.samples() {
-        // writing to a String cannot fail
-        let _ = writeln!(csv, "{sample:?}");
-    }
+    let line = |sample: &f64| format!("{sample:?}\n");
+    let csv: String = motion.samples().iter().map(line).collect();
     let table = format!(
         "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",
         motion.step(),
