@@ -36,6 +36,7 @@ pub use storeys::{Floors, StoreyTable, SupportsTable};
 pub use document::read_text;
 use error::check_duration;
 pub use error::{Place, SceneError};
+use motion::Loaded;
 pub use nearest::suggestion;
 use parameter::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits, number};
@@ -158,9 +159,9 @@ impl Scene {
             parameter::apply_group(&mut parameters, group, entries, place)?;
         }
         let motion = document.motion.as_ref();
-        let loaded = motion
-            .map(|table| motion::load(table, place, folder, !document.storeys.is_empty()))
-            .transpose()?;
+        let loaded = motion.map(|table| motion::load(table, place, folder, !document.storeys.is_empty()));
+        let Loaded { excitation, tail, notes: mut motion_notes, records } =
+            loaded.transpose()?.unwrap_or_default();
         let inputs = document.inputs(place)?;
         let floors = read_floors(&document.storeys, document.supports.as_ref(), place)?;
         if motion.is_some() || !inputs.is_empty() {
@@ -170,15 +171,9 @@ impl Scene {
                 parameters.u_start = 0.0;
             }
         }
-        if let (Some(table), Some(loaded)) = (motion, &loaded)
-            && let Some(message) = moved_apart(&parameters, Some(&loaded.excitation))
-        {
+        if let (Some(table), Some(message)) = (motion, moved_apart(&parameters, excitation.as_ref())) {
             return Err(place.error(table.span(), message));
         }
-        let (excitation, tail, mut motion_notes, records) = match loaded {
-            Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes, loaded.records),
-            None => (None, 0.0, Vec::new(), Vec::new()),
-        };
         motion_notes.extend(floors.iter().map(Floors::note));
         let free = Self::default();
         let thresholds = match &document.thresholds {
@@ -365,7 +360,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
 /// Writes the numbers of a bar as they stand in its table.
 fn bar_text(bar: &Bar) -> String {
     let numbers = Bar::NUMBERS.iter().enumerate();
-    let given = numbers.filter_map(|(at, number)| Some(format!("{} = {:?}", number.key, bar.get(at)?)));
+    let given = numbers.filter_map(|(at, number)| Some(format!("{} = {:?}", number.key(), bar.get(at)?)));
     given.collect::<Vec<_>>().join(", ")
 }
 

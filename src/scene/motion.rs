@@ -132,9 +132,10 @@ tables! {
     }
 }
 
-/// A motion ready to use.
+/// A motion ready to use; none by default.
+#[derive(Default)]
 pub(super) struct Loaded {
-    pub(super) excitation: Excitation,
+    pub(super) excitation: Option<Excitation>,
     pub(super) tail: f64,
     pub(super) notes: Vec<String>,
     /// Files of the records.
@@ -158,15 +159,12 @@ pub(super) fn load(
 }
 
 /// What is wrong with a motion: something in the table itself, or in the record.
+#[derive(Debug, thiserror::Error)]
 enum Problem {
+    #[error("{0}")]
     Table(String),
-    Motion(GroundMotionError),
-}
-
-impl From<GroundMotionError> for Problem {
-    fn from(error: GroundMotionError) -> Self {
-        Self::Motion(error)
-    }
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
 }
 
 /// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
@@ -210,7 +208,7 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
     notes.push(format!("{peak}, {} s", (1e4 * excitation.duration()).round() / 1e4));
     let files = spec.record.iter().chain(spec.top.as_ref().map(|top| &top.record));
     let records = files.map(|file| folder.join(file)).collect();
-    Ok(Loaded { excitation, tail, notes, records })
+    Ok(Loaded { excitation: Some(excitation), tail, notes, records })
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {

@@ -66,23 +66,16 @@ pub fn apply_group(
     let mut points = None;
     let mut bar = None;
     for (key, value) in entries {
-        let name = key.get_ref().as_str();
-        if group == "force_law" && name == POINTS {
-            points = Some((key, value));
-            continue;
+        let own = value.get_ref();
+        match (group, key.get_ref().as_str()) {
+            ("force_law", POINTS) => points = Some((key, value)),
+            ("force_law", "force_law") if own.as_str() == Some(MULTILINEAR) => multilinear = Some(key),
+            (TIE_GROUP, BAR) => bar = Some(value),
+            (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
+                set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
+            }
+            (_, name) => return Err(place.error(key.span(), unknown(name, group, names))),
         }
-        if group == "force_law" && name == "force_law" && value.get_ref().as_str() == Some(MULTILINEAR) {
-            multilinear = Some(key);
-            continue;
-        }
-        if (group, name) == (TIE_GROUP, BAR) {
-            bar = Some(value);
-            continue;
-        }
-        if !names.contains(&name) && (group, name) != (KINEMATICS_GROUP, KINEMATICS) {
-            return Err(place.error(key.span(), unknown(name, group, names)));
-        }
-        set(parameters, name, value.get_ref()).map_err(|message| place.error(value.span(), message))?;
     }
     match (multilinear, points) {
         (Some(_), Some((_, value))) => {
@@ -122,8 +115,8 @@ fn read_bar(
     let mut bar = Bar::default();
     for (key, value) in entries {
         let fail = |message| place.error(inner_span(place, table.span(), key), message);
-        let Some(index) = Bar::NUMBERS.iter().position(|number| number.key == key) else {
-            let keys = Bar::NUMBERS.map(|number| number.key);
+        let Some(index) = Bar::NUMBERS.iter().position(|number| number.key() == key) else {
+            let keys = Bar::NUMBERS.map(|number| number.key());
             let meant = suggestion(key, keys.iter().copied());
             let keys = keys.join(", ");
             return Err(fail(format!("unknown key {key:?} in [tie.bar]{meant}; it holds {keys}")));
@@ -132,7 +125,7 @@ fn read_bar(
     }
     let missing = Bar::NUMBERS.iter().enumerate().find(|(at, of)| of.is_required && bar.get(*at).is_none());
     if let Some((_, number)) = missing {
-        return Err(place.error(table.span(), format!("tie.bar needs {}; add it", number.key)));
+        return Err(place.error(table.span(), format!("tie.bar needs {}; add it", number.key())));
     }
     parameters.bar = Some(bar);
     follow_bar(parameters).map_err(|message| place.error(table.span(), message))

@@ -330,9 +330,9 @@ fn bar() -> Schema {
     let describe = |number: BarNumber| {
         let unit = Some(number.usual.unit).filter(|unit| !unit.is_empty());
         let text = format!("{}{}", number.text, unit.map_or(String::new(), |unit| format!(" [{unit}]")));
-        (number.key.to_owned(), with(positive(), "description", text).into())
+        (number.key().to_owned(), with(positive(), "description", text).into())
     };
-    let required = Bar::NUMBERS.iter().filter(|number| number.is_required).map(|number| number.key);
+    let required = Bar::NUMBERS.iter().filter(|number| number.is_required).map(BarNumber::key);
     let bar = with(
         object(Bar::NUMBERS.map(describe).into_iter().collect()),
         "required",

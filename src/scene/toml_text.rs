@@ -164,21 +164,19 @@ fn in_value(value: &DeValue<'_>, span: &Range<usize>, keys: &mut Vec<String>) ->
 
 /// Returns where a key of the innermost table at a place stands; the table's own place if it is not found.
 pub(super) fn inner_span(place: &Place<'_>, table: Range<usize>, key: &str) -> Range<usize> {
-    fn find(of: &DeTable<'_>, table: &Range<usize>, key: &str) -> Option<Range<usize>> {
-        of.values().find_map(|value| in_value(value, table, key))
-    }
-    fn in_value(value: &Spanned<DeValue<'_>>, table: &Range<usize>, key: &str) -> Option<Range<usize>> {
+    fn innermost<'a, 'b>(value: &'a Spanned<DeValue<'b>>, span: &Range<usize>) -> Option<&'a DeTable<'b>> {
         match value.get_ref() {
-            DeValue::Table(inner) => {
-                let own = || inner.keys().find(|own| own.get_ref() == key).map(Spanned::span);
-                find(inner, table, key).or_else(|| own().filter(|_| value.span() == *table))
+            DeValue::Table(own) => {
+                let inner = own.values().find_map(|value| innermost(value, span));
+                inner.or(Some(own).filter(|_| value.span() == *span))
             }
-            DeValue::Array(items) => items.iter().find_map(|item| in_value(item, table, key)),
+            DeValue::Array(items) => items.iter().find_map(|item| innermost(item, span)),
             _ => None,
         }
     }
-    let found = parse_document(place).ok().and_then(|document| find(&document, &table, key));
-    found.unwrap_or(table)
+    let document = parse_document(place).unwrap_or_default();
+    let found = document.values().find_map(|value| innermost(value, &table));
+    found.and_then(|found| found.keys().find(|own| own.get_ref() == key)).map_or(table, Spanned::span)
 }
 
 /// Replaces the Rust type that the reader expects with TOML's own word.

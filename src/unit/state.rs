@@ -1,6 +1,6 @@
 //! The state of a unit as bytes: everything that does not follow from the rest.
 
-use fmu_export::{Experiment, Failure, StateCodec};
+use fmu_export::{Failure, StateCodec};
 
 use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};
@@ -22,10 +22,7 @@ impl Unit {
         for input in [bottom, top, drift] {
             input.transfer(codec)?;
         }
-        let Experiment { tolerance, start, stop } = &mut self.experiment;
-        codec.f64(start)?;
-        codec.option(tolerance)?;
-        codec.option(stop)?;
+        self.experiment.transfer(codec)?;
         codec.bool(&mut self.running)?;
         for warned in &mut self.warned {
             codec.bool(warned)?;

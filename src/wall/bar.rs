@@ -98,13 +98,11 @@ pub enum TiePart {
 /// A number of a bar, as files and messages have it.
 #[derive(Clone, Copy, Debug)]
 pub struct BarNumber {
-    /// Its key in `[tie.bar]`.
-    pub key: &'static str,
     /// What it is.
     pub text: &'static str,
     /// Whether it has to be given.
     pub is_required: bool,
-    /// Its name outside of `[tie.bar]`, its unit and usual range.
+    /// Its name, its unit and usual range.
     pub usual: Usual,
 }
 
@@ -112,80 +110,75 @@ pub struct BarNumber {
 const STRESSES: &[(&str, f64)] = &[("in MPa", 1e6), ("in GPa", 1e9)];
 
 const fn number(
-    key: &'static str,
     name: &'static str,
-    (text, is_required): (&'static str, bool),
-    (unit, range): (&'static str, [f64; 2]),
+    text: &'static str,
+    is_required: bool,
+    unit: &'static str,
+    range: [f64; 2],
     others: &'static [(&'static str, f64)],
 ) -> BarNumber {
-    BarNumber { key, text, is_required, usual: Usual { name, unit, range, others } }
+    BarNumber { text, is_required, usual: Usual { name, unit, range, others } }
+}
+
+impl BarNumber {
+    /// Returns its key in `[tie.bar]`.
+    pub fn key(&self) -> &'static str {
+        self.usual.name.trim_start_matches("bar_")
+    }
 }
 
 impl Bar {
     /// The numbers of a bar, in the order of its fields.
     pub const NUMBERS: [BarNumber; 7] = [
-        number("diameter", "bar_diameter", ("Diameter of the bar", true), ("m", [0.004, 0.08]), LENGTHS),
-        number(
-            "length",
-            "bar_length",
-            ("Free length between the anchors", true),
-            ("m", [0.2, 60.0]),
-            LENGTHS,
-        ),
+        number("bar_diameter", "Diameter of the bar", true, "m", [0.004, 0.08], LENGTHS),
+        number("bar_length", "Free length between the anchors", true, "m", [0.2, 60.0], LENGTHS),
         // from aluminium or fibres to steel
         number(
-            "young_modulus",
             "bar_young_modulus",
-            ("Young's modulus of the bar; 210e9 Pa by default", false),
-            ("Pa", [30e9, 300e9]),
+            "Young's modulus of the bar; 210e9 Pa by default",
+            false,
+            "Pa",
+            [30e9, 300e9],
             STRESSES,
         ),
+        number("bar_yield_stress", "Stress at which the bar yields", true, "Pa", [50e6, 2e9], STRESSES),
         number(
-            "yield_stress",
-            "bar_yield_stress",
-            ("Stress at which the bar yields", true),
-            ("Pa", [50e6, 2e9]),
-            STRESSES,
-        ),
-        number(
-            "ultimate_strain",
             "bar_ultimate_strain",
-            ("Strain at which the bar tears; where none is given, the tie stays elastic", false),
-            ("", [0.002, 0.4]),
+            "Strain at which the bar tears; where none is given, the tie stays elastic",
+            false,
+            "",
+            [0.002, 0.4],
             &[("in per cent", 0.01)],
         ),
         number(
-            "anchor_capacity",
             "bar_anchor_capacity",
-            (
-                "Force at which an anchor fails, without warning; by default it is stronger than the bar",
-                false,
-            ),
-            ("N", [1e3, 2e6]),
+            "Force at which an anchor fails, without warning; by default it is stronger than the bar",
+            false,
+            "N",
+            [1e3, 2e6],
             FORCES,
         ),
         number(
-            "spacing",
             "bar_spacing",
-            ("Distance between bars along the wall; by default one bar holds its width", false),
-            ("m", [0.2, 30.0]),
+            "Distance between bars along the wall; by default one bar holds its width",
+            false,
+            "m",
+            [0.2, 30.0],
             LENGTHS,
         ),
     ];
 
     /// Returns a number by its place in [`Self::NUMBERS`]; `None` where it is not given.
     pub fn get(&self, index: usize) -> Option<f64> {
-        let Self { diameter, length, young_modulus, yield_stress, .. } = *self;
         let given = |value: f64| Some(value).filter(|value| *value != 0.0);
-        let Self { ultimate_strain, anchor_capacity, spacing, .. } = *self;
         [
-            given(diameter),
-            given(length),
-            given(young_modulus),
-            given(yield_stress),
-            ultimate_strain,
-            anchor_capacity,
-            spacing,
+            given(self.diameter),
+            given(self.length),
+            given(self.young_modulus),
+            given(self.yield_stress),
+            self.ultimate_strain,
+            self.anchor_capacity,
+            self.spacing,
         ][index]
     }
 

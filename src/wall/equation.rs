@@ -7,7 +7,6 @@ use super::capacity::Statics;
 use super::damping::{Damping, DampingLaw, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
-use super::layout;
 use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
@@ -21,9 +20,9 @@ pub struct Wall {
     statics: Statics,
     rotations: Option<FullRotations>,
     tie_memory: TieMemory,
-    damping: DampingLaw,
+    pub(super) damping: DampingLaw,
     restitution: f64,
-    impact: bool,
+    pub(super) impact: bool,
     rocking: Rocking,
     branches: Vec<Branch>,
     corners: Vec<Corner>,
@@ -84,12 +83,9 @@ impl Wall {
     #[must_use]
     pub fn with_tie_memory(mut self, memory: TieMemory) -> Self {
         self.tie_memory = memory;
-        let Self { statics: Statics { body, force, tie }, rotations, damping, impact, .. } = &self;
-        let (fully, free_side) = (rotations.is_some(), self.free_side());
-        let tie = tie.as_ref().map(|tie| (tie, &memory));
-        let corners = layout::corners(body, force, damping, tie, *impact, fully, free_side);
-        let branches = layout::branches(&corners, body, force, damping, tie);
-        Self { branches, corners, ..self }
+        self.corners = self.lay_out_corners();
+        self.branches = self.lay_out_branches();
+        self
     }
 
     /// The wall at rest.
@@ -129,7 +125,11 @@ impl Wall {
 
     /// Returns the sign of u to which the wall can rock, if it can rock to one side only.
     pub fn free_side(&self) -> Option<f64> {
-        free_side(self.rocking)
+        match self.rocking {
+            Rocking::TwoSided => None,
+            Rocking::OneSidedPositive => Some(1.0),
+            Rocking::OneSidedNegative => Some(-1.0),
+        }
     }
 
     /// Checks a displacement \[m\] at which a run is to start.
@@ -372,13 +372,5 @@ impl Wall {
             }
         }
         points
-    }
-}
-
-fn free_side(rocking: Rocking) -> Option<f64> {
-    match rocking {
-        Rocking::TwoSided => None,
-        Rocking::OneSidedPositive => Some(1.0),
-        Rocking::OneSidedNegative => Some(-1.0),
     }
 }

@@ -4,18 +4,17 @@
 //! algebraic loop. At each communication point Newton's method closes it, by the directional derivatives of
 //! the units (docs/coupling.md). Over a step, inputs are then linear, by the derivatives of the outputs.
 
-use fmu_export::Step;
+use fmu_export::{Step, VariableId};
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::{SceneError, check_tail};
 use rocking_wall::variables::RealVariable as WallVariable;
 
-use crate::document::Building;
 use crate::error::BuildingError;
 use crate::histories::{FloorHistory, History, WallHistory};
 use crate::parts::Parts;
-use crate::units::{Plan, Unit, at};
+use crate::units::{Plan, Unit};
 
 /// Longest communication step \[s\].
 const LONGEST_STEP: f64 = 2e-3;
@@ -73,13 +72,8 @@ impl Coupled {
     ///
     /// # Errors
     /// [`BuildingError`] where a unit fails, the loop does not close, or the step would become too small.
-    pub fn run(
-        building: &Building,
-        parts: &Parts,
-        ground: &GroundMotion,
-        settings: Settings,
-    ) -> Result<Self, BuildingError> {
-        Self::run_while(building, parts, ground, settings, &|| true)
+    pub fn run(parts: &Parts, ground: &GroundMotion, settings: Settings) -> Result<Self, BuildingError> {
+        Self::run_while(parts, ground, settings, &|| true)
     }
 
     /// Runs a building as [`run`](Self::run) does, and stops once `is_wanted` returns `false`.
@@ -87,13 +81,12 @@ impl Coupled {
     /// # Errors
     /// As [`run`](Self::run), and [`BuildingError::Stopped`].
     pub fn run_while(
-        building: &Building,
         parts: &Parts,
         ground: &GroundMotion,
         settings: Settings,
         is_wanted: &dyn Fn() -> bool,
     ) -> Result<Self, BuildingError> {
-        let (plan, references) = (&parts.plan, References::new(building));
+        let plan = &parts.plan;
         let mut parts = (ground.step() / LONGEST_STEP).ceil().max(1.0);
         let mut before: Option<Self> = None;
         loop {
@@ -107,7 +100,7 @@ impl Coupled {
                 );
                 return Err(BuildingError::Run { time: settings.end, reason });
             }
-            let mut run = Loop::new(plan, &references, ground)?.run_to_end(parts, settings.end, is_wanted)?;
+            let mut run = Loop::new(plan, ground)?.run_to_end(parts, settings.end, is_wanted)?;
             if let Some(before) = &before {
                 run.change = run.change_from(before);
                 if run.change <= settings.tolerance {
@@ -140,33 +133,9 @@ impl Coupled {
     }
 }
 
-/// References of the outputs that are shown.
-struct References {
-    floors: Vec<[(usize, u32); 2]>,
-    walls: Vec<[[(usize, u32); 3]; 3]>,
-}
-
-impl References {
-    fn new(building: &Building) -> Self {
-        use WallVariable as V;
-        let floor =
-            |unit| [FloorVariable::AccelerationAbsolute, FloorVariable::Displacement].map(|id| at(unit, id));
-        let of_wall = [
-            [V::U, V::URatio, V::ReactionBottom],
-            [V::ReactionTop, V::UMax, V::OverturnTime],
-            [V::TieElongation, V::TieElongationNegative, V::TieBreakTime],
-        ];
-        let wall = |unit| of_wall.map(|three| three.map(|id| at(unit, id)));
-        let floors = building.floors.len();
-        let units = floors + building.walls.len();
-        Self { floors: (0..floors).map(floor).collect(), walls: (floors..units).map(wall).collect() }
-    }
-}
-
 /// The units of a building during a run.
 struct Loop<'a> {
     plan: &'a Plan,
-    references: &'a References,
     ground: &'a GroundMotion,
     units: Vec<Box<dyn Unit>>,
     /// Present inputs, one for each connection, and the largest of each so far.
@@ -177,14 +146,10 @@ struct Loop<'a> {
 }
 
 impl<'a> Loop<'a> {
-    fn new(
-        plan: &'a Plan,
-        references: &'a References,
-        ground: &'a GroundMotion,
-    ) -> Result<Self, BuildingError> {
+    fn new(plan: &'a Plan, ground: &'a GroundMotion) -> Result<Self, BuildingError> {
         let units = plan.start().map_err(|reason| BuildingError::Run { time: 0.0, reason })?;
         let values = DVector::zeros(plan.connections.len());
-        Ok(Self { plan, references, ground, units, largest: values.clone(), values, factors: None })
+        Ok(Self { plan, ground, units, largest: values.clone(), values, factors: None })
     }
 
     /// Runs to the end, with `parts` communication steps for each step of the record.
@@ -202,8 +167,8 @@ impl<'a> Loop<'a> {
             change: f64::INFINITY,
             times: Vec::with_capacity(samples + 1),
             ground: History::default(),
-            floors: vec![FloorHistory::default(); self.references.floors.len()],
-            walls: vec![WallHistory::default(); self.references.walls.len()],
+            floors: vec![FloorHistory::default(); self.plan.floors],
+            walls: vec![WallHistory::default(); self.units.len() - self.plan.floors],
         };
         for sample in 0..=samples {
             if !is_wanted() {
@@ -297,27 +262,28 @@ impl<'a> Loop<'a> {
     }
 
     fn show(&self, run: &mut Coupled, ground: f64, time: f64, is_shown: bool) {
-        let get = |(unit, output): (usize, u32)| self.units[unit].get(output);
+        use WallVariable as V;
         if is_shown {
             run.times.push(time);
         }
         run.ground.add(ground, time, is_shown);
-        for (floor, of) in run.floors.iter_mut().zip(&self.references.floors) {
-            floor.acceleration.add(get(of[0]), time, is_shown);
-            floor.drift.add(get(of[1]), time, is_shown);
+        let (floors, walls) = self.units.split_at(self.plan.floors);
+        for (floor, unit) in run.floors.iter_mut().zip(floors) {
+            let get = |id: FloorVariable| unit.get(id.variable().reference);
+            floor.acceleration.add(get(FloorVariable::AccelerationAbsolute), time, is_shown);
+            floor.drift.add(get(FloorVariable::Displacement), time, is_shown);
         }
-        for (wall, of) in run.walls.iter_mut().zip(&self.references.walls) {
-            let [[u, ratio, bottom], [top, largest, overturned], [positive, negative, broke]] =
-                of.map(|three| three.map(get));
-            wall.displacement.add(u, time, is_shown);
-            wall.ratio.add(ratio, time, is_shown);
-            wall.reaction_bottom.add(bottom, time, is_shown);
-            wall.reaction_top.add(top, time, is_shown);
-            wall.largest = largest;
+        for (wall, unit) in run.walls.iter_mut().zip(walls) {
+            let get = |id: V| unit.get(id.variable().reference);
+            wall.displacement.add(get(V::U), time, is_shown);
+            wall.ratio.add(get(V::URatio), time, is_shown);
+            wall.reaction_bottom.add(get(V::ReactionBottom), time, is_shown);
+            wall.reaction_top.add(get(V::ReactionTop), time, is_shown);
+            wall.largest = get(V::UMax);
             // -1 before
             [wall.overturn_time, wall.tie_break_time] =
-                [overturned, broke].map(|time| Some(time).filter(|time| *time >= 0.0));
-            wall.tie_elongation = positive.max(negative);
+                [V::OverturnTime, V::TieBreakTime].map(|id| Some(get(id)).filter(|time| *time >= 0.0));
+            wall.tie_elongation = get(V::TieElongation).max(get(V::TieElongationNegative));
         }
     }
 }

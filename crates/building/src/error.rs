@@ -1,5 +1,7 @@
 //! What can be wrong with a building.
 
+use std::fmt::Display;
+
 use rocking_wall::scene::SceneError;
 
 /// Why a building cannot be used.
@@ -9,19 +11,23 @@ pub enum BuildingError {
     /// The file of the building.
     #[error(transparent)]
     Document(#[from] SceneError),
-    /// A wall, or its scene.
-    #[error("wall {wall:?}: {reason}")]
-    Wall { wall: String, reason: String },
-    /// A storey.
-    #[error("floor {floor:?}: {reason}")]
-    Floor { floor: String, reason: String },
-    /// The FMU that a part is made of.
-    #[error("{file}: {reason}")]
-    General { file: String, reason: String },
+    /// A wall, a storey, or the file of the FMU that they are made of.
+    #[error("{part}: {reason}")]
+    Part { part: String, reason: String },
     /// The run was no longer wanted.
     #[error("the run was stopped")]
     Stopped,
     /// The run.
     #[error("at t = {time} s: {reason}")]
     Run { time: f64, reason: String },
+}
+
+impl BuildingError {
+    pub(crate) fn of_wall(name: &str, reason: impl Display) -> Self {
+        Self::Part { part: format!("wall {name:?}"), reason: reason.to_string() }
+    }
+
+    pub(crate) fn of_floor(name: &str, reason: impl Display) -> Self {
+        Self::Part { part: format!("floor {name:?}"), reason: reason.to_string() }
+    }
 }

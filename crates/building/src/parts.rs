@@ -1,7 +1,6 @@
 //! The contents of a building's units, scenes of walls and values of storeys; and their system as an SSP
 //! archive.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use fmu_export::VariableId;
@@ -41,7 +40,7 @@ impl Parts {
         let (mut scenes, mut walls, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
         for member in &building.walls {
             let (scene, wall) = scene(building, member, &mut warnings)
-                .map_err(|reason| BuildingError::Wall { wall: member.name.clone(), reason })?;
+                .map_err(|reason| BuildingError::of_wall(&member.name, reason))?;
             scenes.push(scene);
             walls.push(wall);
         }
@@ -52,20 +51,20 @@ impl Parts {
         let system = system(building, &scenes)?;
         let payloads = building.floors.iter().map(payload);
         let payloads = payloads.chain(scenes.iter().map(|scene| to_toml(scene, ""))).collect();
-        let plan = Plan::new(building, &system, payloads);
+        let plan = Plan::new(building.floors.len(), &system, payloads);
         Ok(Self { scenes, walls, system, plan, warnings })
     }
 
     /// Returns the numbers of units and of connections.
     pub fn counts(&self) -> (usize, usize) {
-        (self.system.components.len(), self.system.connections.len())
+        (self.system.components.len(), self.system.described().count())
     }
 
     /// Makes the SSP of the building from the general FMUs of walls and floors. The system and each unit
     /// state the building's stop time and the communication step `step` \[s\].
     ///
     /// # Errors
-    /// [`BuildingError::General`] where an FMU cannot be used.
+    /// [`BuildingError::Part`] where an FMU cannot be used.
     pub fn archive(
         &self,
         building: &Building,
@@ -77,26 +76,19 @@ impl Parts {
         for (scene, member) in self.scenes.iter().zip(&building.walls) {
             let general = general(wall_fmu, "--wall-fmu")?;
             let unit = of_scene_in(scene, general, experiment(building.stop_time, step))
-                .map_err(|error| wall_failed(member, &error))?;
-            let bytes = unit.archive.to_bytes().map_err(|error| wall_failed(member, &error))?;
+                .map_err(|error| BuildingError::of_wall(&member.name, error))?;
+            let bytes =
+                unit.archive.to_bytes().map_err(|error| BuildingError::of_wall(&member.name, error))?;
             archive.insert(fmu_path(&member.name), bytes);
         }
         for (floor, payload) in building.floors.iter().zip(&self.plan.payloads) {
             let unit = storey(building, step, floor, payload, floor_fmu)?;
-            let bytes = unit.to_bytes().map_err(|error| floor_failed(floor, &error))?;
+            let bytes = unit.to_bytes().map_err(|error| BuildingError::of_floor(&floor.name, error))?;
             archive.insert(fmu_path(&floor.name), bytes);
         }
         archive.insert("SystemStructure.ssd", ssd::text(&self.system, step));
         Ok(archive)
     }
-}
-
-fn wall_failed(wall: &Member, error: &dyn std::fmt::Display) -> BuildingError {
-    BuildingError::Wall { wall: wall.name.clone(), reason: error.to_string() }
-}
-
-fn floor_failed(floor: &Floor, error: &dyn std::fmt::Display) -> BuildingError {
-    BuildingError::Floor { floor: floor.name.clone(), reason: error.to_string() }
 }
 
 /// The scene of a wall, with the building's stop time and the inputs that its place in the building moves.
@@ -142,18 +134,14 @@ fn general(path: &Path, option: &str) -> Result<General, BuildingError> {
         let reason = format!(
             "expected a general FMU; make it with `cargo xtask fmu`, or name it with {option}: {error}"
         );
-        BuildingError::General { file: path.display().to_string(), reason }
+        BuildingError::Part { part: path.display().to_string(), reason }
     })
 }
 
 /// The values of a storey, as its `resources/floor.toml`.
 fn payload(floor: &Floor) -> String {
-    let mut payload = String::new();
-    for Parameter { name, text, .. } in &floor.parameters {
-        // writing to a String cannot fail
-        let _ = writeln!(payload, "{name} = {text}");
-    }
-    payload
+    let line = |Parameter { name, text, .. }: &Parameter| format!("{name} = {text}\n");
+    floor.parameters.iter().map(line).collect()
 }
 
 /// The FMU of a storey, made from the general one.
@@ -164,30 +152,21 @@ fn storey(
     payload: &str,
     path: &Path,
 ) -> Result<Archive, BuildingError> {
-    let mut general = general(path, "--floor-fmu")?;
-    if general.description.model_identifier() != "floor" {
-        let found = general.description.model_identifier();
+    let general = general(path, "--floor-fmu")?;
+    let found = general.description.model_identifier();
+    if found != "floor" {
         let reason = format!("is the FMU of `{found}`, not of a floor; name the right one with --floor-fmu");
-        return Err(BuildingError::General { file: path.display().to_string(), reason });
+        return Err(BuildingError::Part { part: path.display().to_string(), reason });
     }
-    let starts: Vec<_> = floor
-        .parameters
-        .iter()
-        .map(|parameter| (parameter.name.to_owned(), parameter.start.clone()))
-        .collect();
-    let reduced = general
-        .description
-        .reduced(&Reduction {
-            model_name: &floor.name,
-            description: &format!("Storey of: {}", building.title),
-            guid: &general.guid_with(payload),
-            keep: &|_| true,
-            starts: &starts,
-            experiment: experiment(building.stop_time, step),
-        })
-        .map_err(|error| floor_failed(floor, &error))?;
-    general.describe(&reduced).map_err(|error| floor_failed(floor, &error))?;
-    let mut archive = general.archive;
-    archive.insert("resources/floor.toml", payload);
+    let starts = floor.parameters.iter().map(|given| (given.name.to_owned(), given.start.clone()));
+    let reduction = Reduction {
+        model_name: &floor.name,
+        description: &format!("Storey of: {}", building.title),
+        keep: &|_| true,
+        starts: &starts.collect::<Vec<_>>(),
+        experiment: experiment(building.stop_time, step),
+    };
+    let unit = general.unit(("floor.toml", payload), &reduction);
+    let (archive, _) = unit.map_err(|error| BuildingError::of_floor(&floor.name, error))?;
     Ok(archive)
 }

@@ -33,7 +33,7 @@ pub(crate) fn text(system: &System, step: f64) -> String {
         String::new()
     };
     let elements: String = system.components.iter().map(component).collect();
-    let connections: String = system.connections.iter().map(|each| connection(system, each)).collect();
+    let connections: String = system.described().map(|each| connection(system, each)).collect();
     let (units, stop_time) = (units(system), system.stop_time);
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>

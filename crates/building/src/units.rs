@@ -2,12 +2,9 @@
 
 use fmu_export::{Environment, Experiment, Interface, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit as FloorUnit;
-use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::unit::Unit as WallUnit;
-use rocking_wall::variables::RealVariable as WallVariable;
 
-use crate::document::{Building, Support};
-use crate::wiring::System;
+use crate::wiring::{Connection, System};
 
 /// The result of a unit: its message, if it fails.
 type Result<T, E = String> = std::result::Result<T, E>;
@@ -80,24 +77,17 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Makes the plan of a building from its system and the contents of its units.
-    pub(crate) fn new(building: &Building, system: &System, payloads: Vec<String>) -> Self {
-        let connected = system.connections.iter().filter_map(|connection| {
-            let output = (connection.from?, connection.output.reference);
-            Some([output, (connection.to, connection.input.reference)])
-        });
-        let bases =
-            building.floors.iter().map(|floor| vec![(Some(floor.base), FloorVariable::AG.variable())]);
-        let ends = building.walls.iter().map(|wall| {
-            let (bottom, top) = (WallVariable::ABottom.variable(), WallVariable::ATop.variable());
-            vec![(Some(wall.bottom), bottom), (wall.top, top)]
-        });
-        let mut ground = Vec::new();
-        for (index, supports) in bases.chain(ends).enumerate() {
-            let moved = supports.iter().filter(|(support, _)| *support == Some(Support::Ground));
-            ground.extend(moved.map(|(_, input)| (index, input.reference)));
+    /// Makes the plan of a building from its system and the contents of its units, storeys first.
+    pub(crate) fn new(floors: usize, system: &System, payloads: Vec<String>) -> Self {
+        let (mut connections, mut ground) = (Vec::new(), Vec::new());
+        for Connection { from, output, to, input } in &system.connections {
+            let input = (*to, input.reference);
+            match from {
+                Some(from) => connections.push([(*from, output.reference), input]),
+                None => ground.push(input),
+            }
         }
-        Self { payloads, floors: building.floors.len(), connections: connected.collect(), ground }
+        Self { payloads, floors, connections, ground }
     }
 
     /// Makes the units and ends their initialisation.

@@ -27,6 +27,7 @@ pub(crate) struct System {
     /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
     pub(crate) expose_ground: bool,
     pub(crate) components: Vec<Component>,
+    /// All of them, those from the ground too.
     pub(crate) connections: Vec<Connection>,
 }
 
@@ -42,7 +43,7 @@ pub(crate) struct Component {
 /// An output of one component to an input of another.
 #[derive(Clone, Debug)]
 pub(crate) struct Connection {
-    /// `None` for the system's own input.
+    /// `None` for the ground.
     pub(crate) from: Option<usize>,
     pub(crate) output: &'static Variable,
     pub(crate) to: usize,
@@ -66,7 +67,8 @@ pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     for (index, floor) in building.floors.iter().enumerate() {
         system.move_by(floor.base, index, FloorVariable::AG.variable());
         if let Some((below, input)) = loads.next(floor.base)? {
-            system.connect(Some(index), FloorVariable::ReactionBottom.variable(), below, input);
+            let output = FloorVariable::ReactionBottom.variable();
+            system.connections.push(Connection { from: Some(index), output, to: below, input });
         }
     }
     for (index, wall) in building.walls.iter().enumerate() {
@@ -88,38 +90,28 @@ impl Loads<'_> {
         self.taken[index] += 1;
         let name = format!("reaction_{}", self.taken[index]);
         let Some(variable) = FloorVariable::from_name(&name) else {
-            let floor = self.floors[index].name.clone();
             let reason =
                 format!("more than {MOST_LOADS} storeys and walls stand on it or lean on it; divide it");
-            return Err(BuildingError::Floor { floor, reason });
+            return Err(BuildingError::of_floor(&self.floors[index].name, reason));
         };
         Ok(Some((index, variable.variable())))
     }
 }
 
 impl System {
-    fn connect(
-        &mut self,
-        from: Option<usize>,
-        output: &'static Variable,
-        to: usize,
-        input: &'static Variable,
-    ) {
-        self.connections.push(Connection { from, output, to, input });
+    /// Returns the connections that the system describes: without an input for the ground, none from there.
+    pub(crate) fn described(&self) -> impl Iterator<Item = &Connection> {
+        // FMPy cannot read an input connector without a connection
+        self.connections.iter().filter(|connection| self.expose_ground || connection.from.is_some())
     }
 
     /// Connects a support's acceleration to an input.
     fn move_by(&mut self, support: Support, to: usize, input: &'static Variable) {
-        match support {
-            Support::Ground if self.expose_ground => {
-                self.connect(None, FloorVariable::AG.variable(), to, input);
-            }
-            // FMPy cannot read an input connector without a connection
-            Support::Ground => {}
-            Support::Floor(index) => {
-                self.connect(Some(index), FloorVariable::AccelerationAbsolute.variable(), to, input);
-            }
-        }
+        let (from, output) = match support {
+            Support::Ground => (None, FloorVariable::AG),
+            Support::Floor(index) => (Some(index), FloorVariable::AccelerationAbsolute),
+        };
+        self.connections.push(Connection { from, output: output.variable(), to, input });
     }
 
     /// Connects a wall with its supports.
@@ -130,11 +122,13 @@ impl System {
             let Some(support) = support else { continue };
             self.move_by(support, index, input.variable());
             if let Some((floor, load)) = loads.next(support)? {
-                self.connect(Some(index), reaction.variable(), floor, load);
+                let (from, output) = (Some(index), reaction.variable());
+                self.connections.push(Connection { from, output, to: floor, input: load });
             }
         }
         if let Some(floor) = wall.drift {
-            self.connect(Some(floor), FloorVariable::Displacement.variable(), index, Drift.variable());
+            let (output, input) = (FloorVariable::Displacement.variable(), Drift.variable());
+            self.connections.push(Connection { from: Some(floor), output, to: index, input });
         }
         Ok(())
     }
@@ -142,22 +136,24 @@ impl System {
     /// Lists the connectors of each component: what is connected, or worth showing.
     fn list_connectors(&mut self, building: &Building, scenes: &[Scene]) {
         let floors = building.floors.len();
-        for (index, component) in self.components.iter_mut().enumerate() {
+        for index in 0..self.components.len() {
             let is_floor = index < floors;
-            let inputs = self.connections.iter().filter(|connection| connection.to == index);
-            let outputs = self.connections.iter().filter(|connection| connection.from == Some(index));
+            let inputs = self.described().filter(|connection| connection.to == index);
+            let outputs = self.described().filter(|connection| connection.from == Some(index));
             let connected = inputs.map(|connection| connection.input);
             let connected = connected.chain(outputs.map(|connection| connection.output));
             let of_floor = SHOWN_OF_A_FLOOR.iter().filter(|_| is_floor).map(|id| id.variable());
             let of_wall = SHOWN_OF_A_WALL.iter().filter(|_| !is_floor).map(|id| id.variable());
+            let mut connectors = Vec::new();
             for variable in connected.chain(of_floor).chain(of_wall) {
-                if !component.connectors.contains(&variable) {
-                    component.connectors.push(variable);
+                if !connectors.contains(&variable) {
+                    connectors.push(variable);
                 }
             }
             if !is_floor && scenes[index - floors].uses("overturned") {
-                component.connectors.push(BooleanVariable::Overturned.variable());
+                connectors.push(BooleanVariable::Overturned.variable());
             }
+            self.components[index].connectors = connectors;
         }
     }
 }

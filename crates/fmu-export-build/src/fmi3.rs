@@ -4,7 +4,7 @@
 //! use fmu_export_build::{Additions, Description};
 //!
 //! let description = Description::parse(r#"
-//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="">
+//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="{0}">
 //!       <CoSimulation modelIdentifier="clock"/>
 //!       <ModelVariables>
 //!         <ScalarVariable name="rate" valueReference="1" causality="parameter" variability="fixed">
@@ -14,7 +14,8 @@
 //!       <ModelStructure/>
 //!     </fmiModelDescription>"#)?;
 //! let additions = Additions::parse("<fmi3/>")?;
-//! let (xml, terminals) = description.to_fmi3(&additions, "{0}")?;
+//! let (xml, terminals) = description.to_fmi3(&additions)?;
+//! assert!(xml.contains(r#"instantiationToken="{0}""#));
 //! assert!(xml.contains(r#"<Float64 name="rate" valueReference="1""#));
 //! assert_eq!(terminals, None);
 //! # Ok::<(), fmu_export_build::Fault>(())
@@ -74,7 +75,7 @@ impl Additions {
 }
 
 impl Description {
-    /// The FMI 3.0 description, with `token` as its instantiation token, and `terminalsAndIcons.xml` if there
+    /// The FMI 3.0 description, whose instantiation token is the guid, and `terminalsAndIcons.xml` if there
     /// are terminals.
     ///
     /// Variables keep their value references. Units and nominal values of Reals stand in their types, which
@@ -84,13 +85,13 @@ impl Description {
     ///
     /// # Errors
     /// A variable that takes a name or a value reference of the added ones, with its line.
-    pub fn to_fmi3(&self, additions: &Additions, token: &str) -> Result<(String, Option<String>), Fault> {
+    pub fn to_fmi3(&self, additions: &Additions) -> Result<(String, Option<String>), Fault> {
         self.check_reserved()?;
         let mut root = Element::new("fmiModelDescription", &[]);
         for (name, value) in &self.root.attributes {
             match name.as_str() {
                 "fmiVersion" => root.set_attribute(name, "3.0"),
-                "guid" => root.set_attribute("instantiationToken", token),
+                "guid" => root.set_attribute("instantiationToken", value.as_str()),
                 "numberOfEventIndicators" => {}
                 _ => root.set_attribute(name, value.as_str()),
             }

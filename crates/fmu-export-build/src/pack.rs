@@ -144,10 +144,8 @@ impl Package {
             let path = self.description.with_file_name("fmi3.xml");
             let additions = if path.exists() { read_text(&path)? } else { "<fmi3/>".to_owned() };
             let sources = Sources::parse(text, additions).map_err(|fault| invalid(&path, fault))?;
-            sources.check().map_err(|fault| invalid(&path, fault))?;
-            let whole = &sources.description;
             sources
-                .describe(whole, whole.declared_guid(), &mut archive)
+                .describe(&sources.description, &mut archive)
                 .map_err(|fault| invalid(&self.description, fault))?;
             sources.keep(&mut archive);
         } else {

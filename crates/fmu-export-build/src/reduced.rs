@@ -3,7 +3,8 @@
 use crate::description::Description;
 use crate::element::Element;
 use crate::error::Fault;
-use crate::variable::{Causality, Variable};
+use crate::structure::Rules;
+use crate::variable::Variable;
 use std::collections::{HashMap, HashSet};
 
 /// What the description of the smaller FMU is to say.
@@ -12,8 +13,6 @@ pub struct Reduction<'a> {
     pub model_name: &'a str,
     /// One line on the model.
     pub description: &'a str,
-    /// The guid, braces included.
-    pub guid: &'a str,
     /// Returns whether the variable of this name is kept.
     pub keep: &'a dyn Fn(&str) -> bool,
     /// New start values by name, as they are written in the XML: numbers, `true` or `false`, item numbers.
@@ -49,14 +48,15 @@ pub enum ReductionError {
 }
 
 impl Description {
-    /// The description with the variables, start values, guid, names and experiment of `reduction`.
+    /// The description with the variables, start values, names and experiment of `reduction`, and with
+    /// `guid`, braces included.
     ///
     /// Value references are kept, and indices are renumbered. Model Exchange is removed if a state or
     /// derivative is. Units, types and dependencies that are no longer used are removed, too.
     ///
     /// # Errors
     /// A start value for a variable that is not kept, or one its limits or its type refuse.
-    pub fn reduced(&self, reduction: &Reduction<'_>) -> Result<Self, ReductionError> {
+    pub fn reduced(&self, reduction: &Reduction<'_>, guid: &str) -> Result<Self, ReductionError> {
         let kept: HashSet<&str> = self.variable_names().filter(|name| (reduction.keep)(name)).collect();
         let is_kept = |variable: &Variable| kept.contains(variable.name.as_str());
         if let Some((name, _)) = reduction.starts.iter().find(|(name, _)| !kept.contains(name.as_str())) {
@@ -65,14 +65,14 @@ impl Description {
         let mut root = self.root.clone();
         root.set_attribute("modelName", reduction.model_name);
         root.set_attribute("description", reduction.description);
-        root.set_attribute("guid", reduction.guid);
+        root.set_attribute("guid", guid);
         let old = (1..).zip(&self.variables).filter(|(_, variable)| is_kept(variable)).map(|(old, _)| old);
         let indices: Indices = old.zip(1..).collect();
         if let Some(variables) = root.child_mut("ModelVariables") {
             retain_variables(variables, &indices, reduction.starts);
         }
         if let Some(structure) = root.child_mut("ModelStructure") {
-            retain_unknowns(structure, &indices, &self.variables);
+            retain_unknowns(structure, &indices, &renumbered(&self.variables, &indices));
         }
         let pairs = self.derivatives();
         if !pairs.iter().all(|(derivative, state)| is_kept(derivative) && is_kept(state)) {
@@ -113,38 +113,25 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
     }
 }
 
+/// The variables that stay. One whose state does not stay is no longer a derivative.
+fn renumbered(variables: &[Variable], indices: &Indices) -> Vec<Variable> {
+    let kept = (1..).zip(variables).filter(|(old, _)| indices.contains_key(old));
+    let derivative = |of: Option<usize>| of.and_then(|old| indices.get(&old).copied());
+    kept.map(|(_, old)| Variable { derivative: derivative(old.derivative), ..old.clone() }).collect()
+}
+
+/// Keeps the unknowns and dependencies that the variables that stay still have.
 fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Variable]) {
-    let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.contains_key(&old));
-    // A derivative counts only while its state is kept, and a state only while its derivative is kept.
-    let is_derivative =
-        |old: usize| kept(old).and_then(|variable| variable.derivative).is_some_and(|of| kept(of).is_some());
-    let states: HashSet<usize> = (1..=variables.len())
-        .filter(|old| is_derivative(*old))
-        .filter_map(|old| kept(old)?.derivative)
-        .collect();
-    let known = |old: usize| {
-        let free =
-            |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Independent);
-        kept(old).is_some_and(|variable| free(variable) || states.contains(&old))
-    };
-    let exposed = |old: usize| {
-        let always = [Causality::Output, Causality::CalculatedParameter];
-        kept(old).is_some_and(|variable| always.contains(&variable.causality))
-            || states.contains(&old)
-            || is_derivative(old)
-    };
-    for list in &mut structure.children {
-        let initial = list.name == "InitialUnknowns";
-        let belongs = |old: usize| match list.name.as_str() {
-            "Derivatives" => is_derivative(old),
-            _ => kept(old).is_some() && (!initial || exposed(old)),
-        };
-        list.children.retain(|unknown| unknown.index("index").is_some_and(belongs));
-        for unknown in &mut list.children {
-            if let Some(new) = unknown.index("index").and_then(|old| indices.get(&old)) {
+    let rules = Rules::new(variables, structure);
+    for Element { name: list, children: unknowns, .. } in &mut structure.children {
+        let new_index = |unknown: &Element| indices.get(&unknown.index("index")?).copied();
+        unknowns.retain(|unknown| new_index(unknown).is_some_and(|new| rules.belongs(list, new - 1)));
+        for unknown in unknowns {
+            if let Some(new) = new_index(unknown) {
                 unknown.set_attribute("index", new.to_string());
             }
-            retain_dependencies(unknown, |old| indices.get(&old).copied().filter(|_| initial || known(old)));
+            let is_known = |new: &usize| rules.is_known(list, new - 1);
+            retain_dependencies(unknown, |old| indices.get(&old).copied().filter(is_known));
         }
     }
     structure.children.retain(|list| !list.children.is_empty());

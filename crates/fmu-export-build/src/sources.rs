@@ -26,30 +26,21 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Reads the texts of a description and of its additions.
+    /// Reads the texts of a description and of its additions, and checks these against it.
     ///
     /// # Errors
-    /// As [`Description::parse`] and [`Additions::parse`].
+    /// As [`Description::parse`], [`Additions::parse`] and [`Additions::check`].
     pub fn parse(description: String, additions: String) -> Result<Self, Fault> {
-        Ok(Self {
-            description: Description::parse(&description)?,
-            additions: Additions::parse(&additions)?,
-            texts: [description, additions],
-        })
+        let texts = [description, additions];
+        let (description, additions) = (Description::parse(&texts[0])?, Additions::parse(&texts[1])?);
+        additions.check(&description)?;
+        Ok(Self { description, additions, texts })
     }
 
     /// Reads what a unit was described from. None if it is not an FMI 3.0 unit that keeps it.
     pub fn of(archive: &Archive) -> Option<Result<Self, Fault>> {
         let text = |name| Some(String::from_utf8_lossy(archive.get(name)?).into_owned());
         Some(Self::parse(text(DESCRIPTION)?, text(ADDITIONS)?))
-    }
-
-    /// Checks the additions against the description.
-    ///
-    /// # Errors
-    /// As [`Additions::check`].
-    pub fn check(&self) -> Result<(), Fault> {
-        self.additions.check(&self.description)
     }
 
     /// Puts these sources into `archive`.
@@ -64,14 +55,9 @@ impl Sources {
     ///
     /// # Errors
     /// As [`Description::to_fmi3`].
-    pub fn describe(
-        &self,
-        description: &Description,
-        token: &str,
-        archive: &mut Archive,
-    ) -> Result<(), Fault> {
+    pub fn describe(&self, description: &Description, archive: &mut Archive) -> Result<(), Fault> {
         const TERMINALS: &str = "terminalsAndIcons/terminalsAndIcons.xml";
-        let (xml, terminals) = description.to_fmi3(&self.additions, token)?;
+        let (xml, terminals) = description.to_fmi3(&self.additions)?;
         for name in [DESCRIPTION, ADDITIONS, TERMINALS] {
             archive.remove(name);
         }

@@ -7,135 +7,121 @@ use std::collections::HashSet;
 
 const KINDS: [&str; 5] = ["dependent", "constant", "fixed", "tunable", "discrete"];
 
-/// One of the three lists of the `ModelStructure`.
-struct List<'a> {
-    name: &'static str,
-    /// Whether a variable (with its 0-based index) belongs into it.
-    belongs: &'a dyn Fn(usize, &Variable) -> bool,
-    belongs_if: &'static str,
-    belongs_not: &'static str,
-    /// Whether an unknown may depend on a variable.
-    known: &'a dyn Fn(usize, &Variable) -> bool,
-    known_not: &'static str,
-    /// The allowed values of `dependenciesKind`.
-    kinds: &'a [&'static str],
+/// The lists of unknowns, in the order in which they are checked.
+const LISTS: [&str; 3] = ["Outputs", "Derivatives", INITIAL];
+const INITIAL: &str = "InitialUnknowns";
+
+/// What the lists of the `ModelStructure` have of some variables.
+pub(crate) struct Rules<'a> {
+    variables: &'a [Variable],
+    /// The 0-based indices of the continuous states: what the listed derivatives are derivatives of.
+    states: HashSet<usize>,
+}
+
+impl<'a> Rules<'a> {
+    /// The rules for `variables`. A co-simulation unit need not list its derivatives; it then has no states.
+    pub(crate) fn new(variables: &'a [Variable], structure: &Element) -> Self {
+        let has_states = structure.child("Derivatives").is_some();
+        let states = variables.iter().filter_map(|variable| variable.derivative?.checked_sub(1));
+        Self { variables, states: states.filter(|_| has_states).collect() }
+    }
+
+    /// Returns whether the variable with a 0-based index belongs into a list.
+    pub(crate) fn belongs(&self, list: &str, at: usize) -> bool {
+        let variable = &self.variables[at];
+        let is_free_at_start =
+            matches!(variable.initial_or_default(), Some(Initial::Approx | Initial::Calculated));
+        match (list, variable.causality) {
+            ("Outputs", causality) => causality == Causality::Output,
+            ("Derivatives", _) => variable.derivative.is_some(),
+            (_, Causality::CalculatedParameter) => true,
+            (_, Causality::Output) => is_free_at_start,
+            _ => is_free_at_start && (self.states.contains(&at) || variable.derivative.is_some()),
+        }
+    }
+
+    /// Returns whether the unknowns of a list may depend on the variable with a 0-based index.
+    pub(crate) fn is_known(&self, list: &str, at: usize) -> bool {
+        let variable = &self.variables[at];
+        matches!(variable.causality, Causality::Input | Causality::Independent)
+            || match list {
+                INITIAL => variable.initial_or_default() == Some(Initial::Exact),
+                _ => self.states.contains(&at),
+            }
+    }
+}
+
+/// What is said of a variable that belongs into a list, of one that does not, and of one that its unknowns
+/// cannot depend on.
+fn words(list: &str) -> [&'static str; 3] {
+    match list {
+        "Outputs" => ["is an output", "is not an output", "is neither an input nor a state"],
+        "Derivatives" => {
+            ["is a derivative", "has no attribute `derivative`", "is neither an input nor a state"]
+        }
+        _ => ["is calculated at the start", "is not calculated at the start", "is not known at the start"],
+    }
 }
 
 /// Checks the three lists of `structure` against the variables.
 pub(crate) fn check(variables: &[Variable], structure: &Element) -> Result<(), Fault> {
-    let states = states(variables, structure);
-    let free_at_start = |variable: &Variable| {
-        matches!(variable.initial_or_default(), Some(Initial::Approx | Initial::Calculated))
-    };
-    let known_in_steps = |at: usize, variable: &Variable| {
-        matches!(variable.causality, Causality::Input | Causality::Independent) || states.contains(&at)
-    };
-    let lists = [
-        List {
-            name: "Outputs",
-            belongs: &|_, variable| variable.causality == Causality::Output,
-            belongs_if: "is an output",
-            belongs_not: "is not an output",
-            known: &known_in_steps,
-            known_not: "is neither an input nor a state",
-            kinds: &KINDS,
-        },
-        List {
-            name: "Derivatives",
-            belongs: &|_, variable| variable.derivative.is_some(),
-            belongs_if: "is a derivative",
-            belongs_not: "has no attribute `derivative`",
-            known: &known_in_steps,
-            known_not: "is neither an input nor a state",
-            kinds: &KINDS,
-        },
-        List {
-            name: "InitialUnknowns",
-            belongs: &|at, variable| match variable.causality {
-                Causality::CalculatedParameter => true,
-                Causality::Output => free_at_start(variable),
-                _ => free_at_start(variable) && (states.contains(&at) || variable.derivative.is_some()),
-            },
-            belongs_if: "is calculated at the start",
-            belongs_not: "is not calculated at the start",
-            known: &|_, variable| {
-                matches!(variable.causality, Causality::Input | Causality::Independent)
-                    || variable.initial_or_default() == Some(Initial::Exact)
-            },
-            known_not: "is not known at the start",
-            kinds: &KINDS[..2],
-        },
-    ];
-    for list in &lists {
-        match structure.child(list.name) {
-            Some(element) => list.check(variables, element)?,
-            // A co-simulation unit need not list its states.
-            None if list.name == "Derivatives" => {}
-            None => list.complete(variables, &HashSet::new(), structure.line)?,
+    let rules = Rules::new(variables, structure);
+    for list in LISTS {
+        match structure.child(list) {
+            Some(element) => rules.check(list, element)?,
+            None if list == "Derivatives" => {}
+            None => rules.complete(list, &HashSet::new(), structure.line)?,
         }
     }
     Ok(())
 }
 
-/// The 0-based indices of the continuous states: what the listed derivatives are derivatives of.
-fn states(variables: &[Variable], structure: &Element) -> HashSet<usize> {
-    if structure.child("Derivatives").is_none() {
-        return HashSet::new();
-    }
-    variables.iter().filter_map(|variable| variable.derivative?.checked_sub(1)).collect()
-}
-
-impl List<'_> {
-    fn check(&self, variables: &[Variable], element: &Element) -> Result<(), Fault> {
+impl Rules<'_> {
+    fn check(&self, list: &str, element: &Element) -> Result<(), Fault> {
         let mut listed = HashSet::new();
         for unknown in &element.children {
             unknown.required("index")?;
             let index = unknown.parsed("index", "an index")?.unwrap_or_default();
-            let at = position(variables.len(), index, "index", self.name)
+            let at = position(self.variables.len(), index, "index", list)
                 .map_err(|problem| unknown.fault(problem))?;
-            let (list, name) = (self.name, &variables[at].name);
-            if !(self.belongs)(at, &variables[at]) {
-                return Err(unknown.fault(format!("{list} lists `{name}`, which {}", self.belongs_not)));
+            let name = &self.variables[at].name;
+            if !self.belongs(list, at) {
+                let [_, belongs_not, _] = words(list);
+                return Err(unknown.fault(format!("{list} lists `{name}`, which {belongs_not}")));
             }
             if !listed.insert(at) {
                 return Err(unknown.fault(format!("{list} lists `{name}` twice")));
             }
-            self.dependencies(variables, unknown, name).map_err(|problem| unknown.fault(problem))?;
+            self.dependencies(list, unknown, name).map_err(|problem| unknown.fault(problem))?;
         }
-        self.complete(variables, &listed, element.line)
+        self.complete(list, &listed, element.line)
     }
 
-    fn complete(&self, variables: &[Variable], listed: &HashSet<usize>, line: usize) -> Result<(), Fault> {
-        let missing = variables
-            .iter()
-            .enumerate()
-            .find(|(at, variable)| (self.belongs)(*at, variable) && !listed.contains(at));
-        match missing {
-            None => Ok(()),
-            Some((_, Variable { name, .. })) => {
-                Err(Fault::new(line, format!("{} leaves out `{name}`, which {}", self.name, self.belongs_if)))
-            }
-        }
+    fn complete(&self, list: &str, listed: &HashSet<usize>, line: usize) -> Result<(), Fault> {
+        let missing = (0..self.variables.len()).find(|at| self.belongs(list, *at) && !listed.contains(at));
+        let Some(at) = missing else { return Ok(()) };
+        let ([belongs, ..], name) = (words(list), &self.variables[at].name);
+        Err(Fault::new(line, format!("{list} leaves out `{name}`, which {belongs}")))
     }
 
-    fn dependencies(&self, variables: &[Variable], unknown: &Element, name: &str) -> Result<(), String> {
-        let list = self.name;
-        let words = |attribute| unknown.attribute(attribute).map(|text: &str| text.split_ascii_whitespace());
+    fn dependencies(&self, list: &str, unknown: &Element, name: &str) -> Result<(), String> {
+        let words_of =
+            |attribute| unknown.attribute(attribute).map(|text: &str| text.split_ascii_whitespace());
         let mut dependencies = 0;
-        for word in words("dependencies").into_iter().flatten() {
+        for word in words_of("dependencies").into_iter().flatten() {
             let index = word.parse();
             let index = index.map_err(|_| format!("dependencies=\"{word}\" is not an index"))?;
-            let at = position(variables.len(), index, "dependencies", name)?;
-            if !(self.known)(at, &variables[at]) {
-                let (on, why) = (&variables[at].name, self.known_not);
+            let at = position(self.variables.len(), index, "dependencies", name)?;
+            if !self.is_known(list, at) {
+                let ([.., why], on) = (words(list), &self.variables[at].name);
                 return Err(format!("in {list}, `{name}` cannot depend on `{on}`, which {why}"));
             }
             dependencies += 1;
         }
-        let Some(kinds) = words("dependenciesKind") else { return Ok(()) };
-        if let Some(kind) = kinds.clone().find(|kind| !self.kinds.contains(kind)) {
-            let allowed = self.kinds.join(", ");
-            let why = format!("cannot contain {kind:?}, only {allowed}");
+        let Some(kinds) = words_of("dependenciesKind") else { return Ok(()) };
+        let allowed = if list == INITIAL { &KINDS[..2] } else { &KINDS };
+        if let Some(kind) = kinds.clone().find(|kind| !allowed.contains(kind)) {
+            let why = format!("cannot contain {kind:?}, only {}", allowed.join(", "));
             return Err(format!("in {list}, the dependenciesKind of `{name}` {why}"));
         }
         let kinds = kinds.count();

@@ -271,6 +271,18 @@ pub struct Experiment {
     pub stop: Option<f64>,
 }
 
+impl Experiment {
+    /// Writes or reads the experiment as part of a state.
+    ///
+    /// # Errors
+    /// If the bytes end too early, or a number is not finite.
+    pub fn transfer(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+        codec.f64(&mut self.start)?;
+        codec.option(&mut self.tolerance)?;
+        codec.option(&mut self.stop)
+    }
+}
+
 /// One communication step.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Step {

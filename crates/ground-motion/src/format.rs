@@ -87,24 +87,6 @@ impl Format {
             Self::Numbers => "several a line, as for OpenSees",
         }
     }
-
-    /// Returns whether its files say which direction a component has; otherwise their names may.
-    pub(crate) fn states_direction(self) -> bool {
-        match self {
-            Self::At2 | Self::Csv | Self::Numbers => false,
-            Self::Esm
-            | Self::Knet
-            | Self::KnetCsv
-            | Self::Cosmos
-            | Self::Csmip
-            | Self::Smc
-            | Self::Geonet
-            | Self::Afad
-            | Self::Cwa
-            | Self::Unam
-            | Self::Volume1 => true,
-        }
-    }
 }
 
 impl FromStr for Format {

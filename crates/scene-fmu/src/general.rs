@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fmu_export_build::archive::Archive;
 use fmu_export_build::sources::Sources;
-use fmu_export_build::{Description, ReductionError};
+use fmu_export_build::{Description, Reduction, ReductionError};
 use rocking_wall::scene;
 
 use super::error::SceneFmuError;
@@ -55,24 +55,26 @@ impl General {
         Ok(Self { archive, description, sources, guid })
     }
 
-    /// Describes the archive as `reduced`, which was made from its description, in its version of FMI. Takes
-    /// out the reference results, which are those of the general FMU.
+    /// Makes a unit of it: with the file `payload` in `resources`, by the name given, and a guid that states
+    /// its fingerprint; with the variables and names of `reduction`, in the same version of FMI; without the
+    /// reference results, which are those of the general FMU. Returns its files and its description.
     ///
     /// # Errors
-    /// A variable that FMI 3.0 has another use for.
-    pub fn describe(&mut self, reduced: &Description) -> Result<(), SceneFmuError> {
-        self.archive.remove_folder(REFERENCES);
-        match &self.sources {
-            None => self.archive.insert("modelDescription.xml", reduced.to_xml()),
-            Some(sources) => sources
-                .describe(reduced, reduced.declared_guid(), &mut self.archive)
-                .map_err(ReductionError::from)?,
+    /// As [`Description::reduced`]; and a variable that FMI 3.0 has another use for.
+    pub fn unit(
+        self,
+        (name, payload): (&str, &str),
+        reduction: &Reduction<'_>,
+    ) -> Result<(Archive, Description), SceneFmuError> {
+        let Self { mut archive, description, sources, guid } = self;
+        let guid = format!("{{{guid}-{}}}", scene::fingerprint(payload.as_bytes()));
+        let reduced = description.reduced(reduction, &guid)?;
+        archive.remove_folder(REFERENCES);
+        match &sources {
+            None => archive.insert("modelDescription.xml", reduced.to_xml()),
+            Some(sources) => sources.describe(&reduced, &mut archive).map_err(ReductionError::from)?,
         }
-        Ok(())
-    }
-
-    /// Returns the guid of the FMU that contains a payload.
-    pub fn guid_with(&self, payload: &str) -> String {
-        format!("{{{}-{}}}", self.guid, scene::fingerprint(payload.as_bytes()))
+        archive.insert(format!("resources/{name}"), payload);
+        Ok((archive, reduced))
     }
 }

@@ -5,10 +5,8 @@
 mod error;
 mod general;
 
-use std::fmt::Write;
-
 use fmu_export_build::archive::Archive;
-use fmu_export_build::{DefaultExperiment, Description, Reduction};
+use fmu_export_build::{DefaultExperiment, Reduction};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::simulation::Simulation;
@@ -70,16 +68,21 @@ pub fn of_scene_in(
         }
     }
     let text = scene::to_toml(scene, &motion);
-    let reduced = reduce(&general.description, scene, &general.guid_with(&text), experiment)?;
-    general.describe(&reduced)?;
-    let General { mut archive, description, .. } = general;
-    archive.insert("resources/scene.toml", text.as_str());
-    Ok(SceneFmu {
-        archive,
-        scene: text,
-        variables: reduced.variable_names().count(),
-        general_variables: description.variable_names().count(),
-    })
+    let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
+    let starts: Vec<_> = numbers
+        .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
+        .collect();
+    let reduction = Reduction {
+        model_name: &scene.title,
+        description: &format!("Rocking wall, one scene: {}", scene.title),
+        keep: &|name| scene.uses(name),
+        starts: &starts,
+        experiment,
+    };
+    let general_variables = general.description.variable_names().count();
+    let (archive, reduced) = general.unit(("scene.toml", &text), &reduction)?;
+    let variables = reduced.variable_names().count();
+    Ok(SceneFmu { archive, scene: text, variables, general_variables })
 }
 
 /// Checks that a scene can have an FMU, and returns its wall.
@@ -97,11 +100,8 @@ pub fn check(scene: &Scene) -> Result<Wall, SceneFmuError> {
 
 /// Puts a motion into the archive and returns the keys that read it.
 fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
-    let mut csv = String::new();
-    for sample in motion.samples() {
-        // writing to a String cannot fail
-        let _ = writeln!(csv, "{sample:?}");
-    }
+    let line = |sample: &f64| format!("{sample:?}\n");
+    let csv: String = motion.samples().iter().map(line).collect();
     let table = format!(
         "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",
         motion.step(),
@@ -109,26 +109,4 @@ fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> Str
     );
     archive.insert(format!("resources/{name}.csv"), csv);
     table
-}
-
-fn reduce(
-    base: &Description,
-    scene: &Scene,
-    guid: &str,
-    experiment: DefaultExperiment,
-) -> Result<Description, SceneFmuError> {
-    let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
-    let starts: Vec<_> = numbers
-        .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
-        .collect();
-    let keep = |name: &str| scene.uses(name);
-    let description = format!("Rocking wall, one scene: {}", scene.title);
-    Ok(base.reduced(&Reduction {
-        model_name: &scene.title,
-        description: &description,
-        guid,
-        keep: &keep,
-        starts: &starts,
-        experiment,
-    })?)
 }

@@ -65,8 +65,8 @@ fn read(path: &Path) -> (Building, Parts) {
 }
 
 fn run(path: &Path, ground: &GroundMotion, end: f64, tolerance: f64) -> Coupled {
-    let (building, parts) = read(path);
-    Coupled::run(&building, &parts, ground, Settings { end, tolerance }).unwrap()
+    let (_, parts) = read(path);
+    Coupled::run(&parts, ground, Settings { end, tolerance }).unwrap()
 }
 
 /// Without walls, peaks are those of the modes, to 1e-3 of the floor's.

@@ -18,11 +18,11 @@ impl Origin<'_> {
     /// Returns where a number of the bar of the tie comes from; `is_usual` says that it is the default.
     fn of_bar(&self, number: &BarNumber, is_usual: bool) -> &'static str {
         let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(number.usual.name);
-        if self.file.states(&["check", "tie", "bar", number.key]) {
+        if self.file.states(&["check", "tie", "bar", number.key()]) {
             "[check] tie"
         } else if self.set.iter().any(is_set) {
             "--set"
-        } else if self.file.states(&["tie", "bar", number.key]) {
+        } else if self.file.states(&["tie", "bar", number.key()]) {
             "scene"
         } else if self.wall.is_some() && !is_usual {
             "file"
@@ -85,7 +85,7 @@ fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
     let numbers = Bar::NUMBERS.iter().enumerate();
     let row = |(index, number): (usize, &BarNumber)| {
         let given = bar.get(index)?;
-        let unit = if number.key == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
+        let unit = if number.key() == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
         let text = number.text.split("; ").next().unwrap_or_default();
         let name = format!("{} <small translate=\"no\">{}</small>", escaped(text), number.usual.name);
         let is_usual = Bar::default().get(index) == Some(given);

@@ -23,11 +23,12 @@ fn exchange() -> String {
     providesDirectionalDerivative="true"/>"#,
     )
     .replace("guid=", "numberOfEventIndicators=\"2\" guid=")
+    .replace("{fingerprint}", "{token}")
 }
 
 fn written(description: &str) -> (String, Option<String>) {
     let additions = Additions::parse(ADDITIONS).unwrap();
-    Description::parse(description).unwrap().to_fmi3(&additions, "{token}").unwrap()
+    Description::parse(description).unwrap().to_fmi3(&additions).unwrap()
 }
 
 #[test]
@@ -173,11 +174,11 @@ fn terminals_have_the_variables_that_are_there() {
     let fault = additions.check(&description).unwrap_err();
     assert_eq!(fault.to_string(), "line 8: there is no variable `wheight`");
     // one that is gone leaves its terminal, and a terminal without any goes with it
-    let (_, terminals) = description.to_fmi3(&additions, "{}").unwrap();
+    let (_, terminals) = description.to_fmi3(&additions).unwrap();
     let terminals = terminals.unwrap();
     assert!(terminals.contains("\"hand\"") && !terminals.contains("\"foot\""), "{terminals}");
     let additions = Additions::parse("<fmi3/>").unwrap();
-    assert_eq!(description.to_fmi3(&additions, "{}").unwrap().1, None);
+    assert_eq!(description.to_fmi3(&additions).unwrap().1, None);
     assert!(Additions::parse("<fmi2/>").is_err());
 }
 
@@ -191,7 +192,7 @@ fn names_and_references_of_the_added_variables_are_refused() {
         ("name=\"force\"", "name=\"event_indicator_1\""),
     ] {
         let description = Description::parse(&exchange().replace(from, to)).unwrap();
-        let fault = description.to_fmi3(&additions, "{}").unwrap_err();
+        let fault = description.to_fmi3(&additions).unwrap_err();
         assert!(fault.problem.starts_with("FMI 3.0 needs the name `"), "{to}: {fault}");
     }
 }

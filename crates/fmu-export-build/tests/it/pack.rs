@@ -159,7 +159,7 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
     // a unit made from it is described in the same way, and keeps no sources
     let sources = Sources::of(&archive).unwrap().unwrap();
     assert_eq!(sources.description.declared_guid(), guid);
-    sources.describe(&sources.description, &guid, &mut archive).unwrap();
+    sources.describe(&sources.description, &mut archive).unwrap();
     assert_eq!(text(&archive), whole);
     assert!(Sources::of(&archive).is_none());
 }

@@ -10,14 +10,14 @@ fn reduce(
 ) -> Result<Description, ReductionError> {
     let starts: Vec<_> =
         starts.iter().map(|(name, start)| ((*name).to_owned(), (*start).to_owned())).collect();
-    Description::parse(text).unwrap().reduced(&Reduction {
+    let reduction = Reduction {
         model_name: "block on sand",
         description: "Sand & nothing else",
-        guid: "{a-b}",
         keep,
         starts: &starts,
         experiment: DefaultExperiment { start: 0.0, stop: 12.5, step: 0.01, tolerance: 1e-9 },
-    })
+    };
+    Description::parse(text).unwrap().reduced(&reduction, "{a-b}")
 }
 
 #[test]

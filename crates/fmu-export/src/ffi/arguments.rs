@@ -20,36 +20,42 @@ pub(super) unsafe fn array<'a, T>(name: &str, start: *const T, count: usize) -> 
     Ok(unsafe { slice::from_raw_parts(start, count) })
 }
 
-/// The array of `count` elements at `start` to be written, whatever is in it.
+/// The array of `count` elements at `start` to be written, each set to `blank` whatever is in it.
 ///
 /// # Safety
 /// `start` is NULL or points to room for `count` elements that nobody else uses during `'a`.
-pub(super) unsafe fn array_mut<'a, T>(
+pub(super) unsafe fn array_mut<'a, T: Copy>(
     name: &str,
     start: *mut T,
     count: usize,
-) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+    blank: T,
+) -> Result<&'a mut [T], Failure> {
     if count == 0 {
         return Ok(&mut []);
     }
     check_array(name, start, count)?;
-    // SAFETY: `check_array` has refused NULL, misaligned and oversized arrays; `start` points to room for
-    // `count` elements that nobody else uses during `'a`.
-    Ok(unsafe { slice::from_raw_parts_mut(start.cast(), count) })
+    for index in 0..count {
+        // SAFETY: `start` points to room for `count` elements, and `check_array` has refused NULL and
+        // misaligned and oversized arrays.
+        unsafe { start.add(index).write(blank) };
+    }
+    // SAFETY: the loop has written every element; nobody else uses them during `'a`.
+    Ok(unsafe { slice::from_raw_parts_mut(start, count) })
 }
 
-/// References, and room for their values.
+/// References, and room for their values, each set to `blank`.
 ///
 /// # Safety
 /// As for [`array`] and [`array_mut`].
-pub(super) unsafe fn to_get<'a, T>(
+pub(super) unsafe fn to_get<'a, T: Copy>(
     references: *const ValueReference,
     values: *mut T,
     count: usize,
-) -> Result<(&'a [ValueReference], &'a mut [MaybeUninit<T>]), Failure> {
+    blank: T,
+) -> Result<(&'a [ValueReference], &'a mut [T]), Failure> {
     // SAFETY: `references` and `values` are NULL or point to `count` elements, those of `values` used by
     // nobody else during `'a`.
-    unsafe { Ok((array("vr", references, count)?, array_mut("value", values, count)?)) }
+    unsafe { Ok((array("vr", references, count)?, array_mut("value", values, count, blank)?)) }
 }
 
 /// References and their values.
@@ -64,21 +70,6 @@ pub(super) unsafe fn to_set<'a, T>(
     // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody changes during
     // `'a`.
     unsafe { Ok((array("vr", references, count)?, array("value", values, count)?)) }
-}
-
-/// The array of `count` numbers at `start` to be written, set to 0.
-///
-/// # Safety
-/// As for [`array_mut`].
-pub(super) unsafe fn zeroed<'a>(name: &str, start: *mut f64, count: usize) -> Result<&'a mut [f64], Failure> {
-    // SAFETY: `start` is NULL or points to room for `count` numbers that nobody else uses during `'a`.
-    let slots = unsafe { array_mut(name, start, count) }?;
-    for slot in &mut *slots {
-        slot.write(0.0);
-    }
-    // SAFETY: the loop has written every slot, and a `MaybeUninit<f64>` that is written is laid out as its
-    // `f64`.
-    Ok(unsafe { &mut *(std::ptr::from_mut(slots) as *mut [f64]) })
 }
 
 /// The place at `target`, whatever is in it.

@@ -31,7 +31,7 @@ functions! {
         // SAFETY: `references`, `orders` and `values` are NULL or point to `count` elements that nobody else
         // changes during the call.
         let (orders, (references, values)) =
-            unsafe { (array("order", orders, count)?, to_get(references, values, count)?) };
+            unsafe { (array("order", orders, count)?, to_get(references, values, count, 0.0)?) };
         instance.output_derivatives(references, orders, values)
     };
     /// `fmi2DoStep`

@@ -158,7 +158,10 @@ functions! {
         // SAFETY: `unknowns` and `values` are NULL or point to `unknown_count` elements that nobody else
         // changes during the call.
         let (unknowns, values) = unsafe {
-            (array("vUnknown_ref", unknowns, unknown_count)?, array_mut("dvUnknown", values, unknown_count)?)
+            (
+                array("vUnknown_ref", unknowns, unknown_count)?,
+                array_mut("dvUnknown", values, unknown_count, 0.0)?,
+            )
         };
         // SAFETY: `knowns` and `seeds` are NULL or point to `known_count` elements that stay as they are
         // during the call.

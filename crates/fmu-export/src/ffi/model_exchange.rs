@@ -1,6 +1,6 @@
 //! The functions of Model Exchange (FMI 2.0.5, section 3.2; FMI 3.0.2, section 3.2).
 
-use super::arguments::{array, place, zeroed};
+use super::arguments::{array, array_mut, place};
 use super::guard::functions;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
 use crate::call::{Call, Phase};
@@ -54,19 +54,19 @@ functions! {
     get_derivatives<ModelExchange>(values: *mut Real, count: usize): GetDerivatives, |instance| {
         // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
         // call.
-        instance.derivatives(unsafe { zeroed("derivatives", values, count) }?)
+        instance.derivatives(unsafe { array_mut("derivatives", values, count, 0.0) }?)
     };
     /// `fmi2GetEventIndicators`, `fmi3GetEventIndicators`
     get_event_indicators<ModelExchange>(values: *mut Real, count: usize): GetEventIndicators, |instance| {
         // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
         // call.
-        instance.event_indicators(unsafe { zeroed("eventIndicators", values, count) }?)
+        instance.event_indicators(unsafe { array_mut("eventIndicators", values, count, 0.0) }?)
     };
     /// `fmi2GetContinuousStates`, `fmi3GetContinuousStates`
     get_continuous_states<ModelExchange>(values: *mut Real, count: usize): GetContinuousStates, |instance| {
         // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
         // call.
-        instance.states(unsafe { zeroed("x", values, count) }?)
+        instance.states(unsafe { array_mut("x", values, count, 0.0) }?)
     };
     /// `fmi2GetNominalsOfContinuousStates`, `fmi3GetNominalsOfContinuousStates`
     get_nominals_of_continuous_states<ModelExchange>(
@@ -74,6 +74,6 @@ functions! {
     ): GetNominalsOfContinuousStates, |instance| {
         // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
         // call.
-        instance.nominals(unsafe { zeroed("x_nominal", values, count) }?)
+        instance.nominals(unsafe { array_mut("x_nominal", values, count, 0.0) }?)
     };
 }

@@ -49,7 +49,7 @@ functions! {
         state: FmuState, bytes: *mut impl Sized, size: usize
     ): SerializeFMUstate, |instance| {
         // SAFETY: `bytes` is NULL or points to room for `size` bytes that nobody else uses during the call.
-        let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size) }?;
+        let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size, 0) }?;
         let source = instance.serialize(state.addr())?;
         if source.len() != target.len() {
             return Err(Failure(format!(
@@ -57,9 +57,7 @@ functions! {
                 source.len()
             )));
         }
-        for (slot, byte) in target.iter_mut().zip(source) {
-            slot.write(byte);
-        }
+        target.copy_from_slice(&source);
         Ok(())
     };
     /// `fmi2DeSerializeFMUstate`, `fmi3DeserializeFMUState`

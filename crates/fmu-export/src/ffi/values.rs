@@ -19,9 +19,9 @@ functions! {
         check_count("nValues", value_count, count)?;
         // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
         // during the call.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
-            slot.write(text.as_ptr());
+        let (references, values) = unsafe { to_get(references, values, count, std::ptr::null()) }?;
+        for (value, text) in values.iter_mut().zip(instance.get_string(references)?) {
+            *value = text.as_ptr();
         }
         Ok(())
     };
@@ -57,7 +57,7 @@ macro_rules! values {
                 check_count("nValues", value_count, count)?;
                 // SAFETY: `references` and `values` are NULL or point to `count` elements, as many as
                 // `value_count`, that nobody else changes during the call.
-                let (references, values) = unsafe { to_get(references, values, count) }?;
+                let (references, values) = unsafe { to_get(references, values, count, <$type>::default()) }?;
                 instance.$get_by(references, values $(, $serves)?)
             };
             #[doc = concat!("Sets values of type `", stringify!($type), "`. If one is refused, none is set.")]

@@ -5,7 +5,6 @@ use crate::access::Access;
 use crate::limits;
 use crate::model::{Failure, Interface, ModelExchange, Update};
 use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
-use std::mem::MaybeUninit;
 
 impl<M: ModelExchange> Instance<M> {
     /// In co-simulation the model handles its events inside the steps, and there is nothing to update.
@@ -68,18 +67,14 @@ impl<M: ModelExchange> Instance<M> {
 
     /// The values of [`get_real`](Self::get_real), and of the variables that FMI 3.0 has besides those of the
     /// model.
-    pub(crate) fn get_float64(
-        &mut self,
-        references: &[u32],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Result<(), Failure> {
+    pub(crate) fn get_float64(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;
-        for (&reference, slot) in references.iter().zip(values) {
-            slot.write(match self.number(reference)? {
+        for (&reference, value) in references.iter().zip(values) {
+            *value = match self.number(reference)? {
                 Some(value) => value,
                 None if reference == TIME_REFERENCE => self.now.time,
                 None => self.event_indicator(reference)?,
-            });
+            };
         }
         Ok(())
     }

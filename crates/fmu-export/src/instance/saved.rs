@@ -3,7 +3,7 @@
 use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
 use crate::log::Status;
-use crate::model::{Experiment, Failure, Model};
+use crate::model::{Failure, Model};
 use crate::state::{self, StateCodec};
 
 /// A handle is the address of a state in `saved`.
@@ -63,10 +63,7 @@ impl<M: Model> Snapshot<M> {
         if kind != kind_here || !purpose.has(self.phase) {
             return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
         }
-        let Experiment { tolerance, start, stop } = &mut self.experiment;
-        codec.f64(start)?;
-        codec.option(tolerance)?;
-        codec.option(stop)?;
+        self.experiment.transfer(codec)?;
         check_experiment(self.experiment)?;
         self.model.transfer_state(codec)
     }

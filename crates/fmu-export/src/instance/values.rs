@@ -7,18 +7,13 @@ use crate::limits;
 use crate::model::{Failure, Model};
 use crate::variable::{Causality, Kind, Variability, Variable, VariableId};
 use std::ffi::{CStr, CString};
-use std::mem::MaybeUninit;
 
 /// Values.
 impl<M: Model> Instance<M> {
-    pub(crate) fn get_real(
-        &mut self,
-        references: &[u32],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Result<(), Failure> {
+    pub(crate) fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;
-        for (&reference, slot) in references.iter().zip(values) {
-            slot.write(self.number(reference)?.ok_or_else(|| self.unknown(Access::Get, reference))?);
+        for (&reference, value) in references.iter().zip(values) {
+            *value = self.number(reference)?.ok_or_else(|| self.unknown(Access::Get, reference))?;
         }
         Ok(())
     }
@@ -52,13 +47,13 @@ impl<M: Model> Instance<M> {
     pub(crate) fn get_integer<T: From<i32>>(
         &mut self,
         references: &[u32],
-        values: &mut [MaybeUninit<T>],
+        values: &mut [T],
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
         self.calculate()?;
-        for (&reference, slot) in references.iter().zip(values) {
+        for (&reference, value) in references.iter().zip(values) {
             let id = self.find_served(Access::Get, reference, serves)?;
-            slot.write(self.now.model.integer(id).into());
+            *value = self.now.model.integer(id).into();
         }
         Ok(())
     }
@@ -66,11 +61,11 @@ impl<M: Model> Instance<M> {
     pub(crate) fn get_boolean<T: From<bool>>(
         &mut self,
         references: &[u32],
-        values: &mut [MaybeUninit<T>],
+        values: &mut [T],
     ) -> Result<(), Failure> {
         self.calculate()?;
-        for (&reference, slot) in references.iter().zip(values) {
-            slot.write(self.now.model.boolean(self.find(Access::Get, reference)?).into());
+        for (&reference, value) in references.iter().zip(values) {
+            *value = self.now.model.boolean(self.find(Access::Get, reference)?).into();
         }
         Ok(())
     }
@@ -250,15 +245,15 @@ impl<M: Model> Instance<M> {
         &mut self,
         references: &[u32],
         orders: &[i32],
-        values: &mut [MaybeUninit<f64>],
+        values: &mut [f64],
     ) -> Result<(), Failure> {
-        for ((&reference, &order), slot) in references.iter().zip(orders).zip(values) {
+        for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
             let variable: M::Real = self.find(Access::Derive, reference)?;
             access::check_order(variable.variable(), order)?;
             let found = self.now.model.output_derivative(variable);
             let variable = variable.variable();
             let found = found.ok_or_else(|| Failure(format!("{} has no derivative", variable.name)))?;
-            slot.write(finite_slope(variable, found)?);
+            *value = finite_slope(variable, found)?;
         }
         Ok(())
     }
@@ -270,11 +265,11 @@ impl<M: Model> Instance<M> {
         &mut self,
         [seeded, wanted]: [&[u32]; 2],
         seeds: &[f64],
-        values: &mut [MaybeUninit<f64>],
+        values: &mut [f64],
         adjoint: bool,
     ) -> Result<(), Failure> {
         self.calculate()?;
-        for (&wanted, slot) in wanted.iter().zip(values) {
+        for (&wanted, value) in wanted.iter().zip(values) {
             let wanted: M::Real = self.find(Access::Derive, wanted)?;
             let mut sum = 0.0;
             for (&seeded, &seed) in seeded.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
@@ -290,7 +285,7 @@ impl<M: Model> Instance<M> {
                 })?;
                 sum += partial * seed;
             }
-            slot.write(finite_slope(wanted.variable(), sum)?);
+            *value = finite_slope(wanted.variable(), sum)?;
         }
         Ok(())
     }

@@ -41,8 +41,9 @@ type Recognises = fn(&[&str]) -> bool;
 /// Reads every channel of a text.
 type Parse = fn(&str, &RecordOptions) -> Result<Vec<Parsed>, Fault>;
 
-/// A format: its short name, what people call it, the endings of its files, and its reader.
-type Known = (Format, &'static str, &'static str, &'static [&'static str], Recognises, Parse);
+/// A format: its short name, what people call it, the endings of its files, whether these say which direction
+/// a component has, and its reader.
+type Known = (Format, &'static str, &'static str, &'static [&'static str], bool, Recognises, Parse);
 
 const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
@@ -50,21 +51,21 @@ const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud
 /// COSMOS and SMC, whose first lines may have the same words; AT2, known by two words anywhere in its header,
 /// comes after tables, whose title may have them too.
 const KNOWN: [Known; Format::ALL.len()] = [
-    (Format::Esm, "esm", "ESM/ITACA", &["asc"], esm::recognises, esm::parse),
-    (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], geonet::recognises, geonet::parse),
-    (Format::Volume1, "volume1", "RENADIC/BHRC", &[], volume_1::recognises, volume_1::parse),
-    (Format::Knet, "knet", "K-NET/KiK-net", KNET, knet::recognises, knet::parse),
-    (Format::KnetCsv, "knet-csv", "K-NET CSV", &[], knet_csv::recognises, knet_csv::parse),
-    (Format::Afad, "afad", "AFAD", &[], afad::recognises, afad::parse),
-    (Format::Cwa, "cwa", "CWA", &[], cwb::recognises, cwb::parse),
-    (Format::Unam, "unam", "UNAM", &[], unam::recognises, unam::parse),
-    (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], cosmos::recognises, cosmos::parse),
-    (Format::Smc, "smc", "USGS SMC", &["smc"], smc::recognises, smc::parse),
-    (Format::Csmip, "csmip", "CSMIP V2", &["v2"], csmip::recognises, csmip::parse),
-    (Format::Csv, "csv", "CSV", &[], csv::recognises, csv::parse),
-    (Format::At2, "at2", "PEER AT2", &["at2"], at2::recognises, at2::parse),
+    (Format::Esm, "esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
+    (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], true, geonet::recognises, geonet::parse),
+    (Format::Volume1, "volume1", "RENADIC/BHRC", &[], true, volume_1::recognises, volume_1::parse),
+    (Format::Knet, "knet", "K-NET/KiK-net", KNET, true, knet::recognises, knet::parse),
+    (Format::KnetCsv, "knet-csv", "K-NET CSV", &[], true, knet_csv::recognises, knet_csv::parse),
+    (Format::Afad, "afad", "AFAD", &[], true, afad::recognises, afad::parse),
+    (Format::Cwa, "cwa", "CWA", &[], true, cwb::recognises, cwb::parse),
+    (Format::Unam, "unam", "UNAM", &[], true, unam::recognises, unam::parse),
+    (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
+    (Format::Smc, "smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
+    (Format::Csmip, "csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
+    (Format::Csv, "csv", "CSV", &[], false, csv::recognises, csv::parse),
+    (Format::At2, "at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
     // whether these are numbers depends on the step that is stated: see below
-    (Format::Numbers, "numbers", "numbers", &[], |_| false, numbers::parse),
+    (Format::Numbers, "numbers", "numbers", &[], false, |_| false, numbers::parse),
 ];
 
 const _: () = {
@@ -86,6 +87,12 @@ impl Format {
     pub fn description(self) -> &'static str {
         let (_, _, description, ..) = KNOWN[self as usize];
         description
+    }
+
+    /// Returns whether its files say which direction a component has; otherwise their names may.
+    pub(crate) fn states_direction(self) -> bool {
+        let (.., states_direction, _, _) = KNOWN[self as usize];
+        states_direction
     }
 
     /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that

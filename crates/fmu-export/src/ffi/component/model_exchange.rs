@@ -47,21 +47,21 @@ impl<M: ModelExchange> GuestModelExchangeInstance for Exchange<M> {
     }
 
     fn get_continuous_state_derivatives(&self) -> Result<Vec<f64>, Status> {
-        self.0.numbers(Call::GetDerivatives, M::STATES.len(), Instance::derivatives)
+        self.0.values(Call::GetDerivatives, M::STATES.len(), Instance::derivatives)
     }
 
     fn get_event_indicators(&self) -> Result<Vec<f64>, Status> {
         let count = M::EVENT_INDICATORS;
-        self.0.numbers(Call::GetEventIndicators, count, Instance::event_indicators)
+        self.0.values(Call::GetEventIndicators, count, Instance::event_indicators)
     }
 
     fn get_continuous_states(&self) -> Result<Vec<f64>, Status> {
-        self.0.numbers(Call::GetContinuousStates, M::STATES.len(), Instance::states)
+        self.0.values(Call::GetContinuousStates, M::STATES.len(), Instance::states)
     }
 
     fn get_nominals_of_continuous_states(&self) -> Result<Vec<f64>, Status> {
         let call = Call::GetNominalsOfContinuousStates;
-        self.0.numbers(call, M::STATES.len(), Instance::nominals)
+        self.0.values(call, M::STATES.len(), Instance::nominals)
     }
 
     fn get_number_of_event_indicators(&self) -> Result<u64, Status> {

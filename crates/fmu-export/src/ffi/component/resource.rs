@@ -8,7 +8,6 @@ use crate::instance::{Instance, Purpose};
 use crate::log::{self, Category, Logger};
 use crate::model::{Failure, Model, ModelExchange};
 use std::cell::RefCell;
-use std::mem::MaybeUninit;
 use std::panic;
 
 /// An instance of the model. One call at a time has it.
@@ -78,26 +77,10 @@ impl<M: Model> Resource<M> {
         &self,
         call: Call,
         count: usize,
-        write: impl FnOnce(&mut Instance<M>, &mut [MaybeUninit<T>]) -> Result<(), Failure>,
+        write: impl FnOnce(&mut Instance<M>, &mut [T]) -> Result<(), Failure>,
     ) -> Result<Vec<T>, Status> {
         self.ask(call, |instance| {
-            let mut values = vec![MaybeUninit::new(T::default()); count];
-            write(instance, &mut values)?;
-            // SAFETY: every value is initialised above, and no `write` of this crate makes one uninitialised
-            // again.
-            Ok(values.into_iter().map(|value| unsafe { value.assume_init() }).collect())
-        })
-    }
-
-    /// Returns `count` numbers that `write` writes.
-    pub(super) fn numbers(
-        &self,
-        call: Call,
-        count: usize,
-        write: impl FnOnce(&mut Instance<M>, &mut [f64]) -> Result<(), Failure>,
-    ) -> Result<Vec<f64>, Status> {
-        self.ask(call, |instance| {
-            let mut values = vec![0.0; count];
+            let mut values = vec![T::default(); count];
             write(instance, &mut values)?;
             Ok(values)
         })

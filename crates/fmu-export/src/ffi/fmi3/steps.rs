@@ -107,7 +107,7 @@ functions! {
         // SAFETY: `references`, `orders` and `values` are NULL or point to `count` elements that nobody else
         // changes during the call.
         let (orders, (references, values)) =
-            unsafe { (array("orders", orders, count)?, to_get(references, values, count)?) };
+            unsafe { (array("orders", orders, count)?, to_get(references, values, count, 0.0)?) };
         instance.output_derivatives(references, orders, values)
     };
     /// `fmi3GetNumberOfEventIndicators`
@@ -171,7 +171,7 @@ unsafe fn derivatives_along<M: Model>(
     // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state, those of
     // `sensitivity` used by nobody else during the call.
     let (seeds, values) = unsafe {
-        (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
+        (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count, 0.0)?)
     };
     instance.derivatives_along([seeded, wanted], seeds, values, adjoint)
 }
