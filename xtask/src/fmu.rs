@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::command::{Result, cargo, make_folder, program, root, succeed, target};
-use crate::platform::{self, Platform, check_rust_library, reproducible};
+use crate::platform::{self, Platform, check_rust_libraries, reproducible};
 
 /// An FMU of this workspace.
 #[derive(Clone, Copy)]
@@ -140,7 +140,7 @@ pub(crate) fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String
 
 /// Checks that this machine can build WebAssembly components.
 pub(crate) fn check_component() -> Result<()> {
-    check_rust_library(COMPONENT)
+    check_rust_libraries([COMPONENT])
 }
 
 /// Builds the WebAssembly component of a unit, and returns its path.
