@@ -21,13 +21,11 @@ const GOOD: f64 = 1e-4;
 /// Largest error of the peak over `u_ins` that a study may allow, which needs no history.
 const GOOD_PEAK: f64 = 1e-3;
 
-/// An environment, its lock, and the tools that run in it by their names for the script and in the table.
-type Peers = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+/// An environment, and the tools that run in it by their names for the script and in the table.
+type Peers = (&'static str, &'static [(&'static str, &'static str)]);
 
-const PYTHON: [Peers; 2] = [
-    ("opensees", "xtask/locks/opensees.lock", &[("opensees", OPENSEES)]),
-    ("peers", "xtask/locks/peers.lock", &[("numba", "numba"), ("scipy", "SciPy")]),
-];
+const PYTHON: [Peers; 2] =
+    [("opensees", &[("opensees", OPENSEES)]), ("peers", &[("numba", "numba"), ("scipy", "SciPy")])];
 
 /// Numbers of runs; the difference of their instructions counts.
 const FEW: u32 = 5;
@@ -99,8 +97,8 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     }
     succeed(&mut rust, "see its message above")?;
     let mut missing = Vec::new();
-    for (name, lock, tools) in PYTHON {
-        if let Err(message) = in_python(name, lock, tools, &folder) {
+    for (name, tools) in PYTHON {
+        if let Err(message) = in_python(name, tools, &folder) {
             missing.extend(tools.iter().map(|(_, tool)| format!("{tool}: {}", message.replace('\n', " "))));
         }
     }
@@ -113,8 +111,8 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     Ok(table)
 }
 
-fn in_python(name: &str, lock: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
-    let environment = Environment::of(name, lock)?;
+fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
+    let environment = Environment::of(name)?;
     let mut script = environment.program("python");
     script.arg("tests/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
     succeed(&mut script, "see its message above")

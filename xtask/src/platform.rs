@@ -82,7 +82,7 @@ impl Platform {
 
     /// Prepares a job of cargo for this platform, linked with zig.
     pub(crate) fn cargo(&self, subcommand: &str) -> Result<Command> {
-        let mut build = Environment::of("zig", "xtask/locks/zig.lock")?.program("cargo-zigbuild");
+        let mut build = Environment::of("zig")?.program("cargo-zigbuild");
         build.args([subcommand, "--target", &format!("{}{}", self.target, self.glibc)]);
         self.link_with_zig(&mut build)?;
         Ok(build)
@@ -90,7 +90,7 @@ impl Platform {
 
     /// Lets a job of cargo or maturin find zig, and makes its bytes independent of the folder.
     pub(crate) fn link_with_zig(&self, build: &mut Command) -> Result<()> {
-        let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
+        let zig = Environment::of("zig")?;
         let mut path = zig.programs().into_os_string();
         if let Some(rest) = std::env::var_os("PATH") {
             path.push(":");

@@ -13,14 +13,6 @@ use crate::wheel;
 /// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";
 
-/// Python environments by name, with their locks.
-pub(crate) const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
-pub(crate) const WHEEL: (&str, &str) = ("wheel", "tests/wheel/requirements.lock");
-const BARE: (&str, &str) = ("bare", "tests/wheel/bare.lock");
-const MATURIN: (&str, &str) = ("maturin", "xtask/locks/maturin.lock");
-const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");
-const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
-
 /// One part of the tests.
 type Part = fn() -> Result<()>;
 
@@ -96,8 +88,8 @@ fn browser() -> Option<PathBuf> {
 
 /// Installs and builds what the later parts need.
 fn prepare() {
-    for (name, lock) in [TESTS, MATURIN, WHEEL, BARE, MASTERS, CLANG] {
-        let _ = Environment::of(name, lock);
+    for name in ["tests", "maturin", "wheel", "bare", "masters", "clang"] {
+        let _ = Environment::of(name);
     }
     for unit in fmu::UNITS {
         let _ = fmu::library(unit, None);
@@ -163,7 +155,7 @@ fn example() -> Result<PathBuf> {
 
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
-    let python = Environment::of(TESTS.0, TESTS.1)?;
+    let python = Environment::of("tests")?;
     // whole files: what a file builds or unpacks is made once
     let mut pytest = pytest(&python, "tests/python", Some("loadfile"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
@@ -179,7 +171,7 @@ fn python() -> Result<()> {
 fn python_package() -> Result<()> {
     let unit = packed(fmu::WALL)?;
     let package = wheel::build("dev", &unit, None)?;
-    let [python, bare, fmpy] = [WHEEL, BARE, TESTS].map(|(name, lock)| Environment::of(name, lock));
+    let [python, bare, fmpy] = ["wheel", "bare", "tests"].map(Environment::of);
     let (python, bare, fmpy) = (python?, bare?, fmpy?);
     for environment in [&python, &bare, &fmpy] {
         wheel::install(&package, environment)?;
@@ -196,7 +188,7 @@ fn python_package() -> Result<()> {
 fn masters() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
-    let python = Environment::of(MASTERS.0, MASTERS.1).map_err(missing)?;
+    let python = Environment::of("masters").map_err(missing)?;
     let mut pytest = pytest(&python, "tests/masters", None);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
@@ -204,7 +196,7 @@ fn masters() -> Result<()> {
 
 fn conformance() -> Result<()> {
     let (unit, floor) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?);
-    let clang = Environment::of(CLANG.0, CLANG.1)?;
+    let clang = Environment::of("clang")?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let mut test = build();
