@@ -83,7 +83,8 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
 /// motion.
 ///
-/// Returns the table it prints, which names a peer that cannot be installed or fails.
+/// Returns an outline of the table it prints: of each scene the run of rocking-wall, `OpenSeesPy` at the
+/// record's step, and each tool's cheapest good settings. It names a peer that cannot be installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     remove_folder(&folder)?;
@@ -104,11 +105,11 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     }
     let text = read(folder.join("rows.csv"))?;
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
-    let table = report(&rows, &missing);
+    let [table, outline] = [false, true].map(|is_outline| report(&rows, &missing, is_outline));
     print!("{table}");
     write(PEERS, with_missing(text, &missing))?;
     println!("written {}", root().join(PEERS).display());
-    Ok(table)
+    Ok(outline)
 }
 
 fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
@@ -152,12 +153,12 @@ impl<'a> Row<'a> {
     }
 }
 
-fn report(rows: &[Row<'_>], missing: &[String]) -> String {
+fn report(rows: &[Row<'_>], missing: &[String], is_outline: bool) -> String {
     let mut text = String::new();
     let all: Vec<&Row<'_>> = rows.iter().collect();
     for scene in distinct(&all, |row| row.scene) {
         let rows: Vec<&Row<'_>> = all.iter().copied().filter(|row| row.scene == scene).collect();
-        let _ = write_scene(&mut text, scene, &rows);
+        let _ = write_scene(&mut text, scene, &rows, is_outline);
     }
     for line in missing {
         let _ = writeln!(text, "missing: {line}");
@@ -165,7 +166,7 @@ fn report(rows: &[Row<'_>], missing: &[String]) -> String {
     text
 }
 
-fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::Result {
+fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>], is_outline: bool) -> std::fmt::Result {
     let Some(base) = own_run(rows) else {
         return writeln!(text, "\n{scene}: rocking-wall has no row");
     };
@@ -176,8 +177,12 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         "{:<14}{:<26}{:>12}{:>18}{:>12}",
         "tool", "setting", "time [ms]", "error/u_ins [-]", "time ratio"
     )?;
-    for row in rows {
-        write_row(text, row, base.seconds, row.error)?;
+    let first = |tool| rows.iter().position(|row| row.tool == tool);
+    let outline = [first(OURS), first(OPENSEES)];
+    for (place, row) in rows.iter().enumerate() {
+        if !is_outline || outline.contains(&Some(place)) {
+            write_row(text, row, base.seconds, row.error)?;
+        }
     }
     writeln!(text, "cheapest setting with an error of at most {GOOD:.0e} u_ins:")?;
     for tool in distinct(rows, |row| row.tool) {
