@@ -5,6 +5,7 @@ use std::path::Path;
 
 use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
+use rocking_wall::response::{COLUMNS, Sample};
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::simulation::{Excitation, Simulation, segment_of};
 use rocking_wall::variables::RealVariable;
@@ -87,16 +88,10 @@ pub(super) fn compare(
 /// Returns a variable of the model description, or a fact of the wall, by its name.
 fn computed(simulation: &Simulation, support: Support, name: &str) -> f64 {
     let outputs = simulation.outputs(support);
+    if let Some((.., value)) = COLUMNS.iter().find(|(column, ..)| *column == name) {
+        return value(&Sample { time: simulation.progress().time, support, outputs });
+    }
     match name {
-        "u" => outputs.displacement,
-        "u_dot" => outputs.velocity,
-        "u_ddot" => outputs.acceleration,
-        "restoring_force" => outputs.restoring_force,
-        "damping_force" => outputs.damping_force,
-        "reaction_bottom" => outputs.reactions.bottom,
-        "reaction_top" => outputs.reactions.top,
-        "tie_force" => outputs.tie_force,
-        "tie_elongation" => outputs.tie_elongation.positive,
         "tie_break_time" => simulation.progress().tie_break_time().unwrap_or(-1.0),
         "energy" => energy(simulation, outputs.tie_force),
         "overturn_time" => simulation.progress().overturn_time.unwrap_or(-1.0),
