@@ -149,24 +149,14 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
-
-    def table(name: str) -> Table | None:
-        return read_table(path / f"{name}.csv")
-
+    tables = {name: read_table(path / f"{name}.csv") for name in TABLES}
     xml = path / "fragilities.xml"
     return StudyResults(
         levels=Table(levels),
         collapses=Table(collapses),
-        fragilities=table("fragilities") or Table({}),
-        curves=table("fragility_curves") or Table({}),
-        rates=table("rates"),
-        rate_shares=table("rate_shares"),
-        vulnerability=table("vulnerability"),
-        losses=table("losses"),
-        samples=table("samples"),
-        sensitivity=table("sensitivity"),
-        cloud=table("cloud"),
-        ties=table("ties"),
+        fragilities=read_table(path / "fragilities.csv") or Table({}),
+        curves=read_table(path / "fragility_curves.csv") or Table({}),
+        **tables,
         nrml=xml.read_text(encoding="utf-8") if xml.exists() else None,
     )
 
@@ -200,6 +190,9 @@ def read_table(path: Path) -> Table | None:
     columns = zip(*rows) if rows else [()] * len(head)
     return Table({name: column_of(name, cells) for name, cells in zip(head, columns)})
 
+
+TABLES = ("rates", "rate_shares", "vulnerability", "losses", "samples", "sensitivity", "cloud", "ties")
+"""Tables that only some studies have."""
 
 NAMES = {"wall", "of", "model", "record", "parameter"}
 """Columns of words, even where a name is a number."""
