@@ -150,7 +150,9 @@ fn packed(unit: fmu::Unit) -> Result<PathBuf> {
 fn example() -> Result<PathBuf> {
     succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
     let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
-    fmu::pack(fmu::BALL, &[(fmu::host(), library)], &programs())
+    let libraries = [(fmu::host(), library)];
+    fmu::pack_version(fmu::BALL, &libraries, &programs(), "3")?;
+    fmu::pack_version(fmu::BALL, &libraries, &programs(), "2")
 }
 
 fn python() -> Result<()> {
