@@ -100,14 +100,18 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let mut missing = Vec::new();
     for (name, tools) in PYTHON {
         if let Err(message) = in_python(name, tools, &folder) {
-            missing.extend(tools.iter().map(|(_, tool)| format!("{tool}: {}", message.replace('\n', " "))));
+            missing.extend(tools.iter().map(|(_, tool)| (*tool, message.replace('\n', " "))));
         }
     }
-    let text = read(folder.join("rows.csv"))?;
+    let mut text = read(folder.join("rows.csv"))?;
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
     let [table, outline] = [false, true].map(|is_outline| report(&rows, &missing, is_outline));
     print!("{table}");
-    write(PEERS, with_missing(text, &missing))?;
+    for (tool, reason) in &missing {
+        // writing to a string does not fail
+        let _ = writeln!(text, "all,{tool},missing: {},,,,,", reason.replace(',', ";"));
+    }
+    write(PEERS, text)?;
     println!("written {}", root().join(PEERS).display());
     Ok(outline)
 }
@@ -117,16 +121,6 @@ fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
     let mut script = environment.program("python");
     script.arg("tests/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
     succeed(&mut script, "see its message above")
-}
-
-/// Returns the table as a file, with the peers that did not run.
-fn with_missing(mut text: String, missing: &[String]) -> String {
-    for line in missing {
-        let (tool, reason) = line.split_once(": ").unwrap_or((line, ""));
-        // writing to a string does not fail
-        let _ = writeln!(text, "all,{tool},missing: {},,,,,", reason.replace(',', ";"));
-    }
-    text
 }
 
 /// A line of the table.
@@ -153,15 +147,15 @@ impl<'a> Row<'a> {
     }
 }
 
-fn report(rows: &[Row<'_>], missing: &[String], is_outline: bool) -> String {
+fn report(rows: &[Row<'_>], missing: &[(&str, String)], is_outline: bool) -> String {
     let mut text = String::new();
     let all: Vec<&Row<'_>> = rows.iter().collect();
     for scene in distinct(&all, |row| row.scene) {
         let rows: Vec<&Row<'_>> = all.iter().copied().filter(|row| row.scene == scene).collect();
         let _ = write_scene(&mut text, scene, &rows, is_outline);
     }
-    for line in missing {
-        let _ = writeln!(text, "missing: {line}");
+    for (tool, reason) in missing {
+        let _ = writeln!(text, "missing: {tool}: {reason}");
     }
     text
 }
