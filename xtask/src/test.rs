@@ -58,21 +58,16 @@ pub(crate) fn run() -> Result<()> {
 
 /// Lists what the tests leave out on this machine, and the remedy.
 fn not_run() -> Vec<String> {
-    let mut lines = Vec::new();
-    if !records().is_dir() {
-        lines.push("tests on real accelerograms: name their folder in ROCKING_WALL_RECORDS".to_owned());
-    }
-    if browser().is_none() {
-        lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
-    }
-    if let Err(message) = playground::check_target() {
-        lines.push(format!("the playground: {message}"));
-    }
-    if let Err(message) = fmu::check_component() {
-        lines.push(format!("the WebAssembly component: {message}"));
-    }
-    lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
-    lines
+    let of_records = "tests on real accelerograms: name their folder in ROCKING_WALL_RECORDS";
+    let of_browser = "the page in a browser: install chromium and chromium-driver";
+    let lines = [
+        (!records().is_dir()).then(|| of_records.to_owned()),
+        browser().is_none().then(|| of_browser.to_owned()),
+        playground::check_target().err().map(|message| format!("the playground: {message}")),
+        fmu::check_component().err().map(|message| format!("the WebAssembly component: {message}")),
+        Some("the FMUs of other platforms: `cargo xtask portable`".to_owned()),
+    ];
+    lines.into_iter().flatten().collect()
 }
 
 /// Returns the folder of real accelerograms.
