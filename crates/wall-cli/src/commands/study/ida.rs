@@ -113,7 +113,7 @@ fn analyse(
     let mine: Vec<usize> = contents.shard(number, shards).collect();
     let missing = folder.missing(mine.iter().copied());
     // files of damaged parts exist, but count as missing
-    folder.damage(&missing).iter().for_each(|warning| console.warn(warning));
+    console.warn(folder.damage(&missing));
     let cases = |parts: &[usize]| parts.iter().map(|&part| contents.part(part).len()).sum::<usize>();
     let found = cases(&mine) - cases(&missing);
     if found > 0 {
@@ -235,8 +235,6 @@ fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> 
 }
 
 fn told_of(console: &Console<'_>, report: &Report) -> Result<()> {
-    if let Some(warning) = &report.warning {
-        console.warn(warning);
-    }
+    console.warn(&report.warning);
     console.print(&(report.summary.clone() + &output::written("written  ", &report.files)))
 }
