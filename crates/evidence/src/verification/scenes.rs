@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::response::{COLUMNS, Sample};
-use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::scene::{Scene, SceneError, variable};
 use rocking_wall::simulation::{Excitation, Simulation, segment_of};
-use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{Branch, Support};
 use serde::Deserialize;
 
@@ -71,14 +69,14 @@ pub(super) fn compare(
         let motion = motion.as_deref();
         let support = |time: f64| segment_of(motion, time, 0.0).from;
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support(0.0))?;
-        for Reference { name: variable, time, value, scale, bound } in references(name) {
+        for Reference { name: quantity, time, value, scale, bound } in references(name) {
             let next = |now: f64, _: f64| (segment_of(motion, now, time - now), time - now);
             simulation.advance_through(next, None).map_err(SceneError::from)?;
             simulation.set_time(time);
             let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
-            let unit = RealVariable::from_name(variable).map_or(Some("J"), |known| known.variable().unit);
-            let what = (name, format!("{variable}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
-            let computed = computed(&simulation, support(time), variable);
+            let unit = variable(quantity).map_or(Some("J"), |known| known.unit);
+            let what = (name, format!("{quantity}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
+            let computed = computed(&simulation, support(time), quantity);
             comparisons.push(Comparison { scale, ..Comparison::new(what, [computed, value], bound) });
         }
     }
