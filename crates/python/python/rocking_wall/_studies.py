@@ -186,7 +186,7 @@ class Study:
         threads. Raises `ValueError` if the folder holds another study.
         """
         with place(folder) as path:
-            tell(self._complete(path, threads, progress).finish(threads))
+            tell(self._complete(path, threads, progress).finish(threads)[1])
             return read_results(path)
 
     def reliability(
@@ -203,8 +203,8 @@ class Study:
         """
         with place(folder) as path:
             kept = self._complete(path, threads, progress)
-            tell(kept.finish(threads))
-            tell(kept.reliability(self._native, threads))
+            tell(kept.finish(threads)[1])
+            tell(kept.reliability(self._native, threads)[1])
             names = ("reliability", "reliability_rules", "reliability_summary")
             tables = (read_table(Path(path, f"{name}.csv")) for name in names)
             return ReliabilityResults(*(Table({}) if table is None else table for table in tables))
@@ -232,7 +232,7 @@ class Study:
     ) -> _native.Folder:
         kept = _native.Folder(path, self._native)
         missing, damage = kept.missing(*shard)
-        tell(("", damage), 4)
+        tell(damage, 4)
         with bar(kept.count(missing), progress) as report:
             kept.compute(self._native, missing, threads, report)
         return kept
