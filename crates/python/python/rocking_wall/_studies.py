@@ -111,25 +111,23 @@ class Study:
         missing.
         """
         parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
-        options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
-        options["classes"], options["collapse_is"] = classes, collapse_is
-        options["hazard"], options["check"], options["reliability"] = hazard, check, reliability
-        options["uncertain"], options["polarity"] = uncertain, polarity
+        parts |= {"title": title, "intensity": intensity, "tail": tail, "report": report}
+        parts |= {"classes": classes, "collapse_is": collapse_is, "hazard": hazard, "check": check}
+        parts |= {"reliability": reliability, "uncertain": uncertain, "polarity": polarity}
+        given = {name: part for name, part in parts.items() if part is not None}
         if path is None:
-            missing = [name for name, part in parts.items() if part is None]
+            missing = [name for name in ("walls", "records", "models", "levels") if name not in given]
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
             if not isinstance(levels, Mapping):
                 remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}'
                 raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
-            options = {"models": models, "levels": levels, **options}
-            given = {name: option for name, option in options.items() if option is not None}
+            del given["walls"], given["records"]
             text = toml_lines(given)
             self._native = _native.Study.of_parts(text, named_walls(walls), named_records(records))
             self._name = "study" if title is None else title
             self._is_file = False
         else:
-            given = {name: part for name, part in {**parts, **options}.items() if part is not None}
             if given:
                 raise TypeError(f"a study file has its own {', '.join(given)}; leave them out")
             self._native = _native.Study(fspath(path))
