@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
-use crate::wall::{Sides, Support, Warning};
+use crate::wall::{Support, Warning};
 
 /// One line of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,36 +209,26 @@ impl Response {
         Ok(Self { samples, summary, demands, residual, warnings })
     }
 
+    /// Returns the columns of the history. Those of a tie follow where there is one: its force, and the
+    /// elongations of one that yields.
+    pub fn columns(&self) -> &'static [Column] {
+        let of_tie = self.demands.tie.map_or(0, |tie| if tie.yielding.is_some() { 3 } else { 1 });
+        &COLUMNS[..COLUMNS.len() - 3 + of_tie]
+    }
+
     /// Writes the history as CSV, numbers to their last digit; the header names the columns with their units.
     pub fn csv(&self) -> String {
-        let tie = self.demands.tie;
-        let yields = tie.is_some_and(|tie| tie.yielding.is_some());
-        let of_tie = ["", ",tie_force_n"][usize::from(tie.is_some())];
-        let of_yielding = ["", ",tie_elongation_m,tie_elongation_negative_m"][usize::from(yields)];
-        let mut csv = format!("{COLUMNS}{of_tie}{of_yielding}\n");
-        for Sample { time, support, outputs } in &self.samples {
+        let columns = self.columns();
+        let mut csv = "time_s".to_owned();
+        for (name, unit, _) in columns {
+            csv.extend([",", name, unit]);
+        }
+        csv.push('\n');
+        for sample in &self.samples {
             // writing to a String cannot fail
-            let _ = write!(csv, "{time:.9}");
-            for value in [
-                outputs.displacement,
-                outputs.velocity,
-                outputs.acceleration,
-                outputs.ratio,
-                outputs.restoring_force,
-                outputs.damping_force,
-                outputs.reactions.bottom,
-                outputs.reactions.top,
-                support.bottom,
-                support.top,
-            ] {
-                let _ = write!(csv, ",{value:?}");
-            }
-            if tie.is_some() {
-                let _ = write!(csv, ",{:?}", outputs.tie_force);
-            }
-            if yields {
-                let Sides { positive, negative } = outputs.tie_elongation;
-                let _ = write!(csv, ",{positive:?},{negative:?}");
+            let _ = write!(csv, "{:.9}", sample.time);
+            for (.., value) in columns {
+                let _ = write!(csv, ",{:?}", value(sample));
             }
             csv.push('\n');
         }
@@ -246,7 +236,23 @@ impl Response {
     }
 }
 
-/// The columns of [`Response::csv`]. Those of a tie follow where there is one: its force, and the elongations
-/// of one that yields.
-const COLUMNS: &str = "time_s,u_m,u_dot_m_s,u_ddot_m_s2,u_ratio,restoring_force_n,damping_force_n,\
-                       reaction_bottom_n,reaction_top_n,a_bottom_m_s2,a_top_m_s2";
+/// A column of the history beside the time: its name, the unit that ends it in a file, and its value at a
+/// sample.
+pub type Column = (&'static str, &'static str, fn(&Sample) -> f64);
+
+/// All columns, the three of a tie last.
+pub const COLUMNS: [Column; 13] = [
+    ("u", "_m", |sample| sample.outputs.displacement),
+    ("u_dot", "_m_s", |sample| sample.outputs.velocity),
+    ("u_ddot", "_m_s2", |sample| sample.outputs.acceleration),
+    ("u_ratio", "", |sample| sample.outputs.ratio),
+    ("restoring_force", "_n", |sample| sample.outputs.restoring_force),
+    ("damping_force", "_n", |sample| sample.outputs.damping_force),
+    ("reaction_bottom", "_n", |sample| sample.outputs.reactions.bottom),
+    ("reaction_top", "_n", |sample| sample.outputs.reactions.top),
+    ("a_bottom", "_m_s2", |sample| sample.support.bottom),
+    ("a_top", "_m_s2", |sample| sample.support.top),
+    ("tie_force", "_n", |sample| sample.outputs.tie_force),
+    ("tie_elongation", "_m", |sample| sample.outputs.tie_elongation.positive),
+    ("tie_elongation_negative", "_m", |sample| sample.outputs.tie_elongation.negative),
+];

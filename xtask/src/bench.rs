@@ -21,13 +21,11 @@ const GOOD: f64 = 1e-4;
 /// Largest error of the peak over `u_ins` that a study may allow, which needs no history.
 const GOOD_PEAK: f64 = 1e-3;
 
-/// An environment, its lock, and the tools that run in it by their names for the script and in the table.
-type Peers = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+/// An environment, and the tools that run in it by their names for the script and in the table.
+type Peers = (&'static str, &'static [(&'static str, &'static str)]);
 
-const PYTHON: [Peers; 2] = [
-    ("opensees", "xtask/locks/opensees.lock", &[("opensees", OPENSEES)]),
-    ("peers", "xtask/locks/peers.lock", &[("numba", "numba"), ("scipy", "SciPy")]),
-];
+const PYTHON: [Peers; 2] =
+    [("opensees", &[("opensees", OPENSEES)]), ("peers", &[("numba", "numba"), ("scipy", "SciPy")])];
 
 /// Numbers of runs; the difference of their instructions counts.
 const FEW: u32 = 5;
@@ -85,7 +83,8 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
 /// motion.
 ///
-/// Returns the table it prints, which names a peer that cannot be installed or fails.
+/// Returns an outline of the table it prints: of each scene the run of rocking-wall, `OpenSeesPy` at the
+/// record's step, and each tool's cheapest good settings. It names a peer that cannot be installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     remove_folder(&folder)?;
@@ -99,35 +98,29 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     }
     succeed(&mut rust, "see its message above")?;
     let mut missing = Vec::new();
-    for (name, lock, tools) in PYTHON {
-        if let Err(message) = in_python(name, lock, tools, &folder) {
-            missing.extend(tools.iter().map(|(_, tool)| format!("{tool}: {}", message.replace('\n', " "))));
+    for (name, tools) in PYTHON {
+        if let Err(message) = in_python(name, tools, &folder) {
+            missing.extend(tools.iter().map(|(_, tool)| (*tool, message.replace('\n', " "))));
         }
     }
-    let text = read(folder.join("rows.csv"))?;
+    let mut text = read(folder.join("rows.csv"))?;
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
-    let table = report(&rows, &missing);
+    let [table, outline] = [false, true].map(|is_outline| report(&rows, &missing, is_outline));
     print!("{table}");
-    write(PEERS, with_missing(text, &missing))?;
-    println!("written {}", root().join(PEERS).display());
-    Ok(table)
-}
-
-fn in_python(name: &str, lock: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
-    let environment = Environment::of(name, lock)?;
-    let mut script = environment.program("python");
-    script.arg("tests/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
-    succeed(&mut script, "see its message above")
-}
-
-/// Returns the table as a file, with the peers that did not run.
-fn with_missing(mut text: String, missing: &[String]) -> String {
-    for line in missing {
-        let (tool, reason) = line.split_once(": ").unwrap_or((line, ""));
+    for (tool, reason) in &missing {
         // writing to a string does not fail
         let _ = writeln!(text, "all,{tool},missing: {},,,,,", reason.replace(',', ";"));
     }
-    text
+    write(PEERS, text)?;
+    println!("written {}", root().join(PEERS).display());
+    Ok(outline)
+}
+
+fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
+    let environment = Environment::of(name)?;
+    let mut script = environment.program("python");
+    script.arg("tests/peers/peers.py").arg(folder).args(tools.iter().map(|(tool, _)| tool));
+    succeed(&mut script, "see its message above")
 }
 
 /// A line of the table.
@@ -154,20 +147,20 @@ impl<'a> Row<'a> {
     }
 }
 
-fn report(rows: &[Row<'_>], missing: &[String]) -> String {
+fn report(rows: &[Row<'_>], missing: &[(&str, String)], is_outline: bool) -> String {
     let mut text = String::new();
     let all: Vec<&Row<'_>> = rows.iter().collect();
     for scene in distinct(&all, |row| row.scene) {
         let rows: Vec<&Row<'_>> = all.iter().copied().filter(|row| row.scene == scene).collect();
-        let _ = write_scene(&mut text, scene, &rows);
+        let _ = write_scene(&mut text, scene, &rows, is_outline);
     }
-    for line in missing {
-        let _ = writeln!(text, "missing: {line}");
+    for (tool, reason) in missing {
+        let _ = writeln!(text, "missing: {tool}: {reason}");
     }
     text
 }
 
-fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::Result {
+fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>], is_outline: bool) -> std::fmt::Result {
     let Some(base) = own_run(rows) else {
         return writeln!(text, "\n{scene}: rocking-wall has no row");
     };
@@ -178,8 +171,12 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         "{:<14}{:<26}{:>12}{:>18}{:>12}",
         "tool", "setting", "time [ms]", "error/u_ins [-]", "time ratio"
     )?;
-    for row in rows {
-        write_row(text, row, base.seconds, row.error)?;
+    let first = |tool| rows.iter().position(|row| row.tool == tool);
+    let outline = [first(OURS), first(OPENSEES)];
+    for (place, row) in rows.iter().enumerate() {
+        if !is_outline || outline.contains(&Some(place)) {
+            write_row(text, row, base.seconds, row.error)?;
+        }
     }
     writeln!(text, "cheapest setting with an error of at most {GOOD:.0e} u_ins:")?;
     for tool in distinct(rows, |row| row.tool) {

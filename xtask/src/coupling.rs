@@ -12,7 +12,7 @@ const DOCUMENT: &str = "docs/coupling.md";
 pub(crate) fn run() -> Result<()> {
     let wall = fmu::build(fmu::WALL)?;
     let floor = fmu::build(fmu::FLOOR)?;
-    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let python = Environment::of("tests")?;
     let folder = root().join("fmu_out");
     let mut measure = python.program("python");
     measure.arg("tests/coupling/measure.py").arg(wall).arg(floor).arg(&folder);

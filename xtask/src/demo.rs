@@ -10,7 +10,7 @@ use crate::python::Environment;
 pub(crate) fn run(record: &[&str]) -> Result<()> {
     // side by side: one of the two waits for the network
     let (built, python) = std::thread::scope(|scope| {
-        let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
+        let python = scope.spawn(|| Environment::of("demo"));
         let programs =
             fmu::programs("demo", &["--package", "rocking-wall-cli", "--package", "fmu-export-build"]);
         let built = programs.and_then(|programs| Ok((fmu::quick_library(fmu::WALL)?, programs)));

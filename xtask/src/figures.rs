@@ -53,7 +53,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
 /// Measures the peers, and writes their table and their picture.
 pub(crate) fn peers(record: Option<&str>) -> Result<()> {
     let peers = bench::peers(record)?;
-    write_marked(DOCUMENT, &[("peers", fenced(&outlined(&peers)))])?;
+    write_marked(DOCUMENT, &[("peers", fenced(&peers))])?;
     beside_other_tools()
 }
 
@@ -119,25 +119,6 @@ fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<Str
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
     Ok(format!("{before}{begin}{figures}{end}{after}"))
-}
-
-/// Keeps of each scene the run of rocking-wall, `OpenSeesPy` at the record's step, and each tool's cheapest
-/// good settings, of histories and of peaks.
-fn outlined(table: &str) -> String {
-    let mut text = String::new();
-    for scene in table.split("\n\n") {
-        let scene = scene.trim_matches('\n');
-        let (rows, cheapest) = scene.split_once("cheapest").unwrap_or((scene, ""));
-        let first = |tool: &str| rows.lines().find(|line| line.starts_with(tool)).into_iter();
-        let lines = rows.lines().take(2).chain(first("rocking-wall")).chain(first("OpenSeesPy"));
-        for line in lines {
-            let _ = writeln!(text, "{line}");
-        }
-        if !cheapest.is_empty() {
-            let _ = writeln!(text, "cheapest{cheapest}\n");
-        }
-    }
-    text
 }
 
 /// Makes one row for each scene: the solver that `automatic` selects, Newmark at the record's step and at its

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::command::{Result, cargo, make_folder, program, root, succeed, target};
-use crate::platform::{self, Platform, check_rust_library, reproducible};
+use crate::platform::{self, Platform, check_rust_libraries, reproducible};
 
 /// An FMU of this workspace.
 #[derive(Clone, Copy)]
@@ -15,25 +15,19 @@ pub(crate) struct Unit {
     file: &'static str,
     /// The folder of its `modelDescription.xml` and `documentation/`.
     description: &'static str,
-    /// Its FMU for FMI 3.0 carries a WebAssembly component.
-    has_component: bool,
 }
 
 /// The rocking wall.
 pub(crate) const WALL: Unit =
-    Unit { package: "rocking-wall", file: "wall.fmu", description: "modelDescription", has_component: true };
+    Unit { package: "rocking-wall", file: "wall.fmu", description: "modelDescription" };
 
 /// The floor for coupling with walls.
-pub(crate) const FLOOR: Unit = Unit {
-    package: "rocking-floor",
-    file: "floor.fmu",
-    description: "crates/floor/modelDescription",
-    has_component: true,
-};
+pub(crate) const FLOOR: Unit =
+    Unit { package: "rocking-floor", file: "floor.fmu", description: "crates/floor/modelDescription" };
 
 /// The example of the export layer.
 pub(crate) const BALL: Unit =
-    Unit { package: "bouncing-ball", file: "ball.fmu", description: "examples/fmu", has_component: false };
+    Unit { package: "bouncing-ball", file: "ball.fmu", description: "examples/fmu" };
 
 /// All FMUs of the project.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
@@ -140,7 +134,7 @@ pub(crate) fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String
 
 /// Checks that this machine can build WebAssembly components.
 pub(crate) fn check_component() -> Result<()> {
-    check_rust_library(COMPONENT)
+    check_rust_libraries([COMPONENT])
 }
 
 /// Builds the WebAssembly component of a unit, and returns its path.
@@ -160,7 +154,6 @@ pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
 pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
     let mut of_3 = libraries.to_vec();
     match check_component() {
-        _ if !unit.has_component => {}
         Ok(()) => of_3.push((COMPONENT, component(unit)?)),
         Err(missing) => println!("{} has no WebAssembly component: {missing}", unit.file),
     }

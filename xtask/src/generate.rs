@@ -2,7 +2,7 @@
 
 use crate::command::{Result, cargo, succeed};
 use crate::python::Environment;
-use crate::{codemeta, fmu, test, wheel};
+use crate::{codemeta, fmu, wheel};
 
 /// Writes parts of what is derived, or all of it. With `check` they are compared instead: a stale one is an
 /// error.
@@ -27,7 +27,7 @@ fn documents(check: bool) -> Result<()> {
 }
 
 fn python(check: bool) -> Result<()> {
-    let python = Environment::of(test::WHEEL.0, test::WHEEL.1)?;
+    let python = Environment::of("wheel")?;
     wheel::install(&wheel::build("dev", &fmu::build(fmu::WALL)?, None)?, &python)?;
     let mut parameters = python.program("python");
     parameters.arg("tests/wheel/parameters.py").args(check.then_some("--check"));

@@ -74,12 +74,15 @@ impl Platform {
             }
         }
         let wanted = PLATFORMS.iter().filter(|one| names.split(',').any(|name| is_named(one, name)));
-        installed(wanted.collect())
+        let wanted: Vec<_> = wanted.collect();
+        check_rust_libraries(wanted.iter().map(|platform| platform.target))
+            .map_err(|message| message + ", or choose other platforms with `--platforms`")?;
+        Ok(wanted)
     }
 
     /// Prepares a job of cargo for this platform, linked with zig.
     pub(crate) fn cargo(&self, subcommand: &str) -> Result<Command> {
-        let mut build = Environment::of("zig", "xtask/locks/zig.lock")?.program("cargo-zigbuild");
+        let mut build = Environment::of("zig")?.program("cargo-zigbuild");
         build.args([subcommand, "--target", &format!("{}{}", self.target, self.glibc)]);
         self.link_with_zig(&mut build)?;
         Ok(build)
@@ -87,7 +90,7 @@ impl Platform {
 
     /// Lets a job of cargo or maturin find zig, and makes its bytes independent of the folder.
     pub(crate) fn link_with_zig(&self, build: &mut Command) -> Result<()> {
-        let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
+        let zig = Environment::of("zig")?;
         let mut path = zig.programs().into_os_string();
         if let Some(rest) = std::env::var_os("PATH") {
             path.push(":");
@@ -103,38 +106,21 @@ impl Platform {
     }
 }
 
-/// Returns the platforms if this machine has the Rust libraries for them.
-fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>> {
+/// Checks that this machine has the Rust libraries for some targets.
+pub(crate) fn check_rust_libraries<'a>(targets: impl IntoIterator<Item = &'a str>) -> Result<()> {
     let mut missing = Vec::new();
-    for platform in &platforms {
-        if !has_rust_library(platform.target)? {
-            missing.push(platform.target);
+    for target in targets {
+        let mut rustc = program("rustc");
+        rustc.args(["--print", "target-libdir", "--target", target]);
+        if !Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir() {
+            missing.push(target);
         }
     }
     if missing.is_empty() {
-        return Ok(platforms);
-    }
-    Err(format!(
-        "the Rust libraries for {} are missing: run `rustup target add {}`, or choose other platforms with \
-         `--platforms`",
-        missing.join(", "),
-        missing.join(" ")
-    ))
-}
-
-/// Returns whether this machine has the Rust library for a target.
-fn has_rust_library(target: &str) -> Result<bool> {
-    let mut rustc = program("rustc");
-    rustc.args(["--print", "target-libdir", "--target", target]);
-    Ok(Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir())
-}
-
-/// Checks that this machine has the Rust library for a target.
-pub(crate) fn check_rust_library(target: &str) -> Result<()> {
-    if has_rust_library(target)? {
         return Ok(());
     }
-    Err(format!("the Rust library for {target} is missing: run `rustup target add {target}`"))
+    let (listed, given) = (missing.join(", "), missing.join(" "));
+    Err(format!("the Rust libraries for {listed} are missing: run `rustup target add {given}`"))
 }
 
 /// Makes what a build gives independent of its folders, with more flags of the linker.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::command::{Result, at, cargo, program, root, succeed, target};
-use crate::platform::{check_rust_library, reproducible};
+use crate::platform::{check_rust_libraries, reproducible};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const PAGE: &str = "fmu_out/playground.html";
@@ -12,7 +12,7 @@ const LARGEST: u64 = 1_500_000;
 
 /// Checks that this machine can compile to WebAssembly.
 pub(crate) fn check_target() -> Result<()> {
-    check_rust_library(TARGET)
+    check_rust_libraries([TARGET])
 }
 
 /// Builds the page.

@@ -6,7 +6,7 @@ use crate::command::{Result, cargo, find, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
 use crate::python::Environment;
-use crate::test::{TESTS, pytest, records};
+use crate::test::{pytest, records};
 
 /// Builds the FMUs for all platforms into `fmu_out/` and tests them: the Linux library in FMPy, the Windows
 /// library and `wall.exe` under wine; the macOS library is only inspected.
@@ -20,7 +20,7 @@ pub(crate) fn run() -> Result<()> {
     let programs = target().join("fmu").join(windows.target).join("debug");
     compile("windows_driver.c", &programs.join("driver.exe"), &[])?;
     compile("windows_random.c", &programs.join("bcryptprimitives.dll"), &["-shared", "-ladvapi32"])?;
-    let python = Environment::of(TESTS.0, TESTS.1)?;
+    let python = Environment::of("tests")?;
     let mut pytest = pytest(&python, "tests/python", None);
     for (name, path) in [
         ("ROCKING_WALL_FMU", root().join("fmu_out/wall.fmu")),
@@ -44,7 +44,7 @@ pub(crate) fn run() -> Result<()> {
 
 /// Compiles a file of `tests/python` for Windows.
 fn compile(source: &str, output: &Path, arguments: &[&str]) -> Result<()> {
-    let mut compiler = Environment::of("zig", "xtask/locks/zig.lock")?.program("python-zig");
+    let mut compiler = Environment::of("zig")?.program("python-zig");
     compiler.args(["cc", "-target", "x86_64-windows-gnu", "-O2", "-Wall", "-Wextra", "-Werror", "-s"]);
     compiler.arg("-o").arg(output).arg(Path::new("tests/python").join(source)).args(arguments);
     succeed(&mut compiler, "see the compiler's message above")

@@ -15,10 +15,16 @@ pub(crate) struct Environment {
 }
 
 impl Environment {
-    /// Returns the environment of a lock file (relative to the root), made again if the lock has changed.
-    pub(crate) fn of(name: &str, lock: &str) -> Result<Self> {
+    /// Returns the environment of a name, made again if its lock file has changed.
+    pub(crate) fn of(name: &str) -> Result<Self> {
         let environment = Self { folder: target().join("python").join(name) };
-        let lock = root().join(lock);
+        // what tests need is locked beside them
+        let lock = root().join(match name {
+            "tests" => "tests/python/requirements.lock".to_owned(),
+            "wheel" => "tests/wheel/requirements.lock".to_owned(),
+            "bare" => "tests/wheel/bare.lock".to_owned(),
+            other => format!("xtask/locks/{other}.lock"),
+        });
         // environments made with a pip of their own are made again
         let wanted = format!("without pip\n{}", read(&lock)?);
         let stamp = environment.folder.join("lock");

@@ -1,6 +1,6 @@
 //! `cargo xtask test`: every test, and a summary that names what did not run.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
@@ -12,14 +12,6 @@ use crate::wheel;
 
 /// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";
-
-/// Python environments by name, with their locks.
-pub(crate) const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
-pub(crate) const WHEEL: (&str, &str) = ("wheel", "tests/wheel/requirements.lock");
-const BARE: (&str, &str) = ("bare", "tests/wheel/bare.lock");
-const MATURIN: (&str, &str) = ("maturin", "xtask/locks/maturin.lock");
-const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");
-const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
 
 /// One part of the tests.
 type Part = fn() -> Result<()>;
@@ -66,21 +58,16 @@ pub(crate) fn run() -> Result<()> {
 
 /// Lists what the tests leave out on this machine, and the remedy.
 fn not_run() -> Vec<String> {
-    let mut lines = Vec::new();
-    if !records().is_dir() {
-        lines.push("tests on real accelerograms: name their folder in ROCKING_WALL_RECORDS".to_owned());
-    }
-    if browser().is_none() {
-        lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
-    }
-    if let Err(message) = playground::check_target() {
-        lines.push(format!("the playground: {message}"));
-    }
-    if let Err(message) = fmu::check_component() {
-        lines.push(format!("the WebAssembly component: {message}"));
-    }
-    lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
-    lines
+    let of_records = "tests on real accelerograms: name their folder in ROCKING_WALL_RECORDS";
+    let of_browser = "the page in a browser: install chromium and chromium-driver";
+    let lines = [
+        (!records().is_dir()).then(|| of_records.to_owned()),
+        browser().is_none().then(|| of_browser.to_owned()),
+        playground::check_target().err().map(|message| format!("the playground: {message}")),
+        fmu::check_component().err().map(|message| format!("the WebAssembly component: {message}")),
+        Some("the FMUs of other platforms: `cargo xtask portable`".to_owned()),
+    ];
+    lines.into_iter().flatten().collect()
 }
 
 /// Returns the folder of real accelerograms.
@@ -96,8 +83,8 @@ fn browser() -> Option<PathBuf> {
 
 /// Installs and builds what the later parts need.
 fn prepare() {
-    for (name, lock) in [TESTS, MATURIN, WHEEL, BARE, MASTERS, CLANG] {
-        let _ = Environment::of(name, lock);
+    for name in ["tests", "maturin", "wheel", "bare", "masters", "clang"] {
+        let _ = Environment::of(name);
     }
     for unit in fmu::UNITS {
         let _ = fmu::library(unit, None);
@@ -158,12 +145,14 @@ fn packed(unit: fmu::Unit) -> Result<PathBuf> {
 fn example() -> Result<PathBuf> {
     succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
     let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
-    fmu::pack(fmu::BALL, &[(fmu::host(), library)], &programs())
+    let libraries = [(fmu::host(), library)];
+    fmu::pack_version(fmu::BALL, &libraries, &programs(), "3")?;
+    fmu::pack_version(fmu::BALL, &libraries, &programs(), "2")
 }
 
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
-    let python = Environment::of(TESTS.0, TESTS.1)?;
+    let python = Environment::of("tests")?;
     // whole files: what a file builds or unpacks is made once
     let mut pytest = pytest(&python, "tests/python", Some("loadfile"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
@@ -179,7 +168,7 @@ fn python() -> Result<()> {
 fn python_package() -> Result<()> {
     let unit = packed(fmu::WALL)?;
     let package = wheel::build("dev", &unit, None)?;
-    let [python, bare, fmpy] = [WHEEL, BARE, TESTS].map(|(name, lock)| Environment::of(name, lock));
+    let [python, bare, fmpy] = ["wheel", "bare", "tests"].map(Environment::of);
     let (python, bare, fmpy) = (python?, bare?, fmpy?);
     for environment in [&python, &bare, &fmpy] {
         wheel::install(&package, environment)?;
@@ -196,7 +185,7 @@ fn python_package() -> Result<()> {
 fn masters() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
-    let python = Environment::of(MASTERS.0, MASTERS.1).map_err(missing)?;
+    let python = Environment::of("masters").map_err(missing)?;
     let mut pytest = pytest(&python, "tests/masters", None);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
@@ -204,19 +193,15 @@ fn masters() -> Result<()> {
 
 fn conformance() -> Result<()> {
     let (unit, floor) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?);
-    let clang = Environment::of(CLANG.0, CLANG.1)?;
+    let clang = Environment::of("clang")?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let mut test = build();
     test.args(["test", "--locked", "--no-fail-fast", "--package", "conformance"]);
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
-        .env("ROCKING_WALL_FMU", absolute(&unit))
-        .env("ROCKING_FLOOR_FMU", absolute(&floor))
-        .env("ROCKING_WALL_BIN", absolute(&programs().join("wall")));
+        .env("ROCKING_WALL_FMU", unit)
+        .env("ROCKING_FLOOR_FMU", floor)
+        .env("ROCKING_WALL_BIN", programs().join("wall"));
     run_tests(&mut test)
-}
-
-fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

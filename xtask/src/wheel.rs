@@ -72,7 +72,7 @@ fn maturin(job: &str, unit: &Path) -> Result<Command> {
         let [from, to] = LICENCES.map(|folder| Path::new(folder).join(text));
         copy(from, to)?;
     }
-    let mut maturin = Environment::of("maturin", "xtask/locks/maturin.lock")?.program("maturin");
+    let mut maturin = Environment::of("maturin")?.program("maturin");
     maturin.args([job, "--manifest-path", "crates/python/Cargo.toml"]);
     // as for the tests; otherwise the crates would be built again
     maturin.env("CARGO_INCREMENTAL", "0");

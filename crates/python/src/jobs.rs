@@ -262,13 +262,13 @@ pub(crate) fn calibrate_wall<'py>(
     step: f64,
     threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<String>)> {
-    let mut grid = Grid { start: samples(start)?, step, ..Grid::default() };
-    if let Some(restitution) = &restitution {
-        grid.restitution = samples(restitution)?;
-    }
-    if let Some(a1) = &a1 {
-        grid.a1 = samples(a1)?;
-    }
+    let usual = Grid::default();
+    let grid = Grid {
+        restitution: restitution.as_ref().map_or(Ok(usual.restitution), samples)?,
+        a1: a1.as_ref().map_or(Ok(usual.a1), samples)?,
+        start: samples(start)?,
+        step,
+    };
     let parameters = &wall.scene.parameters;
     let models = match models {
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,

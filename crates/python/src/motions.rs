@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use run::record_facts::figure::{self, Drawn};
 
 use crate::arrays::{Motion, Numbers, samples};
-use crate::errors::{of_motion, refused};
+use crate::errors::of_motion;
 
 /// A channel of a record file: its motion, its name, and warnings.
 type Channel = (Motion, Option<String>, Vec<String>);
@@ -63,11 +63,7 @@ pub(crate) fn pulse(
         "harmonic" => Shape::Harmonic { phase, end: duration },
         "sine_cycle" => Shape::SineCycle,
         "half_sine" => Shape::HalfSine,
-        _ => {
-            return Err(refused(format!(
-                "shape = {shape:?} is not one of ricker, harmonic, sine_cycle, half_sine"
-            )));
-        }
+        _ => unreachable!("the package names the shapes that there are"),
     };
     let pulse = Pulse { shape, amplitude, frequency };
     made(pulse.motion(duration))

@@ -4,36 +4,11 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use report::plot::Picture;
-use rocking_wall::response::{Response, Sample};
+use rocking_wall::response::Response;
 use run::figure;
 
 use crate::arrays::samples;
 use crate::errors::failed;
-
-/// A column of the history and its value at a sample.
-type Column = (&'static str, fn(&Sample) -> f64);
-
-/// The columns of the history, those of `wall simulate --csv`.
-const COLUMNS: [Column; 11] = [
-    ("time", |sample| sample.time),
-    ("u", |sample| sample.outputs.displacement),
-    ("u_dot", |sample| sample.outputs.velocity),
-    ("u_ddot", |sample| sample.outputs.acceleration),
-    ("u_ratio", |sample| sample.outputs.ratio),
-    ("restoring_force", |sample| sample.outputs.restoring_force),
-    ("damping_force", |sample| sample.outputs.damping_force),
-    ("reaction_bottom", |sample| sample.outputs.reactions.bottom),
-    ("reaction_top", |sample| sample.outputs.reactions.top),
-    ("a_bottom", |sample| sample.support.bottom),
-    ("a_top", |sample| sample.support.top),
-];
-
-/// The force of a tie, and the elongations of one that yields.
-const OF_TIE: [Column; 3] = [
-    ("tie_force", |sample| sample.outputs.tie_force),
-    ("tie_elongation", |sample| sample.outputs.tie_elongation.positive),
-    ("tie_elongation_negative", |sample| sample.outputs.tie_elongation.negative),
-];
 
 /// Returns the history of a run, what `wall simulate --json` prints of it, and its warnings and `more`.
 pub(crate) fn values<'py>(
@@ -42,12 +17,8 @@ pub(crate) fn values<'py>(
     more: impl Iterator<Item = String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let history = PyDict::new(py);
-    for (name, value) in COLUMNS {
-        history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
-    }
-    let yields = response.demands.tie.map(|tie| tie.yielding.is_some());
-    let of_tie = OF_TIE.iter().take(yields.map_or(0, |yields| if yields { OF_TIE.len() } else { 1 }));
-    for (name, value) in of_tie {
+    history.set_item("time", PyArray1::from_iter(py, response.samples.iter().map(|sample| sample.time)))?;
+    for (name, _, value) in response.columns() {
         history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
     }
     let text = serde_json::to_string(response).map_err(failed)?;

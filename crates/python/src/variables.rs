@@ -3,8 +3,8 @@
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rocking_wall::scene::GROUPS;
-use rocking_wall::variables::{IntegerVariable, RealVariable};
+use rocking_wall::scene::{GROUPS, variable};
+use rocking_wall::variables::RealVariable;
 use study::document::StudyFile;
 
 use crate::errors::failed;
@@ -13,7 +13,7 @@ use crate::errors::failed;
 #[pyfunction]
 pub(crate) fn variables(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let names = GROUPS.iter().flat_map(|(group, names)| names.iter().map(move |name| (*group, *name)));
-    names.filter_map(|(group, name)| Some(entry(py, group, find(name)?))).collect()
+    names.filter_map(|(group, name)| Some(entry(py, group, variable(name)?))).collect()
 }
 
 /// Lists what follows from the parameters: name, description, unit.
@@ -35,11 +35,6 @@ pub(crate) fn study_schema() -> PyResult<String> {
 /// Returns the unit of a variable; the description writes "1" for what has none.
 fn unit(variable: &Variable) -> &'static str {
     variable.unit.filter(|unit| *unit != "1").unwrap_or_default()
-}
-
-fn find(name: &str) -> Option<&'static Variable> {
-    let real = RealVariable::from_name(name).map(VariableId::variable);
-    real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable))
 }
 
 fn entry<'py>(py: Python<'py>, group: &str, variable: &Variable) -> PyResult<Bound<'py, PyDict>> {

@@ -71,7 +71,7 @@ fn format_help() -> String {
 }
 
 impl SceneArguments {
-    /// The scene with its parameters set.
+    /// The scene of the file, or the default one.
     pub(crate) fn load(&self, console: &Console<'_>) -> Result<Scene> {
         let Some(path) = &self.scene else { return Ok(Scene::default()) };
         let scene = Scene::read(path).map_err(|error| {
@@ -141,12 +141,10 @@ pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> R
 /// Warns about a scene's own motion: accelerations that no record has, and a vertical record.
 pub(crate) fn warn_of_motion(console: &Console<'_>, path: &Path, scene: &Scene) {
     let vertical = Warning::Vertical.to_string();
-    if scene.motion_notes.contains(&vertical) {
-        console.warn(&format!("{}: {vertical}", path.display()));
-    }
-    if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {
-        console.warn(&format!("{}: {warning}", path.display()));
-    }
+    let vertical = scene.motion_notes.contains(&vertical).then_some(vertical);
+    let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
+    let warnings = vertical.into_iter().chain(of_motion.map(|warning| warning.to_string()));
+    console.warn(warnings.map(|warning| format!("{}: {warning}", path.display())));
 }
 
 /// Reads a record, and warns about what its check finds; `-` is standard input.
@@ -155,10 +153,8 @@ pub(crate) fn read_record(console: &Console<'_>, path: &Path, options: &RecordOp
         Some(bytes) => parse(STDIN, bytes, options)?,
         None => read(path, options)?,
     };
-    let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
-    for warning in &record.check().warnings {
-        console.warn(&format!("{name}: {warning}"));
-    }
+    let name = named(path).display();
+    console.warn(record.check().warnings.iter().map(|warning| format!("{name}: {warning}")));
     Ok(record)
 }
 
@@ -176,7 +172,12 @@ pub(crate) fn record_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
 }
 
 /// Name of standard input in messages.
-pub(crate) const STDIN: &str = "standard input";
+const STDIN: &str = "standard input";
+
+/// Returns the path of a record as messages show it.
+pub(crate) fn named(path: &Path) -> &Path {
+    if path.as_os_str() == "-" { Path::new(STDIN) } else { path }
+}
 
 /// Reads standard input, up to the size of the largest record, if `path` is `-`.
 fn standard_input(path: &Path) -> Result<Option<Vec<u8>>> {
@@ -193,10 +194,7 @@ fn standard_input(path: &Path) -> Result<Option<Vec<u8>>> {
 
 /// Returns the name of a record's file without its folder.
 pub(crate) fn short_name(path: &Path) -> String {
-    if path.as_os_str() == "-" {
-        return STDIN.into();
-    }
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    named(path).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// What the project's synthetic motion is called.
@@ -267,9 +265,7 @@ impl MotionArguments {
             // the reader has already warned
             (None, None) => return Ok(motion),
         };
-        if let Some(warning) = scaled.warning() {
-            console.warn(&warning.to_string());
-        }
+        console.warn(scaled.warning());
         Ok(scaled)
     }
 }

@@ -1,9 +1,8 @@
 //! The wall of a report: its drawing, and its parameters with where they come from.
 
 use ::report::escaped;
-use fmu_export::VariableId;
-use rocking_wall::scene::{GROUPS, parameter_text};
-use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable};
+use rocking_wall::scene::{GROUPS, parameter_text, variable};
+use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
 use super::markup::{formula, kilonewtons, shown, stated, table};
@@ -128,8 +127,7 @@ fn parameter(
     group: &str,
     name: &str,
 ) -> Option<[String; 3]> {
-    let real = RealVariable::from_name(name).map(VariableId::variable);
-    let variable = real.or(IntegerVariable::from_name(name).map(VariableId::variable))?;
+    let variable = variable(name)?;
     let text = parameter_text(parameters, name)?;
     let number: Option<f64> = text.parse().ok();
     let unit = match unit_for_people(variable.unit.unwrap_or_default()) {

@@ -38,10 +38,10 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
     Ok(Figure {
         number: 4,
         title: "Force-displacement laws built on the rigid-linear one",
-        notes: vec![format!(
+        notes: format!(
             "The values drawn are lost; here a₁ = {a1}, a₃ = {a3}, d₁ = {d1}. The softening line keeps the \
              slope −k₀ and ends at u₃ = a₃ u_ins; for a₃ = 1 all readings of the figure agree."
-        )],
+        ),
         charts: vec![
             chart("a) bilinear", "bilinear: u₁ = a₁ u_ins, u₃ = a₃ u_ins", law(ForceLaw::Bilinear)?, 0.6),
             chart("b) trilinear", "trilinear: plateau F_y = d₁ F₀", law(ForceLaw::Trilinear)?, 0.6),
@@ -78,7 +78,7 @@ pub(super) fn figure_13() -> Figure {
     Figure {
         number: 13,
         title: "Damping ratio over the geometry, Eqs. (20) to (22)",
-        notes: vec!["tan α = b/h, tan α₁ = b/h₁, with h₁ = h/2; of the SDR model ξ₁ is shown.".into()],
+        notes: "tan α = b/h, tan α₁ = b/h₁, with h₁ = h/2; of the SDR model ξ₁ is shown.".into(),
         charts: charts.into(),
     }
 }

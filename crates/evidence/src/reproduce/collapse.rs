@@ -99,22 +99,18 @@ fn figure(count: usize, charts: Vec<Plot>, walls: &[Vec<Summary>]) -> Figure {
     Figure {
         number: 15,
         title: "Collapse fragilities of the walls of Table 5",
-        notes: vec![
-            format!(
-                "{}, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of RINTC for \
-                 L'Aquila are not public: medians cannot be compared with print, only how the models \
-                 compare with each other.",
-                counted(count, "record")
-            ),
-            format!(
-                "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with \
-                 Eq. (14): above 1, the probability of overturning underestimated, with its whole 95 % \
-                 interval for {clear} of {} walls.",
-                extremes(1..EQUATION_14),
-                extremes(EQUATION_14..EQUATION_14 + 1),
-                walls.len()
-            ),
-        ],
+        notes: format!(
+            "{}, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of RINTC for \
+             L'Aquila are not public: medians cannot be compared with print, only how the models compare \
+             with each other.\n\
+             Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with Eq. \
+             (14): above 1, the probability of overturning underestimated, with its whole 95 % interval for \
+             {clear} of {} walls.",
+            counted(count, "record"),
+            extremes(1..EQUATION_14),
+            extremes(EQUATION_14..EQUATION_14 + 1),
+            walls.len()
+        ),
         charts,
     }
 }

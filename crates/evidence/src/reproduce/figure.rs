@@ -13,8 +13,8 @@ pub struct Figure {
     pub number: u8,
     /// Title.
     pub title: &'static str,
-    /// Assumptions, and what does not match print.
-    pub notes: Vec<String>,
+    /// Assumptions, and what does not match print; a paragraph a line.
+    pub notes: String,
     /// Panels.
     pub charts: Vec<Plot>,
 }

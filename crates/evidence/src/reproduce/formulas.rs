@@ -91,21 +91,19 @@ pub(super) fn tables_1_and_2() -> Result<[PaperTable; 2], ParameterError> {
             name: "Table 1",
             title: "Parameters of Eq. (1): the printed formulas beside those derived from Lagrange's \
                     equations",
-            notes: vec![
-                example.into(),
-                "The printed strip force contradicts Table 2: it is not F₀ at u = 0 and not zero at u_ins. \
+            notes: format!(
+                "{example}\n\
+                 The printed strip force contradicts Table 2: it is not F₀ at u = 0 and not zero at u_ins. \
                  Print has −u and 2/h₁; from Lagrange: h/(h₁h₂) O (b + 2c − 2u) + O (b − 2c)/h₁."
-                    .into(),
-            ],
+            ),
             rows: first,
         },
         PaperTable {
             name: "Table 2",
             title: "Rigid strength and instability displacement",
-            notes: vec![
-                example.into(),
-                "F₀ of the parapet has the sign of c wrong: Table 1 and u_ins have −c.".into(),
-            ],
+            notes: format!(
+                "{example}\nF₀ of the parapet has the sign of c wrong: Table 1 and u_ins have −c."
+            ),
             rows: second,
         },
     ])

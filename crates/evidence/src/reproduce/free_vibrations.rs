@@ -78,15 +78,12 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 5,
         title: "The three damping models on one strip",
-        notes: vec![
-            format!(
-                "Width and density are not stated: {STRIP_WIDTH} m and {STRIP_DENSITY} kg/m³ make C_CDC the \
-                 300 kg/s of the text."
-            ),
-            "b) ω is the secant frequency; a constant coefficient C is there ξ = C/(2 m_eff ω). c) The force \
+        notes: format!(
+            "Width and density are not stated: {STRIP_WIDTH} m and {STRIP_DENSITY} kg/m³ make C_CDC the 300 \
+             kg/s of the text.\n\
+             b) ω is the secant frequency; a constant coefficient C is there ξ = C/(2 m_eff ω). c) The force \
              is divided by F₀, which the caption does not say; the first 5 s."
-                .into(),
-        ],
+        ),
         charts: vec![
             Plot::titled("a) damping coefficient", U, "C (kg/s)", coefficients),
             Plot::titled("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
@@ -124,7 +121,7 @@ pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 6,
         title: "Matched free vibrations of CR and CDR",
-        notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
+        notes: "The wall is that of Figure 5; the velocity is divided by u_ins.".into(),
         charts: vec![
             Plot::titled("a) history", ("time (s)", [0.0, 10.0]), U, histories),
             Plot::titled("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
@@ -167,11 +164,9 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 7,
         title: "Free vibrations of a rocking body and of elastic oscillators",
-        notes: vec![
-            "Which cycle gave the period is lost; taken is the one that starts half-way through the impacts \
-             that Eq. (13) counts, after 2 of 4 in a) and after 1 of 3 in b), by Eq. (5)."
-                .into(),
-        ],
+        notes: "Which cycle gave the period is lost; taken is the one that starts half-way through the \
+                impacts that Eq. (13) counts, after 2 of 4 in a) and after 1 of 3 in b), by Eq. (5)."
+            .into(),
         charts,
     })
 }
@@ -227,13 +222,11 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<PaperTable, EvidenceErro
     Ok(PaperTable {
         name: "Captions",
         title: "Numbers printed in captions and text",
-        notes: vec![
-            "Neither e by Eq. (3) nor 0.90 of it is what Figure 2 used for the strip.".into(),
-            format!(
-                "Width and density were chosen so that C_CDC comes out, and e = {e:.3} so that CDR of Figure \
-                 5 does."
-            ),
-        ],
+        notes: format!(
+            "Neither e by Eq. (3) nor 0.90 of it is what Figure 2 used for the strip.\n\
+             Width and density were chosen so that C_CDC comes out, and e = {e:.3} so that CDR of Figure 5 \
+             does."
+        ),
         rows,
     })
 }

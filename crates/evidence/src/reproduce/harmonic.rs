@@ -74,17 +74,13 @@ pub(super) fn figure_14() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 14,
         title: "Parapets P4-(B) and P7-(C) under a harmonic motion, with the parameters of Table 4",
-        notes: vec![
-            format!(
-                "The shake-table signals and the measured response are not public. Assumed: a sine of \
-                 {FREQUENCY} Hz whose amplitude grows linearly to {AMPLITUDE} m/s² in {RISE} s and falls to \
-                 zero in {FALL} s. What can be compared is whether CR, CDR and SDR agree with each other, \
-                 not with the tests."
-            ),
-            format!(
-                "F₀ = 1.24 kN with h = 1180 mm, b = 230 mm and a width of 1200 mm means {density:.0} kg/m³."
-            ),
-        ],
+        notes: format!(
+            "The shake-table signals and the measured response are not public. Assumed: a sine of \
+             {FREQUENCY} Hz whose amplitude grows linearly to {AMPLITUDE} m/s² in {RISE} s and falls to zero \
+             in {FALL} s. What can be compared is whether CR, CDR and SDR agree with each other, not with \
+             the tests.\n\
+             F₀ = 1.24 kN with h = 1180 mm, b = 230 mm and a width of 1200 mm means {density:.0} kg/m³."
+        ),
         charts,
     })
 }

@@ -45,8 +45,8 @@ pub struct PaperTable {
     pub name: &'static str,
     /// Title.
     pub title: &'static str,
-    /// Assumptions, and why some numbers do not match print.
-    pub notes: Vec<String>,
+    /// Assumptions, and why some numbers do not match print; a paragraph a line.
+    pub notes: String,
     /// Its numbers beside the printed ones.
     pub rows: Vec<Comparison>,
 }

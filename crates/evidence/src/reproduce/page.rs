@@ -36,7 +36,7 @@ pub fn summary(reproduction: &Reproduction) -> String {
             );
         }
         text.push('\n');
-        for line in table.notes.iter().flat_map(|note| wrapped(note, 96)) {
+        for line in table.notes.lines().flat_map(|note| wrapped(note, 96)) {
             let _ = writeln!(text, "    {line}");
         }
     }
@@ -70,14 +70,13 @@ pub fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> Strin
         page = page.text(&drawn(figure));
     }
     if let Some(Collapses { table, note, .. }) = collapses {
-        page = page.section(MEDIANS, &(notes(std::slice::from_ref(note)) + &table.html()));
+        page = page.section(MEDIANS, &(notes(note) + &table.html()));
     }
     page.html()
 }
 
-fn notes(notes: &[String]) -> String {
-    let notes: Vec<_> = notes.iter().map(|note| ["<p>", &escaped(note), "</p>\n"].concat()).collect();
-    notes.concat()
+fn notes(notes: &str) -> String {
+    notes.lines().map(|note| ["<p>", &escaped(note), "</p>\n"].concat()).collect()
 }
 
 fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {

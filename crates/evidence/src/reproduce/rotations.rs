@@ -33,23 +33,19 @@ pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 2,
         title: "Free vibrations in full rotations and by Eq. (1)",
-        notes: vec![
-            format!(
-                "Parapet: first impact at {:.5} s in full rotations and {:.5} s by Eq. (1), a ratio of √cos \
-                 α; the histories are at most {:.3} u_ins apart.",
-                first(&parapet.trigonometric),
-                first(&parapet.linear),
-                parapet.largest_difference()
-            ),
-            format!(
-                "Strip: the first impact comes {:.1} % early, so that the histories drift {:.2} u_ins apart \
-                 in phase, while the amplitudes stay within {:.3} u_ins; the paper calls the match good. Its \
-                 e = 0.955 is given, not that of Eq. (3).",
-                100.0 * (1.0 - ratio(&strip)),
-                strip.largest_difference(),
-                strip.largest_amplitude_difference()
-            ),
-        ],
+        notes: format!(
+            "Parapet: first impact at {:.5} s in full rotations and {:.5} s by Eq. (1), a ratio of √cos α; \
+             the histories are at most {:.3} u_ins apart.\n\
+             Strip: the first impact comes {:.1} % early, so that the histories drift {:.2} u_ins apart in \
+             phase, while the amplitudes stay within {:.3} u_ins; the paper calls the match good. Its e = \
+             0.955 is given, not that of Eq. (3).",
+            first(&parapet.trigonometric),
+            first(&parapet.linear),
+            parapet.largest_difference(),
+            100.0 * (1.0 - ratio(&strip)),
+            strip.largest_difference(),
+            strip.largest_amplitude_difference()
+        ),
         charts: vec![chart("a) parapet, e = 0.985", &parapet), chart("b) strip, e = 0.955", &strip)],
     })
 }
@@ -81,12 +77,12 @@ pub(super) fn periods() -> Result<Figure, EvidenceError> {
     Ok(Figure {
         number: 3,
         title: "Period of a free-standing parapet",
-        notes: vec![
-            "Lines: Eq. (5); marks: Eq. (1). Which α were drawn is lost; a) has α = 0.1, b) shows what \
-             α does."
-                .into(),
-            format!("The ratio is √cos α whatever p and θ₀: {} at α = 0.1, 0.2, 0.3.", shown.join(", ")),
-        ],
+        notes: format!(
+            "Lines: Eq. (5); marks: Eq. (1). Which α were drawn is lost; a) has α = 0.1, b) shows what α \
+             does.\n\
+             The ratio is √cos α whatever p and θ₀: {} at α = 0.1, 0.2, 0.3.",
+            shown.join(", ")
+        ),
         charts: vec![
             Plot::titled(
                 format!("a) over the initial rotation, α = {SLENDERNESS}"),

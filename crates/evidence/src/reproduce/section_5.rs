@@ -90,15 +90,13 @@ impl Section5 {
         PaperTable {
             name: "Equations (20) to (23)",
             title: "Section 5 refitted: ξ = −q a₁^r ln e, u₀ = 0.9 u_ins, e = 0.80 … 0.98",
-            notes: vec![
+            notes: format!(
                 "CR runs on the same bilinear law as the damped wall: on the rigid law the fit is another. \
-                 The ranges of e and a₁ behind the printed values are not stated; CDC depends on them most."
-                    .into(),
-                format!(
-                    "Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ \
-                     = {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
-                ),
-            ],
+                 The ranges of e and a₁ behind the printed values are not stated; CDC depends on them \
+                 most.\n\
+                 Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ = \
+                 {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
+            ),
             rows,
         }
     }
@@ -120,14 +118,14 @@ impl Section5 {
         Figure {
             number: 8,
             title: "Damping that matches a free vibration of CR, over e and u₀",
-            notes: vec![format!(
+            notes: format!(
                 "Drawn values of u₀ are lost; here 0.3, 0.5, 0.7 and 0.9 u_ins. From the least to the \
                  largest x goes {} (CDC), {} (CDR), {} (SDR): CDC depends most on the amplitude. That of SDR \
                  rises, on which the paper's text contradicts itself.",
                 trend(0),
                 trend(1),
                 trend(2)
-            )],
+            ),
             charts,
         }
     }
@@ -148,11 +146,11 @@ impl Section5 {
         Figure {
             number: 9,
             title: "The same over the wall's shape",
-            notes: vec![format!(
+            notes: format!(
                 "Nothing of the shape is left in normalised displacements and time, so that the marks lie on \
                  each other; what differs is the sampling at 0.01 s, x by at most {:.2} %.",
                 100.0 * self.spread()
-            )],
+            ),
             charts: charts.collect(),
         }
     }
@@ -183,23 +181,21 @@ impl Section5 {
             Figure {
                 number: 10,
                 title: "The same over the initial stiffness",
-                notes: vec!["Drawn values of a₁ are lost; here 0.01, 0.03, 0.05 and 0.10.".into()],
+                notes: "Drawn values of a₁ are lost; here 0.01, 0.03, 0.05 and 0.10.".into(),
                 charts: over_restitution,
             },
             Figure {
                 number: 11,
                 title: "Least error of Eq. (18)",
-                notes: vec![
-                    "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the \
-                     paper finds so for 0.82 to 0.88 only."
-                        .into(),
-                ],
+                notes: "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where \
+                        the paper finds so for 0.82 to 0.88 only."
+                    .into(),
                 charts: least_errors,
             },
             Figure {
                 number: 12,
                 title: "Coefficient x of Eq. (19) over the initial stiffness",
-                notes: vec!["Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into()],
+                notes: "Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into(),
                 charts: over_stiffness.into_iter().collect(),
             },
         ]

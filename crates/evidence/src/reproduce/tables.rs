@@ -32,11 +32,11 @@ pub fn table_3() -> PaperTable {
     PaperTable {
         name: "Table 3",
         title: "Damping ratios calibrated on tests [33] and predicted from measured e, a₁ = 0.03",
-        notes: vec![
-            format!("From tests: {}.", given.join("; ")),
-            "Two numbers of the cavity wall differ by 0.001 to 0.002: their e is printed to two digits only."
-                .into(),
-        ],
+        notes: format!(
+            "From tests: {}.\n\
+             Two numbers of the cavity wall differ by 0.001 to 0.002: their e is printed to two digits only.",
+            given.join("; ")
+        ),
         rows,
     }
 }
@@ -58,10 +58,10 @@ pub fn table_4() -> PaperTable {
     PaperTable {
         name: "Table 4",
         title: "Tested parapets: F₀ = 1.24 kN, u_ins = 115 mm, a₃ = 0.95",
-        notes: vec![
-            format!("Given, not computed: {}.", given.join("; ")),
-            "0.0298 is printed as 0.029: cut off, not rounded.".into(),
-        ],
+        notes: format!(
+            "Given, not computed: {}.\n0.0298 is printed as 0.029: cut off, not rounded.",
+            given.join("; ")
+        ),
         rows,
     }
 }
@@ -117,22 +117,18 @@ pub fn table_5() -> Result<PaperTable, ParameterError> {
     Ok(PaperTable {
         name: "Table 5",
         title: "The walls of the incremental dynamic analyses, a₃ = 1",
-        notes: vec![
-            format!("Given: {}.", given.join("; ")),
-            "The whole column of CDR lies 0.014 to 0.042 below print: a factor of 0.352 to 0.354 in Eq. (21) \
-             gives the printed values, not the 0.350 that the paper prints."
-                .into(),
-            format!(
-                "e of the strip walls follows from Eq. (3) with h₁ = {TABLE_5_HINGE} h, which the paper does \
-                 not state; with h₁ = h/2 it does not."
-            ),
-            "e_exp = 0.9359 is printed as 0.935, cut off. CDC and SDR deviate by up to 0.01, where print was \
-             made from rounded numbers."
-                .into(),
-            "a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) \
-             were fitted over."
-                .into(),
-        ],
+        notes: format!(
+            "Given: {}.\n\
+             The whole column of CDR lies 0.014 to 0.042 below print: a factor of 0.352 to 0.354 in Eq. (21) \
+             gives the printed values, not the 0.350 that the paper prints.\n\
+             e of the strip walls follows from Eq. (3) with h₁ = {TABLE_5_HINGE} h, which the paper does not \
+             state; with h₁ = h/2 it does not.\n\
+             e_exp = 0.9359 is printed as 0.935, cut off. CDC and SDR deviate by up to 0.01, where print was \
+             made from rounded numbers.\n\
+             a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) were fitted \
+             over.",
+            given.join("; ")
+        ),
         rows,
     })
 }

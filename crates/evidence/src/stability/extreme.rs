@@ -3,7 +3,7 @@
 use crate::{Comparison, EvidenceError};
 
 use super::released::Released;
-use crate::accuracy::linearisation::largest_difference;
+use crate::accuracy::{linearisation::largest_difference, refined};
 use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
@@ -225,13 +225,8 @@ fn fine_record() -> Value {
     let parameters = damped(0.02);
     let onset = onset(&Wall::new(&parameters)?);
     let coarse: Vec<f64> = (0..1000_u32).map(|i| 0.7 * onset * libm::sin(0.37 * f64::from(i))).collect();
-    let mut fine = Vec::with_capacity(100 * coarse.len());
-    for ends in coarse.windows(2) {
-        fine.extend((0..100_u32).map(|part| ends[0] + (ends[1] - ends[0]) * f64::from(part) / 100.0));
-    }
-    fine.extend(coarse.last());
+    let (fine, _) = history(&parameters, Method::Exact, &refined(&coarse, 100), 1e-4)?;
     let (coarse, _) = history(&parameters, Method::Exact, &coarse, 1e-2)?;
-    let (fine, _) = history(&parameters, Method::Exact, &fine, 1e-4)?;
     let fine: Vec<f64> = fine.into_iter().step_by(100).collect();
     Ok(largest_difference(&coarse, &fine))
 }

@@ -54,8 +54,8 @@ pub struct Formula {
     pub scenes: BTreeMap<String, String>,
     /// Motion of all scenes.
     motion: Option<scenes::Samples>,
-    /// The study that computes it.
-    study: Option<studies::Study>,
+    /// The name of the study that computes it.
+    study: Option<String>,
 }
 
 /// Computes every formula.
@@ -68,8 +68,8 @@ pub fn verify() -> Result<Vec<Formula>, EvidenceError> {
         for text in [&mut formula.statement, &mut formula.reference, &mut formula.why] {
             *text = text.trim().replace('\n', " ");
         }
-        formula.comparisons = match formula.study {
-            Some(study) => study.compare()?,
+        formula.comparisons = match &formula.study {
+            Some(name) => studies::compare(name)?,
             None => scenes::compare(&formula.scenes, formula.motion.as_ref())?,
         };
     }

@@ -16,10 +16,8 @@ use rocking_wall::wall::{Parameters, Support};
 use run::bisection::first_true;
 use study::spectrum::{PulseForm, over_pulses};
 
-use super::studies::{rigid, within};
-use crate::{Comparison, EvidenceError};
-
-type Comparisons = Result<Vec<Comparison>, EvidenceError>;
+use super::studies::{Comparisons, rigid, within};
+use crate::EvidenceError;
 
 /// p of a parapet of 4 m without overburden \[1/s\], and a₀ of one with b/h = 0.1 \[m/s²\].
 const RATE_SQUARED: f64 = 1.5 * 9.81 / 4.0;

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
-use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::response::{COLUMNS, Sample};
+use rocking_wall::scene::{Scene, SceneError, variable};
 use rocking_wall::simulation::{Excitation, Simulation, segment_of};
-use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{Branch, Support};
 use serde::Deserialize;
 
@@ -70,14 +69,14 @@ pub(super) fn compare(
         let motion = motion.as_deref();
         let support = |time: f64| segment_of(motion, time, 0.0).from;
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support(0.0))?;
-        for Reference { name: variable, time, value, scale, bound } in references(name) {
+        for Reference { name: quantity, time, value, scale, bound } in references(name) {
             let next = |now: f64, _: f64| (segment_of(motion, now, time - now), time - now);
             simulation.advance_through(next, None).map_err(SceneError::from)?;
             simulation.set_time(time);
             let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
-            let unit = RealVariable::from_name(variable).map_or(Some("J"), |known| known.variable().unit);
-            let what = (name, format!("{variable}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
-            let computed = computed(&simulation, support(time), variable);
+            let unit = variable(quantity).map_or(Some("J"), |known| known.unit);
+            let what = (name, format!("{quantity}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
+            let computed = computed(&simulation, support(time), quantity);
             comparisons.push(Comparison { scale, ..Comparison::new(what, [computed, value], bound) });
         }
     }
@@ -87,16 +86,10 @@ pub(super) fn compare(
 /// Returns a variable of the model description, or a fact of the wall, by its name.
 fn computed(simulation: &Simulation, support: Support, name: &str) -> f64 {
     let outputs = simulation.outputs(support);
+    if let Some((.., value)) = COLUMNS.iter().find(|(column, ..)| *column == name) {
+        return value(&Sample { time: simulation.progress().time, support, outputs });
+    }
     match name {
-        "u" => outputs.displacement,
-        "u_dot" => outputs.velocity,
-        "u_ddot" => outputs.acceleration,
-        "restoring_force" => outputs.restoring_force,
-        "damping_force" => outputs.damping_force,
-        "reaction_bottom" => outputs.reactions.bottom,
-        "reaction_top" => outputs.reactions.top,
-        "tie_force" => outputs.tie_force,
-        "tie_elongation" => outputs.tie_elongation.positive,
         "tie_break_time" => simulation.progress().tie_break_time().unwrap_or(-1.0),
         "energy" => energy(simulation, outputs.tie_force),
         "overturn_time" => simulation.progress().overturn_time.unwrap_or(-1.0),

@@ -11,49 +11,35 @@ use rocking_wall::wall::{Parameters, Wall, equivalence};
 use super::{circolare, overturning, paper};
 use crate::{Comparison, EvidenceError};
 use check::fractions::{Demand, Fractions, check};
-use serde::Deserialize;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
 use study::hazard::HazardCurve;
 
-/// What computes the numbers of a formula that no scene shows.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Study {
-    Equivalences,
-    CapacityCurve,
-    CapacityAgainstDemand,
-    Circolare,
-    Demands,
-    ResponseSpectrum,
-    Storeys,
-    StraightPulses,
-    Sines,
-    SteadyRocking,
-    Fragility,
-    AnnualRates,
-    Paper,
-}
+pub(super) type Comparisons = Result<Vec<Comparison>, EvidenceError>;
 
-type Comparisons = Result<Vec<Comparison>, EvidenceError>;
+/// A name in `formulas.toml`, and what computes the numbers of a formula that no scene shows.
+type Study = (&'static str, fn() -> Comparisons);
 
-impl Study {
-    pub(super) fn compare(self) -> Comparisons {
-        match self {
-            Self::Equivalences => Ok(equivalences()),
-            Self::CapacityCurve => capacity_curve(),
-            Self::CapacityAgainstDemand => capacity_against_demand(),
-            Self::Circolare => circolare::examples(),
-            Self::Demands => demands(),
-            Self::ResponseSpectrum => response_spectrum(),
-            Self::Storeys => storeys(),
-            Self::StraightPulses => overturning::straight_pulses(),
-            Self::Sines => overturning::sines(),
-            Self::SteadyRocking => overturning::steady_rocking(),
-            Self::Fragility => fragility(),
-            Self::AnnualRates => annual_rates(),
-            Self::Paper => paper::tables(),
-        }
-    }
+const STUDIES: [Study; 13] = [
+    ("equivalences", || Ok(equivalences())),
+    ("capacity_curve", capacity_curve),
+    ("capacity_against_demand", capacity_against_demand),
+    ("circolare", circolare::examples),
+    ("demands", demands),
+    ("response_spectrum", response_spectrum),
+    ("storeys", storeys),
+    ("straight_pulses", overturning::straight_pulses),
+    ("sines", overturning::sines),
+    ("steady_rocking", overturning::steady_rocking),
+    ("fragility", fragility),
+    ("annual_rates", annual_rates),
+    ("paper", paper::tables),
+];
+
+/// Computes the numbers of a study.
+pub(super) fn compare(name: &str) -> Comparisons {
+    let study = STUDIES.iter().find(|(own, _)| *own == name);
+    let (_, compute) = study.unwrap_or_else(|| panic!("formulas.toml: {name} is not one of STUDIES"));
+    compute()
 }
 
 /// 45 units of rounding.

@@ -6,7 +6,7 @@ import csv
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
@@ -102,8 +102,7 @@ class StudyResults(Tabular):
             raise ValueError(f"the study has no wall or class {missing[0]!r}")
         ax = pyplot.subplots()[1] if ax is None else ax
         highest = curves["u_max_over_u_ins"] == curves["u_max_over_u_ins"].max()
-        drawn = [row for row in Table({name: column[highest] for name, column in curves.items()}).rows()]
-        for row in drawn:
+        for row in Table({name: column[highest] for name, column in curves.items()}).rows():
             theta, beta = row["theta"], row["beta"]
             if (names is None or row["wall"] in names) and math.isfinite(theta) and beta > 0:
                 x = theta * np.exp(np.linspace(-3, 3, 121) * beta)
@@ -149,24 +148,14 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
-
-    def table(name: str) -> Table | None:
-        return read_table(path / f"{name}.csv")
-
+    tables = {name: read_table(path / f"{name}.csv") for name in TABLES}
     xml = path / "fragilities.xml"
     return StudyResults(
         levels=Table(levels),
         collapses=Table(collapses),
-        fragilities=table("fragilities") or Table({}),
-        curves=table("fragility_curves") or Table({}),
-        rates=table("rates"),
-        rate_shares=table("rate_shares"),
-        vulnerability=table("vulnerability"),
-        losses=table("losses"),
-        samples=table("samples"),
-        sensitivity=table("sensitivity"),
-        cloud=table("cloud"),
-        ties=table("ties"),
+        fragilities=read_table(path / "fragilities.csv") or Table({}),
+        curves=read_table(path / "fragility_curves.csv") or Table({}),
+        **tables,
         nrml=xml.read_text(encoding="utf-8") if xml.exists() else None,
     )
 
@@ -187,7 +176,7 @@ def merge(
     folders = [folders] if isinstance(folders, str | PathLike) else folders
     paths = [fspath(folder) for folder in folders]
     kept = _native.Folder.merged(paths, None if into is None else fspath(into))
-    tell(kept.finish(threads))
+    tell(kept.finish(threads)[1])
     return read_results(kept.path)
 
 
@@ -200,6 +189,9 @@ def read_table(path: Path) -> Table | None:
     columns = zip(*rows) if rows else [()] * len(head)
     return Table({name: column_of(name, cells) for name, cells in zip(head, columns)})
 
+
+TABLES = ("rates", "rate_shares", "vulnerability", "losses", "samples", "sensitivity", "cloud", "ties")
+"""Tables that only some studies have."""
 
 NAMES = {"wall", "of", "model", "record", "parameter"}
 """Columns of words, even where a name is a number."""
@@ -232,20 +224,15 @@ def number(cell: str) -> float:
     return float(cell) if cell else math.nan
 
 
-@contextmanager
-def place(folder: str | PathLike[str] | None) -> Iterator[str]:
+def place(folder: str | PathLike[str] | None) -> AbstractContextManager[str]:
     """Gives the folder of a study: a temporary one where none is named."""
-    if folder is not None:
-        yield fspath(folder)
-        return
-    with TemporaryDirectory(prefix="rocking_wall_") as path:
-        yield path
+    return TemporaryDirectory(prefix="rocking_wall_") if folder is None else nullcontext(fspath(folder))
 
 
-def tell(told: tuple[str, str | None], level: int = 3) -> None:
-    """Warns of what the fits of a study warn of."""
-    if told[1] is not None:
-        warn(told[1], stacklevel=level)
+def tell(warning: str | None, level: int = 3) -> None:
+    """Warns of damaged parts of a study, or of its fits, if there is something to warn of."""
+    if warning is not None:
+        warn(warning, stacklevel=level)
 
 
 @contextmanager

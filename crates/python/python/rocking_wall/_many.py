@@ -92,12 +92,6 @@ def _objects(given: Any, kind: type, name: str) -> Objects:
 
 def _numbered(objects: Objects) -> tuple[list[Any], list[int]]:
     """Returns the different objects, and for each element the number of its own."""
-    places: dict[int, int] = {}
-    different: list[Any] = []
-    numbers: list[int] = []
-    for each in objects.ravel():
-        if id(each) not in places:
-            places[id(each)] = len(different)
-            different.append(each)
-        numbers.append(places[id(each)])
-    return different, numbers
+    different = {id(each): each for each in objects.ravel()}
+    places = {identity: place for place, identity in enumerate(different)}
+    return list(different.values()), [places[id(each)] for each in objects.ravel()]

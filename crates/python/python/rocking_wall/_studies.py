@@ -111,25 +111,23 @@ class Study:
         missing.
         """
         parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
-        options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
-        options["classes"], options["collapse_is"] = classes, collapse_is
-        options["hazard"], options["check"], options["reliability"] = hazard, check, reliability
-        options["uncertain"], options["polarity"] = uncertain, polarity
+        parts |= {"title": title, "intensity": intensity, "tail": tail, "report": report}
+        parts |= {"classes": classes, "collapse_is": collapse_is, "hazard": hazard, "check": check}
+        parts |= {"reliability": reliability, "uncertain": uncertain, "polarity": polarity}
+        given = {name: part for name, part in parts.items() if part is not None}
         if path is None:
-            missing = [name for name, part in parts.items() if part is None]
+            missing = [name for name in ("walls", "records", "models", "levels") if name not in given]
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
             if not isinstance(levels, Mapping):
                 remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}'
                 raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
-            options = {"models": models, "levels": levels, **options}
-            given = {name: option for name, option in options.items() if option is not None}
+            del given["walls"], given["records"]
             text = toml_lines(given)
             self._native = _native.Study.of_parts(text, named_walls(walls), named_records(records))
             self._name = "study" if title is None else title
             self._is_file = False
         else:
-            given = {name: part for name, part in {**parts, **options}.items() if part is not None}
             if given:
                 raise TypeError(f"a study file has its own {', '.join(given)}; leave them out")
             self._native = _native.Study(fspath(path))
@@ -186,7 +184,7 @@ class Study:
         threads. Raises `ValueError` if the folder holds another study.
         """
         with place(folder) as path:
-            tell(self._complete(path, threads, progress).finish(threads))
+            tell(self._complete(path, threads, progress).finish(threads)[1])
             return read_results(path)
 
     def reliability(
@@ -203,8 +201,8 @@ class Study:
         """
         with place(folder) as path:
             kept = self._complete(path, threads, progress)
-            tell(kept.finish(threads))
-            tell(kept.reliability(self._native, threads))
+            tell(kept.finish(threads)[1])
+            tell(kept.reliability(self._native, threads)[1])
             names = ("reliability", "reliability_rules", "reliability_summary")
             tables = (read_table(Path(path, f"{name}.csv")) for name in names)
             return ReliabilityResults(*(Table({}) if table is None else table for table in tables))
@@ -232,7 +230,7 @@ class Study:
     ) -> _native.Folder:
         kept = _native.Folder(path, self._native)
         missing, damage = kept.missing(*shard)
-        tell(("", damage), 4)
+        tell(damage, 4)
         with bar(kept.count(missing), progress) as report:
             kept.compute(self._native, missing, threads, report)
         return kept

@@ -53,7 +53,7 @@ def run(
     path = Path(f"{study._name}_results" if folder is None else folder)
     kept = _native.Folder(fspath(path), study._native)
     missing, damage = kept.missing(1, 1)
-    tell(("", damage))
+    tell(damage)
     parts = iter(missing)
     with bar(len(missing), progress, " parts") as report:
         if missing:
@@ -71,10 +71,10 @@ def run(
                 done += len(batch)
                 report(done)
                 tasks.update(submit(len(batch)))
-    told = kept.finish(threads)
-    tell(told)
+    summary, warning = kept.finish(threads)
+    tell(warning)
     if progress:
-        print(told[0], end="")
+        print(summary, end="")
     return path
 
 

@@ -76,7 +76,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.check_distinct(arguments.scene.inputs(&scene), outputs())?;
     let code = code()?;
     console.check_distinct(&code.records().files, outputs())?;
-    code.records().warnings.iter().for_each(|warning| console.warn(warning));
+    console.warn(&code.records().warnings);
     one(console, arguments, &file, &*code, &scene)
 }
 
@@ -113,7 +113,7 @@ fn one(
     if arguments.json {
         return console.json(&verdict.json());
     }
-    verdict.warnings.iter().for_each(|warning| console.warn(warning));
+    console.warn(&verdict.warnings);
     console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
 }
 
@@ -157,7 +157,7 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
         let origin = Origin { title: &title, wall: None, file, set, records, report: &report };
         console.write(path, page_of_walls(&verdicts, (&walls, &codes), &origin)?.as_bytes())?;
     }
-    warnings.iter().chain(&code.records().warnings).for_each(|warning| console.warn(warning));
+    console.warn(warnings.iter().chain(&code.records().warnings));
     if arguments.json {
         console.json(&verdicts.json())?;
     } else {

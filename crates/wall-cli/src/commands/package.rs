@@ -34,8 +34,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let named = || arguments.scene.display().to_string();
     let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(console, &arguments.scene, &scene);
-    let of_start = wall.start_warning(scene.parameters.u_start);
-    wall.warnings().iter().chain(&of_start).for_each(|warning| console.warn(&warning.to_string()));
+    console.warn(wall.warnings());
+    console.warn(wall.start_warning(scene.parameters.u_start));
     let general = General::open(&base)
         .context("expected a general FMU; make it with `cargo xtask fmu`, or name it with --base")?;
     let unit = of_scene(&scene, general).with_context(named)?;

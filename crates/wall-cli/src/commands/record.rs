@@ -12,7 +12,7 @@ use run::record_facts::figure::{self, Drawn};
 use run::record_facts::{Facts, Intensities, listing, samples, table};
 use serde_json::json;
 
-use crate::args::{MotionArguments, STDIN, SYNTHETIC, record_files};
+use crate::args::{MotionArguments, SYNTHETIC, named, record_files};
 use crate::output::{self, Console};
 
 fn files_help() -> String {
@@ -114,11 +114,7 @@ fn read(
     arguments: &Arguments,
     of: &Intensities,
 ) -> Result<Vec<Facts>> {
-    let name = match path {
-        None => Path::new(SYNTHETIC),
-        Some(path) if path.as_os_str() == "-" => Path::new(STDIN),
-        Some(path) => path,
-    };
+    let name = path.map_or(Path::new(SYNTHETIC), named);
     let facts = |record| Facts::new(name, record, of).with_context(|| name.display().to_string());
     arguments.motion.channels(console, path)?.into_iter().map(facts).collect()
 }

@@ -22,14 +22,12 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let outputs = [&arguments.csv, &arguments.html];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    let of_start = wall.start_warning(scene.parameters.u_start);
-    wall.warnings().iter().chain(&of_start).for_each(|warning| console.warn(&warning.to_string()));
+    console.warn(wall.warnings());
+    console.warn(wall.start_warning(scene.parameters.u_start));
     let response = arguments.scene.named(Response::of(&scene))?;
-    for warning in scene.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
-        console.warn(&warning);
-    }
+    console.warn(scene.floors.iter().flat_map(|floors| floors.warnings(&wall)));
     if response.summary.put_to_rest {
-        console.warn("the limit on impacts in one step was reached: the wall was put to rest");
+        console.warn(["the limit on impacts in one step was reached: the wall was put to rest"]);
     }
     console.save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {

@@ -1,7 +1,7 @@
 //! Text for people: stdout and stderr.
 
 use std::cell::{Cell, RefCell};
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{self, ErrorKind, Write};
 
 use anyhow::{Context, Result};
@@ -61,9 +61,9 @@ impl<'a> Console<'a> {
         self.to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
     }
 
-    /// Warns the user of something that does not stop the work.
-    pub(crate) fn warn(&self, message: &str) {
-        self.report(&format!("warning: {message}"));
+    /// Warns the user of what does not stop the work.
+    pub(crate) fn warn(&self, messages: impl IntoIterator<Item = impl Display>) {
+        messages.into_iter().for_each(|message| self.report(&format!("warning: {message}")));
     }
 
     /// Reports messages of one kind: the first ones, and the number of the others.

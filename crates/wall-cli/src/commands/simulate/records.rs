@@ -32,10 +32,8 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
-    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
-    for warning in first.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
-        console.warn(&warning);
-    }
+    console.warn(wall.warnings());
+    console.warn(first.floors.iter().flat_map(|floors| floors.warnings(&wall)));
     let runs = signs.len() * motions.len();
     let row = |index: usize, progress: &Progress| {
         let ((name, note, motion), (sign, factor)) =

@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "COUNT")]
     threads: Option<NonZeroUsize>,
     /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall study merge` merges them
-    #[arg(long, value_name = "I/N")]
+    #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
 }
 
@@ -48,24 +48,13 @@ pub(crate) struct MergeArguments {
     pub(crate) output: Option<PathBuf>,
 }
 
-/// One of several shares of the parts of a study.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Shard {
-    /// From 1.
-    pub(crate) number: usize,
-    pub(crate) of: usize,
-}
+/// The number of one of several shares of the parts of a study, from 1, and how many there are.
+type Shard = (usize, usize);
 
-impl std::str::FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        match numbers {
-            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
-            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
-        }
-    }
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    let valid = numbers.filter(|(number, of)| (1..=*of).contains(number));
+    valid.ok_or_else(|| "expected I/N with I from 1 to N, such as 2/8".to_owned())
 }
 
 /// Files of the results, beside the parts.
@@ -119,11 +108,12 @@ fn analyse(
     let folder = Folder::of_study(&path, &loaded)?;
     console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
-    let Shard { number, of: shards } = arguments.shard.unwrap_or(Shard { number: 1, of: 1 });
+    let (number, shards) = arguments.shard.unwrap_or((1, 1));
     let contents = folder.contents();
     let mine: Vec<usize> = contents.shard(number, shards).collect();
     let missing = folder.missing(mine.iter().copied());
-    warn_of_damage(console, &folder, &missing);
+    // files of damaged parts exist, but count as missing
+    console.warn(folder.damage(&missing));
     let cases = |parts: &[usize]| parts.iter().map(|&part| contents.part(part).len()).sum::<usize>();
     let found = cases(&mine) - cases(&missing);
     if found > 0 {
@@ -186,11 +176,6 @@ fn tell_of_resuming() -> Result<()> {
     .context("Ctrl-C")
 }
 
-/// Warns of parts whose files exist but are damaged, and which therefore count as missing.
-fn warn_of_damage(console: &Console<'_>, folder: &Folder, missing: &[usize]) {
-    folder.damage(missing).iter().for_each(|warning| console.warn(warning));
-}
-
 /// Time spent on one model, and the work done in it.
 #[derive(Clone, Copy, Default)]
 struct Share {
@@ -250,8 +235,6 @@ fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> 
 }
 
 fn told_of(console: &Console<'_>, report: &Report) -> Result<()> {
-    if let Some(warning) = &report.warning {
-        console.warn(warning);
-    }
+    console.warn(&report.warning);
     console.print(&(report.summary.clone() + &output::written("written  ", &report.files)))
 }

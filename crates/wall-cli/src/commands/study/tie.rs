@@ -140,7 +140,7 @@ fn of_check(
     let code = read(&file).map_err(|error| file.located(error))?;
     let assumed = file.assumed(&arguments.scene.set);
     let found = at_level(&*code, scene, &assumed, state).map_err(|error| file.located(error))?;
-    found.warnings.iter().for_each(|warning| console.warn(warning));
+    console.warn(&found.warnings);
     Ok(found)
 }
 
@@ -165,9 +165,8 @@ fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<NamedReco
     for path in &arguments.records {
         let motion = read_record(console, path, &options)?.motion.checked_scaled(arguments.scale)?;
         // at a scale of 1 the reader has already warned
-        if let Some(warning) = motion.warning().filter(|_| arguments.scale.abs() > 1.0) {
-            console.warn(&format!("{}: {warning}", path.display()));
-        }
+        let warning = motion.warning().filter(|_| arguments.scale.abs() > 1.0);
+        console.warn(warning.map(|warning| format!("{}: {warning}", path.display())));
         motions.push(NamedRecord { name: short_name(path), motion });
     }
     Ok(motions)

@@ -10,8 +10,9 @@ use evidence::reproduce::page::{page, summary};
 use evidence::reproduce::reproduce;
 use ground_motion::{RecordOptions, read};
 use run::parallel::threads;
-use run::records::NamedRecord;
+use run::records::{NamedRecord, folder_files};
 
+use crate::args::short_name;
 use crate::output::{Console, progress};
 
 #[derive(Debug, Args)]
@@ -46,19 +47,12 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
 /// Reads the records of a folder in the order of their names; warns of the files it leaves out. The page must
 /// not replace one of them.
 fn records(console: &Console<'_>, folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
-    let entries =
-        std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
-    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
-    paths.retain(|path| path.is_file());
-    paths.sort();
+    let paths = folder_files(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
     console.check_distinct(&paths, [page])?;
     let (mut records, mut left_out) = (Vec::new(), Vec::new());
     for path in paths {
         match read(&path, &RecordOptions::default()) {
-            Ok(record) => {
-                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                records.push(NamedRecord { name, motion: record.motion });
-            }
+            Ok(record) => records.push(NamedRecord { name: short_name(&path), motion: record.motion }),
             Err(error) => left_out.push(format!("warning: left out: {error}")),
         }
     }
