@@ -1,5 +1,6 @@
 //! A wall as the static checks take it, and its checks with the hinge in one place.
 
+use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::{Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
@@ -227,15 +228,17 @@ fn possible(parameters: &Parameters, statement: &Statement) -> Result<(), CheckE
     let weight = parameters.density * parameters.gravity * height * parameters.thickness * parameters.width;
     let least = 1e-2 * weight / height;
     if tie_stiffness < least * (1.0 - 1e-9) {
+        let [_, least] = apart([tie_stiffness, least], 6);
         return Err(CheckError::wall(format!(
-            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least:.4} N/m: such a tie is none; \
+            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least} N/m: such a tie is none; \
              give it in N/m"
         )));
     }
     let least = 1e-3 * weight;
     if tie_strength > 0.0 && tie_strength < least * (1.0 - 1e-9) {
+        let [_, least] = apart([tie_strength, least], 6);
         return Err(CheckError::wall(format!(
-            "tie_strength = {tie_strength} N is below W/1000 = {least:.4} N: such a tie is none; give it in N"
+            "tie_strength = {tie_strength} N is below W/1000 = {least} N: such a tie is none; give it in N"
         )));
     }
     let is_held = match parameters.rocking {

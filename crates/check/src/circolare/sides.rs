@@ -1,5 +1,6 @@
 //! A side of a wall: its hinge by the rule that is stated, its numbers there, and what other rules give.
 
+use report::apart;
 use rocking_wall::variables::{DampingModel, Impact, Rocking};
 use rocking_wall::wall::{Parameters, Wall};
 
@@ -243,8 +244,9 @@ fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, 
     let at = hinge.unwrap_or(0.5);
     let shortest = height * at.min(1.0 - at);
     if shortest < thickness {
+        let [shortest, thickness] = apart([shortest, thickness], 4);
         warnings.push(format!(
-            "{side}: with the hinge at {at:.4} a body is {shortest:.3} m high, lower than b = {thickness} m: \
+            "{side}: with the hinge at {at:.4} a body is {shortest} m high, lower than b = {thickness} m: \
              small rotations no longer hold"
         ));
     }

@@ -1,5 +1,6 @@
 //! What the engineer should know of a check that can be made.
 
+use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
@@ -116,7 +117,8 @@ pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String
         let (place, ground) = (floor.printed_peak(), floor.ground().acceleration(0.0, 0.05));
         let is_below = place < ground && !statement.bounds_heights();
         is_below.then(|| {
-            format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground")
+            let [place, ground] = apart([place, ground], 5);
+            format!("{state}: a_Z = {place} m/s² is below a_g S = {ground} m/s² of the ground")
         })
     });
     below.collect()
@@ -183,8 +185,9 @@ pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Deman
         let (xi, t0) = (LimitState::Sld.damping(), side.t0);
         let (above, ground) = (floor.acceleration(t0, xi), floor.ground().acceleration(t0, xi));
         if t0 > 0.0 && t0 < floor.first_period() && above < ground {
+            let [above, ground] = apart([above, ground], 5);
             warnings.push(format!(
-                "{}: S_eZ(T0) = {above:.4} m/s² is below S_e(T0) = {ground:.4} m/s² of the ground",
+                "{}: S_eZ(T0) = {above} m/s² is below S_e(T0) = {ground} m/s² of the ground",
                 given.state
             ));
         }
