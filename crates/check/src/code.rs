@@ -170,14 +170,23 @@ pub struct Verdict<'a> {
     pub zeta: f64,
     /// A row for each check of each side; of sides that are alike, one.
     pub rows: Vec<Row>,
-    /// Where a rule replaces what lets the wall pass, or what governs one that fails: its own ratio \[-\].
-    pub raised: Option<f64>,
+    /// What a rule of the code replaces, where that lets the wall pass, or governs one that fails.
+    pub raise: Option<Raise>,
     /// What is to be said of the rows, in sentences.
     pub notes: Vec<String>,
     /// What the engineer should know; none of it stops the check.
     pub warnings: Vec<String>,
     /// What only this code knows.
     pub details: Box<dyn Details + Send + 'a>,
+}
+
+/// A ratio of capacity to demand that a rule of the code replaces by a larger one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Raise {
+    /// The ratio that is replaced \[-\].
+    pub ratio: f64,
+    /// What replaces it, such as `SLD`.
+    pub by: &'static str,
 }
 
 /// A check of one side.
@@ -279,16 +288,13 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits)
 impl Verdict<'_> {
     /// The verdict in a line.
     pub fn headline(&self) -> String {
-        let passed = match (self.passed, self.raised) {
-            (true, None) => "PASSED".to_owned(),
-            (true, Some(raised)) => format!("PASSED by the raise of SLD; by displacement {raised:.3}"),
-            (false, _) => "NOT PASSED".to_owned(),
+        let raised = self.raise.map(|Raise { ratio, by }| format!("{by}; by displacement {ratio:.3}"));
+        let [passed, raised] = match (self.passed, raised) {
+            (true, None) => ["PASSED".to_owned(), String::new()],
+            (true, Some(raised)) => [format!("PASSED by the raise of {raised}"), String::new()],
+            (false, None) => ["NOT PASSED".to_owned(), String::new()],
+            (false, Some(raised)) => ["NOT PASSED".to_owned(), format!(", raised by {raised}")],
         };
-        let raised = self.raised.filter(|_| !self.passed).map_or_else(String::new, |raised| {
-            // the code has the raise for SLV
-            let by = if self.governs == "SLC" { "by analogy with C8.7.1.2.1.8" } else { "by SLD" };
-            format!(", raised {by}; by displacement {raised:.3}")
-        });
         let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
         format!(
             "{passed}: {governs} governs with {symbol} = {zeta:.3}{raised} ({})",

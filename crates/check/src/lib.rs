@@ -11,7 +11,7 @@ mod rule;
 mod site;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict};
+pub use code::{CODES, Code, Details, Ends, Entry, Raise, Row, Subject, Verdict};
 pub use error::CheckError;
 pub use file::{CheckFile, complete, how_to_write, read, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};

@@ -237,7 +237,11 @@ pub(super) fn check(
         let shake = |(record, solver)| Shaking::new(solver, record, DEFAULT_TAIL);
         let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch, signs };
         let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(of(side)?.0));
-        Ok(Some(DynamicState { compatibility, ..runs.check(&thresholds, &factors, records)? }))
+        let rocks = |sign: f64| motion.wall().sides().any(|own| own == sign);
+        let [positive, negative] = thresholds.limit;
+        let limit = [rocks(1.0).then_some(positive), rocks(-1.0).then_some(negative)];
+        let found = runs.check(&thresholds, &factors, records)?;
+        Ok(Some(DynamicState { compatibility, thresholds: limit, ..found }))
     };
     let slv = state(LimitState::Slv, |side| side.slv.map(|check| (check.d, check.period)))?;
     let slc = state(LimitState::Slc, |side| side.slc.map(|check| (check.d, check.period)))?;
@@ -282,6 +286,7 @@ impl Runs<'_> {
             zeta: self.lowest_failure(thresholds, factors)?,
             side,
             compatibility: None,
+            thresholds: [None; 2],
             runs: runs.collect(),
         })
     }

@@ -87,7 +87,7 @@ const FEWEST_RECORDS: usize = 3;
 pub const ENTRY: Entry = Entry {
     name: "circolare-2019",
     title: "Circolare 7/2019",
-    source: "Check of a local out-of-plane mechanism by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
+    source: "Check of local out-of-plane mechanisms by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
     symbol: "zeta_E",
     gravity: G,

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use ::report::number;
 use ::report::table::{Cell, Digits, Table};
+use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
@@ -12,9 +12,9 @@ use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
 use super::table::{Hinge, Method, UseClass};
-use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState};
+use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
 use super::{ENTRY, LimitState};
-use crate::code::{Details, Ends, Row, Verdict, numbers};
+use crate::code::{Details, Ends, Raise, Row, Verdict, numbers};
 use crate::error::CheckError;
 use crate::report::{Figure, Origin};
 
@@ -28,7 +28,7 @@ impl<'a> Checked<'a> {
             governs: governs.limit_state.name(),
             side: (!self.outcome.alike).then(|| governs.side.name()),
             zeta: governs.zeta,
-            raised: self.raised(),
+            raise: self.raise(),
             rows: self.rows(),
             notes: self.notes(),
             warnings: self.outcome.warnings.clone(),
@@ -100,24 +100,28 @@ impl<'a> Checked<'a> {
         rows
     }
 
-    /// The ratio by displacement that the raise by SLD replaces: of a wall that passes the least that
-    /// decides, of another that of the check that governs.
-    fn raised(&self) -> Option<f64> {
-        let governs = self.outcome.governs;
-        if !self.outcome.passed && self.statement.table.method == Method::Nonlinear {
-            let side = self.outcome.sides.of(governs.side)?;
-            let check = match governs.limit_state {
-                Deciding::Slv => side.slv?,
-                Deciding::Slc => side.slc?,
-                Deciding::Sld | Deciding::SlvWithQ => return None,
-            };
-            return check.raised.then_some(check.ratio);
+    /// What the raise by SLD replaces: the least ratio by displacement by which a wall that passes would fail;
+    /// of a wall that fails, that of the check that governs.
+    fn raise(&self) -> Option<Raise> {
+        let Outcome { governs, passed, sides, .. } = &self.outcome;
+        if self.statement.table.method != Method::Nonlinear {
+            return None;
         }
-        let of_side = |(_, side): (_, &SideVerdict)| [side.slv, side.slc];
-        let found = self.outcome.sides.iter().flat_map(of_side).flatten().map(|check| check.ratio);
-        let by_displacement = self.statement.table.method == Method::Nonlinear;
-        let least = found.fold(f64::INFINITY, f64::min);
-        (by_displacement && self.outcome.passed && least < 1.0).then_some(least)
+        let mut raise: Option<Raise> = None;
+        for (side, verdict) in sides.iter() {
+            for (state, check) in verdict.by_displacement() {
+                let is_told = *passed || (side, state) == (governs.side, governs.limit_state.state());
+                if !is_told || !check.raised || check.ratio >= 1.0 {
+                    continue;
+                }
+                let ratio = raise.map_or(check.ratio, |raise| raise.ratio.min(check.ratio));
+                // the code has the raise for SLV only
+                let is_of_slc = state == LimitState::Slc || raise.is_some_and(|raise| raise.by != "SLD");
+                let by = if is_of_slc { "SLD, for SLC by analogy with C8.7.1.2.1.8" } else { "SLD" };
+                raise = Some(Raise { ratio, by });
+            }
+        }
+        raise
     }
 
     /// The limit states of the dynamic check.
@@ -148,11 +152,11 @@ impl<'a> Checked<'a> {
         for given in self.statement.states.iter().flatten() {
             let Some(Demand::Floor(floor)) = &self.demands[given.state as usize] else { continue };
             if floor.peak_acceleration() > floor.printed_peak() {
+                let [ground, printed] = apart([floor.peak_acceleration(), floor.printed_peak()], 4);
                 notes.push(format!(
-                    "{}: a_g S = {} m/s² of the ground governs at the height, above a_Z = {} m/s² [C7.2.8].",
-                    given.state,
-                    number(floor.peak_acceleration(), 4),
-                    number(floor.printed_peak(), 4)
+                    "{}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = {printed} \
+                     m/s² [C7.2.8].",
+                    given.state
                 ));
             }
         }

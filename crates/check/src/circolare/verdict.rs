@@ -215,6 +215,10 @@ pub struct DynamicState {
     /// The records beside the spectrum of the ground, where the site has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compatibility: Option<Compatibility>,
+    /// Thresholds of d on the sides u > 0 and u < 0; `None` on one to which the wall of the runs does not
+    /// rock \[m\].
+    #[serde(skip)]
+    pub thresholds: [Option<f64>; 2],
     /// The runs: of each record, with each sign.
     pub runs: Vec<DynamicRun>,
 }

@@ -216,7 +216,7 @@ impl Code for Statement {
             governs: "displacement",
             side: (!checked.wall.has_equal_sides()).then(|| name(&worst)),
             zeta: worst.displacement_ratio,
-            raised: None,
+            raise: None,
             rows: checked.rows(),
             notes: checked.notes(),
             warnings: std::mem::take(&mut checked.warnings),

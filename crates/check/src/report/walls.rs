@@ -52,9 +52,7 @@ pub fn page_of_walls(
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
     let mut page = Page::new(title).styled(include_str!("page.css"));
-    let source =
-        origin.source(worst).replace("a local out-of-plane mechanism", "local out-of-plane mechanisms");
-    page = page.styled(&footer("", &origin.footer(None))).text(&source);
+    page = page.styled(&footer("", &origin.footer(None))).text(&origin.source(worst));
     let project = origin.report.project_data();
     if !project.is_empty() {
         page = page.section("Project", &project);

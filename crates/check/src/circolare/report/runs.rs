@@ -1,6 +1,6 @@
 //! The dynamic check: its runs.
 
-use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
+use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM, Side};
 use ::report::escaped;
 
 use crate::report::markup::{Calculation, formula, millimetres, result, shown, table};
@@ -43,6 +43,16 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
             millimetres(verdict.d0)
         );
         lines.say(&words, &said);
+    }
+    for side in [Side::Positive, Side::Negative] {
+        // the runs rock as the scene does, to sides that the static checks leave out, too
+        let left_out = state.thresholds[side as usize].filter(|_| case.outcome.sides.of(side).is_none());
+        if let Some(d) = left_out {
+            let side = escaped(side.name());
+            let words =
+                format!("Threshold on the side {side}, which the static checks leave out: overturning");
+            lines.say(&words, &format!("{} = <b>{}</b> mm", formula("(d/u) u_ins"), millimetres(d)));
+        }
     }
     let few = case.statement.records.named.len() < MEAN_COUNTS_FROM;
     let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };

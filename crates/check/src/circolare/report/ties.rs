@@ -225,7 +225,7 @@ fn required_by(case: &Checked<'_>, side: &SideVerdict) -> Calculation {
         // a tie that does not count here changes the period, and with it the demand
         let put = if gives(found, force) || found == force { put } else { String::new() };
         let divisor = if factor == 1.0 { "" } else { "/q" };
-        let left = format!("N = max[0; (FC S{divisor} − {}) (W + 2 r O) e*/(g 2 y/h)]", own.0);
+        let left = format!("N = max[0; (FC S_a{divisor} − {}) (W + 2 r O) e*/(g 2 y/h)]", own.0);
         let words = format!("Required force for ζ_E = 1, {name}");
         lines.line([&words, ""], [&left, &put], (1e-3 * force, "kN"));
     }
