@@ -7,7 +7,8 @@ use std::fmt::Write;
 use report::number;
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
@@ -22,7 +23,8 @@ const HALVINGS: u32 = 30;
 const LARGE: f64 = 0.5;
 
 /// What is sought.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Sought {
     /// The smallest thickness \[m\].
     Thickness,
@@ -102,9 +104,10 @@ fn load(parameters: &Parameters) -> f64 {
 }
 
 /// What was found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
     /// What was sought.
+    #[serde(rename = "parameter")]
     pub sought: Sought,
     /// The value from which on the wall passes every check that decides; `None` if there is none.
     pub value: Option<f64>,
@@ -113,13 +116,15 @@ pub struct Found {
     /// Each check, in the order of the verdict.
     pub checks: Vec<FoundCheck>,
     /// Force of the tie at the value over W + O \[-\].
+    #[serde(rename = "force_over_load")]
     pub force_ratio: Option<f64>,
     /// Symbol of capacity over demand.
+    #[serde(skip)]
     symbol: &'static str,
 }
 
 /// What was found for one check.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoundCheck {
     /// Its name.
     pub check: &'static str,
@@ -128,6 +133,7 @@ pub struct FoundCheck {
     /// The value from which on the wall passes it, up to the end of the range (a height: down to its start).
     pub value: Option<f64>,
     /// Whether the wall passes it all over the range.
+    #[serde(rename = "passes_everywhere")]
     pub everywhere: bool,
     /// Intervals of values that pass, apart from that one.
     pub intervals: Vec<[f64; 2]>,
@@ -181,25 +187,9 @@ impl Found {
 
     /// What was found, by names.
     pub fn json(&self) -> Value {
-        let one = |found: &FoundCheck| {
-            json!({
-                "check": found.check,
-                "decides": found.decides,
-                "value": found.value,
-                "passes_everywhere": found.everywhere,
-                "intervals": found.intervals,
-                "reason": found.reason,
-                "curve": found.curve,
-            })
-        };
-        json!({
-            "parameter": self.sought.name(),
-            "value": self.value,
-            "range": self.range,
-            "passes_everywhere": self.everywhere(),
-            "force_over_load": self.force_ratio,
-            "checks": self.checks.iter().map(one).collect::<Vec<_>>(),
-        })
+        let mut found = serde_json::to_value(self).unwrap_or_default();
+        found["passes_everywhere"] = self.everywhere().into();
+        found
     }
 }
 
