@@ -214,6 +214,25 @@ pub struct Row {
     pub remark: String,
 }
 
+impl Row {
+    /// Makes a row of a check that informs, and passes from capacity over demand 1 on; the rest is empty.
+    pub(crate) fn new(check: &'static str, side: &'static str, zeta: f64, ends: Ends) -> Self {
+        let (passed, decides, ground, displacement) = (zeta >= 1.0, false, None, None);
+        Self {
+            check,
+            side,
+            zeta,
+            passed,
+            decides,
+            ground,
+            ends,
+            displacement,
+            clause: "",
+            remark: String::new(),
+        }
+    }
+}
+
 /// A capacity and its demand.
 #[derive(Clone, Copy, Debug)]
 pub enum Ends {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::escaped;
-use crate::palette::{Mark, SERIES, sign};
+use crate::palette::{Mark, SERIES, sign, stroke};
 use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series, extremes};
 use crate::points::{simplified, within};
 
@@ -37,12 +37,10 @@ impl Plot {
         let mut key = String::new();
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
-            let line =
-                |style| format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>");
             let mut sample = match series.look {
-                Look::Solid => line("solid"),
-                Look::Dashed => line("dashed"),
-                Look::Dotted => line("dotted"),
+                Look::Solid => stroke(color, "solid"),
+                Look::Dashed => stroke(color, "dashed"),
+                Look::Dotted => stroke(color, "dotted"),
                 Look::Marks(_) => String::new(),
             };
             if let Some(mark) = self.mark(series) {

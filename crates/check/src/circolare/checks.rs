@@ -151,7 +151,7 @@ impl Checks {
         demands: &Demands,
         [wants_sld, wants_slv_q, wants_slv, wants_slc]: [bool; 4],
     ) -> Result<Self, CheckError> {
-        let of = |state: LimitState| statement.state(state).zip(demands[state as usize].as_ref());
+        let of = |state: LimitState| statement.demanded(demands).find(|(given, _)| given.state == state);
         let sld = of(LimitState::Sld)
             .filter(|_| wants_sld || wants_slv || wants_slc)
             .map(|(given, demand)| activation(curve, statement, (given, demand), given.damping, 1.0))

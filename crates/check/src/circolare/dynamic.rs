@@ -15,7 +15,7 @@ use super::case::Case;
 use super::curve::Curve;
 use super::demand::{MEAN_COUNTS_FROM, combined};
 use super::level::{has_storeys, scaled};
-use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::side_verdict::SideVerdict;
 use super::table::{Method, Polarities};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts};
 use crate::error::CheckError;
@@ -174,11 +174,11 @@ fn divided(
     sides: &SideVerdicts,
 ) -> Result<(Parameters, Option<f64>), CheckError> {
     let mut parameters = case.statement.with_bar(parameters)?;
-    let least = |check: fn(&SideVerdict) -> Option<DisplacementCheck>| {
-        let found = sides.iter().filter_map(|(_, side)| check(side));
+    let least = |state: LimitState| {
+        let found = sides.iter().filter_map(|(_, side)| side.displacement(state));
         found.min_by(|a, b| a.zeta.total_cmp(&b.zeta)).map(|check| check.hinge)
     };
-    let hinge = least(|side| side.slv).or_else(|| least(|side| side.slc)).flatten();
+    let hinge = least(LimitState::Slv).or_else(|| least(LimitState::Slc)).flatten();
     parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
     if case.statement.masonry.is_some() {
         let a3 = |sign: f64| {
@@ -223,9 +223,10 @@ pub(super) fn check(
         .wall()
         .tie()
         .is_some_and(|tie| tie.strength.is_some() && tie.fracture_displacement().is_none());
-    let state = |state: LimitState, of: fn(&SideVerdict) -> Option<(f64, f64)>| {
+    let state = |state: LimitState| {
         let Some(given) = statement.state(state) else { return Ok::<_, CheckError>(None) };
-        let longest = sides.iter().filter_map(|(_, side)| Some(of(side)?.1)).fold(0.0, f64::max);
+        let longest =
+            sides.iter().filter_map(|(_, side)| Some(side.displacement(state)?.period)).fold(0.0, f64::max);
         let (factors, compatibility) = match scaled(case, given, longest) {
             Err(_) if !decides => return Ok(None),
             found => found?,
@@ -236,15 +237,14 @@ pub(super) fn check(
         let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
         let shake = |(record, solver)| Shaking::new(solver, record, DEFAULT_TAIL);
         let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch, signs };
-        let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(of(side)?.0));
+        let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(side.displacement(state)?.d));
         let rocks = |sign: f64| motion.wall().sides().any(|own| own == sign);
         let [positive, negative] = thresholds.limit;
         let limit = [rocks(1.0).then_some(positive), rocks(-1.0).then_some(negative)];
         let found = runs.check(&thresholds, &factors, records)?;
         Ok(Some(DynamicState { compatibility, thresholds: limit, ..found }))
     };
-    let slv = state(LimitState::Slv, |side| side.slv.map(|check| (check.d, check.period)))?;
-    let slc = state(LimitState::Slc, |side| side.slc.map(|check| (check.d, check.period)))?;
+    let (slv, slc) = (state(LimitState::Slv)?, state(LimitState::Slc)?);
     Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { hinge, tie_is_end, slv, slc }))
 }
 

@@ -7,7 +7,6 @@ use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
-use super::demand::Demand;
 use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
@@ -43,58 +42,42 @@ impl<'a> Checked<'a> {
         let site = |state| self.statement.state(state).map_or(f64::NAN, |given| given.ag);
         for (side, _, verdict) in self.sides() {
             let activations = [
-                (Deciding::Sld, verdict.sld, LimitState::Sld, class_iv, "C8.7.1.2.1.5"),
-                (
-                    Deciding::SlvWithQ,
-                    verdict.slv_q,
-                    LimitState::Slv,
-                    method == Method::Linear,
-                    "C8.7.1.2.1.7",
-                ),
+                (Deciding::Sld, verdict.sld, class_iv, "C8.7.1.2.1.5"),
+                (Deciding::SlvWithQ, verdict.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
             ];
-            for (check, found, state, decides, clause) in activations {
+            for (check, found, decides, clause) in activations {
                 rows.extend(found.map(|found| Row {
-                    check: check.name(),
-                    side,
-                    zeta: found.ratio,
-                    passed: found.ratio >= 1.0,
                     decides,
-                    ground: Some([found.ag, site(state)]),
-                    ends: Ends::Accelerations([found.capacity, found.demand]),
-                    displacement: None,
+                    ground: Some([found.ag, site(check.state())]),
                     clause,
-                    remark: String::new(),
+                    ..Row::new(
+                        check.name(),
+                        side,
+                        found.ratio,
+                        Ends::Accelerations([found.capacity, found.demand]),
+                    )
                 }));
             }
-            let displacements = [(LimitState::Slv, verdict.slv), (LimitState::Slc, verdict.slc)];
-            rows.extend(displacements.into_iter().filter_map(|(state, found)| Some((state, found?))).map(
-                |(state, found)| Row {
-                    check: state.key(),
-                    side,
-                    zeta: found.zeta,
-                    passed: found.zeta >= 1.0,
-                    decides: method == Method::Nonlinear,
-                    ground: Some([found.ag, site(state)]),
-                    ends: Ends::Displacements([found.d, found.demand]),
-                    displacement: Some(found.d / verdict.d_per_u),
-                    clause: "C8.7.1.2.1.8",
-                    remark: remark(state, &found),
-                },
-            ));
+            rows.extend(verdict.by_displacement().map(|(state, found)| Row {
+                decides: method == Method::Nonlinear,
+                ground: Some([found.ag, site(state)]),
+                displacement: Some(found.d / verdict.d_per_u),
+                clause: "C8.7.1.2.1.8",
+                remark: remark(state, &found),
+                ..Row::new(state.key(), side, found.zeta, Ends::Displacements([found.d, found.demand]))
+            }));
         }
         for (state, found) in self.dynamic() {
             let is_slc = state == LimitState::Slc;
+            let check = if is_slc { "SLC under records" } else { "SLV under records" };
+            let side = if self.outcome.alike { "both sides" } else { found.side.name() };
+            let ends = Ends::Displacements([found.ratio * found.d, found.d]);
             rows.push(Row {
-                check: if is_slc { "SLC under records" } else { "SLV under records" },
-                side: if self.outcome.alike { "both sides" } else { found.side.name() },
-                zeta: found.zeta,
                 passed: found.passed,
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
-                ends: Ends::Displacements([found.ratio * found.d, found.d]),
-                displacement: None,
                 clause: "C8.7.1.2.1.9",
-                remark: String::new(),
+                ..Row::new(check, side, found.zeta, ends)
             });
         }
         rows
@@ -149,8 +132,8 @@ impl<'a> Checked<'a> {
         for (name, _, side) in self.sides() {
             notes.extend(self.of_side(side).into_iter().map(|note| format!("{name}: {note}")));
         }
-        for given in self.statement.states.iter().flatten() {
-            let Some(Demand::Floor(floor)) = &self.demands[given.state as usize] else { continue };
+        for (given, demand) in self.statement.demanded(&self.demands) {
+            let Some(floor) = demand.floor() else { continue };
             if floor.peak_acceleration() > floor.printed_peak() {
                 let [ground, printed] = apart([floor.peak_acceleration(), floor.printed_peak()], 4);
                 notes.push(format!(
@@ -193,8 +176,7 @@ impl Checked<'_> {
             }
             notes.push(note + ".");
         }
-        for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-            let Some(check) = check else { continue };
+        for (state, check) in side.by_displacement() {
             if check.limited_by_tie {
                 notes.push(format!("the tie breaks at d_{state}."));
             }
@@ -329,10 +311,10 @@ impl Details for Checked<'_> {
         for (name, unit, factor, value) in SIDE {
             row(name.to_owned(), unit, factor, shown.iter().map(|(_, side)| value(side)).collect());
         }
-        let states: [(_, fn(&SideVerdict) -> _); 2] = [("SLV", |side| side.slv), ("SLC", |side| side.slc)];
-        for (state, pick) in states {
+        for state in [LimitState::Slv, LimitState::Slc] {
             for (name, unit, factor, value) in DISPLACEMENT {
-                let values = shown.iter().map(|(_, side)| pick(side).as_ref().and_then(value)).collect();
+                let of = |side: &SideVerdict| side.displacement(state).as_ref().and_then(value);
+                let values = shown.iter().map(|(_, side)| of(side)).collect();
                 row(format!("{state} {name}"), unit, factor, values);
             }
         }

@@ -90,10 +90,14 @@ impl SideVerdict {
         self.others.iter().find(|other| other.hinge == hinge).unwrap_or(self)
     }
 
+    /// The check of a limit state by displacement.
+    pub(super) fn displacement(&self, state: LimitState) -> Option<DisplacementCheck> {
+        [None, self.slv, self.slc][state as usize]
+    }
+
     /// The checks by displacement that are made.
-    pub(super) fn by_displacement(&self) -> impl Iterator<Item = (LimitState, DisplacementCheck)> + use<> {
-        let all = [(LimitState::Slv, self.slv), (LimitState::Slc, self.slc)];
-        all.into_iter().filter_map(|(state, check)| Some((state, check?)))
+    pub(super) fn by_displacement(&self) -> impl Iterator<Item = (LimitState, DisplacementCheck)> {
+        LimitState::ALL.into_iter().filter_map(|state| Some((state, self.displacement(state)?)))
     }
 
     pub(super) fn checks(&self) -> Checks {

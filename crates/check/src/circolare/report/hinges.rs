@@ -3,21 +3,14 @@
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Body, Parameters, Statics};
 
+use super::by_side;
 use crate::circolare::table::{Hinge, STRESS_BLOCK};
 use crate::circolare::{Checked, SideVerdict};
-use crate::report::markup::{Calculation, formula, kilonewtons, shown as n, side_head, table};
+use crate::report::markup::{Calculation, formula, kilonewtons, shown as n, table};
 
 /// The section, if the wall is a strip or its hinges are set back.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
-    let mut text = String::new();
-    for (name, _, side) in case.sides() {
-        let mut own = rules(case, side);
-        own += &set_back(case, side);
-        if !own.is_empty() && !case.outcome.alike {
-            text += &side_head(name);
-        }
-        text += &own;
-    }
+    let text = by_side(case, |_, side| rules(case, side) + &set_back(case, side));
     (!text.is_empty()).then_some(text)
 }
 

@@ -1,6 +1,6 @@
 //! A wall in the table of walls of a report.
 
-use crate::circolare::{Activation, Checked, LimitState};
+use crate::circolare::{Activation, Checked};
 use crate::report::markup::{formula, kilonewtons, millimetres, shown as n, stated};
 use crate::report::overview;
 
@@ -27,8 +27,7 @@ pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<(String, String)> {
         formula("S_d") + " SLV [mm]",
         side.slv.map_or_else(|| "–".to_owned(), |check| millimetres(check.demand)),
     );
-    let checks = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)];
-    let raised = checks.into_iter().filter(|(_, check)| check.is_some_and(|check| check.raised));
+    let raised = side.by_displacement().filter(|(_, check)| check.raised);
     let raised: Vec<_> = raised.map(|(state, _)| state.key()).collect();
     cell("raised".into(), if raised.is_empty() { "–".to_owned() } else { raised.join(", ") });
     cells

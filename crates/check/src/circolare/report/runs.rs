@@ -31,8 +31,7 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     let mut lines = Calculation::default();
     let mut thresholds = Vec::new();
     for (side, _, verdict) in case.sides() {
-        let check = if name == LimitState::Slc { verdict.slc } else { verdict.slv };
-        let Some(check) = check else { continue };
+        let Some(check) = verdict.displacement(name) else { continue };
         thresholds.push(check.d);
         let words = format!("Threshold and zero of the curve, {}", escaped(side));
         let said = format!(
