@@ -22,7 +22,7 @@
 use std::fmt::{self, Write};
 
 use report::number;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Column, Digits, Table};
 use rocking_wall::scene::{Floors, Scene, Schema};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
@@ -242,6 +242,26 @@ pub enum Ends {
     Displacements([f64; 2]),
 }
 
+impl Ends {
+    /// Both in SI units.
+    fn values(self) -> [f64; 2] {
+        let (Self::Accelerations(ends) | Self::Displacements(ends)) = self;
+        ends
+    }
+
+    /// The SI unit.
+    fn unit(self) -> &'static str {
+        if matches!(self, Self::Displacements(_)) { "m" } else { "m/s2" }
+    }
+
+    /// Both for people.
+    fn shown(self) -> [String; 2] {
+        let (factor, unit) =
+            if matches!(self, Self::Displacements(_)) { (1e3, "mm") } else { (1.0, "m/s²") };
+        self.values().map(|end| format!("{} {unit}", number(factor * end, 4)))
+    }
+}
+
 /// What only one code knows of a verdict.
 pub trait Details {
     /// The wall that was checked.
@@ -332,48 +352,23 @@ impl Verdict<'_> {
         let has_ground = self.rows.iter().any(|row| row.ground.is_some());
         let ground = |heading: &'static str| if has_ground { heading } else { "" };
         let has_remarks = self.rows.iter().any(|row| !row.remark.is_empty());
-        let mut table = Table::new([
-            Column::text("check", "check"),
-            Column::text("side", "side"),
-            Column::number(self.code.symbol, self.code.symbol, four),
-            Column::number("passed", "", four),
-            Column::text("", "result"),
-            Column::number(ground("ag_g"), ground("bears a_g [g]"), four),
-            Column::number(ground("site_ag_g"), ground("site a_g [g]"), four),
-            Column::number("capacity", "", four),
-            Column::number("demand", "", four),
-            Column::text("unit", ""),
-            Column::text("", "capacity"),
-            Column::text("", "demand"),
-            Column::number("decides", "decides", four),
-            Column::text("clause", "clause"),
-            Column::text("remark", if has_remarks { "remark" } else { "" }),
-        ]);
-        for row in &self.rows {
-            let (ends, factor, unit, shown) = match row.ends {
-                Ends::Accelerations(ends) => (ends, 1.0, "m/s2", "m/s²"),
-                Ends::Displacements(ends) => (ends, 1000.0, "m", "mm"),
-            };
-            let [capacity, demand] = ends.map(|end| format!("{} {shown}", number(factor * end, 4)));
-            table.row([
-                row.check.into(),
-                row.side.into(),
-                row.zeta.into(),
-                row.passed.into(),
-                if row.passed { "passed" } else { "not passed" }.into(),
-                row.ground.map(|ground| ground[0]).into(),
-                row.ground.map(|ground| ground[1]).into(),
-                ends[0].into(),
-                ends[1].into(),
-                unit.into(),
-                capacity.into(),
-                demand.into(),
-                row.decides.into(),
-                Cell::from(row.clause),
-                row.remark.clone().into(),
-            ]);
-        }
-        table
+        Table::over(&self.rows)
+            .text("check", "check", |row| row.check)
+            .text("side", "side", |row| row.side)
+            .number(self.code.symbol, self.code.symbol, four, |row| row.zeta)
+            .value("passed", |row| row.passed)
+            .text("", "result", |row| if row.passed { "passed" } else { "not passed" })
+            .number(ground("ag_g"), ground("bears a_g [g]"), four, |row| row.ground.map(|of| of[0]))
+            .number(ground("site_ag_g"), ground("site a_g [g]"), four, |row| row.ground.map(|of| of[1]))
+            .value("capacity", |row| row.ends.values()[0])
+            .value("demand", |row| row.ends.values()[1])
+            .column(Column::text("unit", ""), |row| row.ends.unit())
+            .text("", "capacity", |row| row.ends.shown()[0].clone())
+            .text("", "demand", |row| row.ends.shown()[1].clone())
+            .number("decides", "decides", four, |row| row.decides)
+            .text("clause", "clause", |row| row.clause)
+            .text("remark", if has_remarks { "remark" } else { "" }, |row| row.remark.clone())
+            .done()
     }
 
     /// The rows as markup, with classes for those that decide and for those that fail.
