@@ -3,7 +3,7 @@
 use ::report::escaped;
 use fmu_export::VariableId;
 use rocking_wall::scene::{GROUPS, parameter_text};
-use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable};
+use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable, TieSide};
 use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
 use super::markup::{formula, kilonewtons, shown, stated, table};
@@ -143,10 +143,11 @@ fn parameter(
             let value = if name == "mechanism" {
                 mechanism(parameters.mechanism).to_owned()
             } else if name == "tie_side" {
-                let sides = ["to the outside (u &gt; 0)", "to the inside (u &lt; 0)", "both"];
-                let named = ["positive", "negative", "both"].into_iter().zip(sides);
-                let own = text.trim_matches('"');
-                named.into_iter().find(|(name, _)| *name == own).map_or(own, |(_, side)| side).to_owned()
+                match parameters.tie_side {
+                    TieSide::Positive => "to the outside (u &gt; 0)".to_owned(),
+                    TieSide::Negative => "to the inside (u &lt; 0)".to_owned(),
+                    TieSide::Both => "both".to_owned(),
+                }
             } else {
                 text.trim_matches('"').replace('_', " ")
             };

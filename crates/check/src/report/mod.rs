@@ -27,7 +27,7 @@ pub use language::{Language, terms};
 use language::{translated, with_symbols};
 use markup::{formula, list, table};
 use project::as_written;
-pub(crate) use project::{EXCEEDED, return_period};
+pub(crate) use project::{EXCEEDED, no_place, return_period};
 pub use project::{ReportTable, report_schema};
 pub use walls::page_of_walls;
 
