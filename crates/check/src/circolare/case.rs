@@ -17,6 +17,7 @@ use crate::code::Subject;
 use crate::error::CheckError;
 
 /// A wall as the static checks take it.
+#[derive(Clone)]
 pub(super) struct Case<'a> {
     pub(super) statement: &'a Statement,
     /// Its parameters, with the sides, the bar and the rupture of the tie that the check states.
@@ -78,12 +79,10 @@ impl<'a> Case<'a> {
 
     /// The same wall with another a₁, or another E of the beam.
     pub(super) fn with(&self, factor: f64) -> Self {
-        let Self { statement, floors, activation, moved, rule, alike, .. } = *self;
-        let mut parameters = self.parameters.clone();
-        parameters.a1 *= factor;
-        let young_modulus = self.young_modulus.map(|modulus| factor * modulus);
-        let shared = self.shared.clone();
-        Self { statement, parameters, floors, activation, moved, young_modulus, rule, alike, shared }
+        let mut varied = self.clone();
+        varied.parameters.a1 *= factor;
+        varied.young_modulus = self.young_modulus.map(|modulus| factor * modulus);
+        varied
     }
 
     /// The name of a side in messages.

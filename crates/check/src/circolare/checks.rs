@@ -76,8 +76,8 @@ impl Statement {
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
         // the wall as it is drawn: with the hinge of the side that governs
         let mut parameters = case.parameters.clone();
-        let hinge = sides.of(governs.side).or(sides.iter().next().map(|(_, side)| side));
-        parameters.hinge_ratio = hinge.and_then(|side| side.hinge).unwrap_or(parameters.hinge_ratio);
+        let hinge = sides.shown(governs.side).and_then(|side| side.hinge);
+        parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
         let wall = super::sides::drawn(&parameters)?;
         let demands = case.demands_at(wall.body())?;
         let of_statement = super::warnings::of_statement(self, &parameters, floors, &wall);

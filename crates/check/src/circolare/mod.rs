@@ -77,7 +77,7 @@ pub use table::{
 };
 pub use tie::{TieAtLimit, TieState};
 pub use verdict::{
-    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Outcome, Side, SideVerdicts,
+    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Judged, Outcome, Side, SideVerdicts,
 };
 
 /// Fewest records, NTC 7.3.5.

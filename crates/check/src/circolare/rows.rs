@@ -68,12 +68,12 @@ impl<'a> Checked<'a> {
             }));
         }
         for (state, found) in self.dynamic() {
-            let is_slc = state == LimitState::Slc;
+            let (judged, is_slc) = (found.judged, state == LimitState::Slc);
             let check = if is_slc { "SLC under records" } else { "SLV under records" };
-            let side = if self.outcome.alike { "both sides" } else { found.side.name() };
-            let ends = Ends::Displacements([found.ratio * found.d, found.d]);
+            let side = if self.outcome.alike { "both sides" } else { judged.side.name() };
+            let ends = Ends::Displacements([judged.ratio * judged.d, judged.d]);
             rows.push(Row {
-                passed: found.passed,
+                passed: judged.passed,
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
                 clause: "C8.7.1.2.1.9",
@@ -249,17 +249,18 @@ fn deciding(statement: &Statement) -> String {
 /// The dynamic check of a limit state, and its runs.
 fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
+    let judged = check.judged;
     let mut notes = vec![format!(
         "{state} under {} records in {} runs: {}; d = {} mm, threshold over it {:.3}, zeta_E = {:.3}; {} \
          runs beyond d_0, {} at the strength of the tie",
         records.len(),
         check.runs.len(),
-        if check.passed { "passed" } else { "not passed" },
-        number(1e3 * check.d, 4),
-        check.ratio,
+        if judged.passed { "passed" } else { "not passed" },
+        number(1e3 * judged.d, 4),
+        judged.ratio,
         check.zeta,
-        check.beyond_d0,
-        check.at_strength
+        judged.beyond_d0,
+        judged.at_strength
     )];
     if let Some(found) = &check.compatibility {
         notes.push(format!(

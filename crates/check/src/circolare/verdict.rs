@@ -37,12 +37,7 @@ impl Checked<'_> {
 
     /// The side that governs.
     pub(super) fn governing(&self) -> Option<&SideVerdict> {
-        let Outcome { sides, governs, .. } = &self.outcome;
-        sides
-            .iter()
-            .find(|(side, _)| *side == governs.side)
-            .or(sides.iter().next())
-            .map(|(_, verdict)| verdict)
+        self.outcome.sides.shown(self.outcome.governs.side)
     }
 }
 
@@ -159,7 +154,12 @@ pub struct SideVerdicts {
 impl SideVerdicts {
     /// The verdict of a side.
     pub(super) fn of(&self, side: Side) -> Option<&SideVerdict> {
-        self.iter().find(|(own, _)| *own == side).map(|(_, verdict)| verdict)
+        [&self.positive, &self.negative][side as usize].as_ref()
+    }
+
+    /// The verdict of a side; where the wall is not checked to that, of the other.
+    pub(super) fn shown(&self, side: Side) -> Option<&SideVerdict> {
+        self.of(side).or(self.positive.as_ref()).or(self.negative.as_ref())
     }
 
     pub(super) fn of_mut(&mut self, side: Side) -> &mut Option<SideVerdict> {
@@ -193,9 +193,9 @@ pub struct DynamicCheck {
     pub slc: Option<DynamicState>,
 }
 
-/// The dynamic check of a limit state.
-#[derive(Clone, Debug, Serialize)]
-pub struct DynamicState {
+/// The judgement of the maxima of some records, each with its signs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judged {
     /// Whether no run exceeds `d_0` or fails by its tie, and the mean of the shares of the threshold is at
     /// most 1.
     pub passed: bool,
@@ -207,11 +207,19 @@ pub struct DynamicState {
     pub beyond_d0: usize,
     /// How many runs reach the strength of the tie.
     pub at_strength: usize,
+    /// The side of the largest |d| over its threshold.
+    pub side: Side,
+}
+
+/// The dynamic check of a limit state.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicState {
+    /// The judgement of its runs.
+    #[serde(flatten)]
+    pub judged: Judged,
     /// The lowest factor on all records that fails \[-\].
     #[serde(rename = "zeta_E")]
     pub zeta: f64,
-    /// The side of the largest |d| over its threshold.
-    pub side: Side,
     /// The records beside the spectrum of the ground, where the site has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compatibility: Option<Compatibility>,
@@ -248,10 +256,14 @@ impl DynamicCheck {
 
     /// Returns whether every limit state holds.
     pub fn passed(&self) -> bool {
-        self.states().all(|(_, state)| state.passed)
+        self.states().all(|(_, state)| state.judged.passed)
     }
 
     pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
-        self.states().map(|(limit_state, state)| Governs { side: state.side, limit_state, zeta: state.zeta })
+        self.states().map(|(limit_state, state)| Governs {
+            side: state.judged.side,
+            limit_state,
+            zeta: state.zeta,
+        })
     }
 }

@@ -28,6 +28,7 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
 }
 
 fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
+    let judged = state.judged;
     let mut lines = Calculation::default();
     let mut thresholds = Vec::new();
     for (side, _, verdict) in case.sides() {
@@ -55,27 +56,27 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     }
     let few = case.statement.records.named.len() < MEAN_COUNTS_FROM;
     let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };
-    lines.line([words, "NTC 7.3.5"], ["d", ""], (1e3 * state.d, "mm"));
+    lines.line([words, "NTC 7.3.5"], ["d", ""], (1e3 * judged.d, "mm"));
     // with sides of different thresholds the ratio is no quotient of these numbers
     let put = match thresholds[..] {
-        [threshold] if (threshold / state.d - state.ratio).abs() < 1e-9 * state.ratio => {
-            format!("{}/{}", millimetres(threshold), millimetres(state.d))
+        [threshold] if (threshold / judged.d - judged.ratio).abs() < 1e-9 * judged.ratio => {
+            format!("{}/{}", millimetres(threshold), millimetres(judged.d))
         }
         _ => String::new(),
     };
     lines.line(
         ["Threshold over it, each side by its own", ""],
         [&format!("d_{name}/d"), &put],
-        (state.ratio, ""),
+        (judged.ratio, ""),
     );
     lines.say(
         "Runs beyond the zero of the curve",
-        &format!("<b>{}</b>/{}", state.beyond_d0, state.runs.len()),
+        &format!("<b>{}</b>/{}", judged.beyond_d0, state.runs.len()),
     );
-    let said = format!("<b>{}</b>/{}", state.at_strength, state.runs.len());
+    let said = format!("<b>{}</b>/{}", judged.at_strength, state.runs.len());
     lines.say("Runs at the strength of the tie", &said);
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
-    lines.say("Result", result(state.passed));
+    lines.say("Result", result(judged.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
     let factor = if case.statement.table.record_scale == crate::circolare::RecordScale::Ag {
         format!("factor to {}", formula("a_g S"))
