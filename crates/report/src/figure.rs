@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::escaped;
 use crate::palette::{Mark, SERIES, sign, stroke};
-use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series, extremes};
+use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series};
 use crate::points::{simplified, within};
 
 /// Size of a figure, and of a picture of it \[px\].
@@ -78,13 +78,7 @@ impl Plot {
 
     /// Returns the plot with lines cut at the axes, without points that nobody would see, and with marks.
     fn traced(&self, size: [f64; 2]) -> Self {
-        let of = |pick: fn(&(f64, f64)) -> f64| {
-            self.series.iter().flat_map(move |series| series.points.iter().map(pick))
-        };
-        let ranges = [
-            self.axes[0].range.unwrap_or_else(|| extremes(of(|point| point.0), self.has_marks())),
-            self.axes[1].range.unwrap_or_else(|| extremes(of(|point| point.1), true)),
-        ];
+        let ranges = [self.range(0, self.has_marks()), self.range(1, true)];
         let [left, right, top, bottom] = MARGINS;
         let area = [size[0] - left - right, size[1] - top - bottom];
         let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));
