@@ -326,23 +326,20 @@ fn one_check(
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut edge =
         |fails: usize, holds: usize| first_true([tries[fails].0, tries[holds].0], HALVINGS, &mut passes);
-    // runs of tries that pass: first and last
+    // tries that pass one after the other
     let (mut intervals, mut value) = (Vec::new(), None);
-    let mut index = 0;
-    while index < passed.len() {
-        if !passed[index] {
-            index += 1;
+    let mut after = 0;
+    for alike in passed.chunk_by(|a, b| a == b) {
+        let first = after;
+        after += alike.len();
+        if !alike[0] {
             continue;
         }
-        let first = index;
-        while index < passed.len() && passed[index] {
-            index += 1;
-        }
         let begins = if first == 0 { tries[0].0 } else { edge(first - 1, first)? };
-        if index == passed.len() {
+        if after == passed.len() {
             value = Some(begins);
         } else {
-            let ends = edge(index, index - 1)?;
+            let ends = edge(after, after - 1)?;
             intervals.push([begins.min(ends), begins.max(ends)]);
         }
     }
