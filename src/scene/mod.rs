@@ -41,7 +41,7 @@ use parameter::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits, number};
 pub use schema::{
     Described, Schema, file_schema, fraction, names, object, one_of, parameter, parameters, positive, text,
-    with,
+    variable, with,
 };
 #[doc(hidden)]
 pub use schema::{Field, describe_table};

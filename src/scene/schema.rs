@@ -345,7 +345,8 @@ fn bar() -> Schema {
     )
 }
 
-fn variable(name: &str) -> Option<&'static Variable> {
+/// Returns the variable of the model description with a name: a number, or a choice.
+pub fn variable(name: &str) -> Option<&'static Variable> {
     let real = RealVariable::from_name(name).map(VariableId::variable);
     real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable))
 }

@@ -1,9 +1,8 @@
 //! What the page's fields need to know of the model description.
 
-use fmu_export::{Kind, VariableId};
+use fmu_export::Kind;
 use report::number;
-use rocking_wall::scene::{GROUPS, Scene, parameter_text};
-use rocking_wall::variables::{IntegerVariable, RealVariable};
+use rocking_wall::scene::{GROUPS, Scene, parameter_text, variable};
 use rocking_wall::wall::{Bar, COMPUTABLE, Parameters, Wall, equivalence, usage};
 use serde_json::{Value, json};
 
@@ -43,9 +42,7 @@ pub(crate) fn computed(wall: &Wall) -> Value {
 }
 
 fn described_one(name: &str) -> Value {
-    let real = RealVariable::from_name(name).map(VariableId::variable);
-    let variable = real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable));
-    let Some(variable) = variable else { return Value::Null };
+    let Some(variable) = variable(name) else { return Value::Null };
     let default = parameter_text(&Parameters::default(), name).unwrap_or_default();
     let is_computable = COMPUTABLE.contains(&name);
     let choices: Vec<Value> = match variable.kind {

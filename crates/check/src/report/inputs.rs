@@ -1,9 +1,8 @@
 //! The wall of a report: its drawing, and its parameters with where they come from.
 
 use ::report::escaped;
-use fmu_export::VariableId;
-use rocking_wall::scene::{GROUPS, parameter_text};
-use rocking_wall::variables::{IntegerVariable, Mechanism, RealVariable, TieSide};
+use rocking_wall::scene::{GROUPS, parameter_text, variable};
+use rocking_wall::variables::{Mechanism, TieSide};
 use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
 use super::markup::{formula, kilonewtons, shown, stated, table};
@@ -120,8 +119,7 @@ fn parameter(
     group: &str,
     name: &str,
 ) -> Option<[String; 3]> {
-    let real = RealVariable::from_name(name).map(VariableId::variable);
-    let variable = real.or(IntegerVariable::from_name(name).map(VariableId::variable))?;
+    let variable = variable(name)?;
     let text = parameter_text(parameters, name)?;
     let number: Option<f64> = text.parse().ok();
     let unit = match unit_for_people(variable.unit.unwrap_or_default()) {
@@ -183,10 +181,6 @@ mod tests {
     #[test]
     fn what_each_parameter_is_stands_in_the_terms() {
         let names = GROUPS.into_iter().flat_map(|(_, names)| names.iter().copied());
-        let variable = |name| {
-            let real = RealVariable::from_name(name).map(VariableId::variable);
-            real.or(IntegerVariable::from_name(name).map(VariableId::variable))
-        };
         let of_bar = Bar::NUMBERS.map(|number| (number.text, number.usual.name));
         let of_wall = names.filter_map(|name| Some((variable(name)?.description, name)));
         let missing = of_wall.chain(of_bar).filter(|(description, name)| {
