@@ -40,7 +40,7 @@ pub(super) fn reason(
     let untied = untied().map_or_else(|_| String::new(), |zeta| format!(", untied {zeta:.3}"));
     let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
     let broken = verdict.tie_break.filter(|_| !by_acceleration);
-    let share = if which == Deciding::Slc { 0.6 } else { 0.4 };
+    let share = statement.rules(which.state()).fraction;
     let limit = share * verdict.d0 / verdict.d_per_u;
     let why = match (verdict.tie, broken) {
         (None, _) => format!("{}: the side without a tie governs", side.name()),

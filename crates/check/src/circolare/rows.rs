@@ -15,6 +15,7 @@ use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
 use super::{ENTRY, LimitState};
 use crate::code::{Details, Ends, Raise, Row, Verdict, numbers};
 use crate::error::CheckError;
+use crate::report::markup::or_dash;
 use crate::report::{Figure, Origin};
 
 impl<'a> Checked<'a> {
@@ -158,7 +159,7 @@ impl Checked<'_> {
     /// What is to be said of a side: its hinge, its tie, what raises it, and what a₁ or E changes.
     fn of_side(&self, side: &SideVerdict) -> Vec<String> {
         let mut notes = Vec::new();
-        let three = |zeta: Option<f64>| zeta.map_or_else(|| "–".to_owned(), |zeta| format!("{zeta:.3}"));
+        let three = |zeta: Option<f64>| or_dash(zeta, |zeta| format!("{zeta:.3}"));
         if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
             let mut note = format!(
                 "{}; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
@@ -228,22 +229,26 @@ fn remark(state: LimitState, check: &DisplacementCheck) -> String {
     format!("{state} {ratio:.3}, raised to {zeta:.3} by SLD (a_g {ag:.3} g){exceeded}")
 }
 
+/// Names the checks of the method, says that they decide, and where the code has them.
+pub(super) fn by_method(statement: &Statement) -> [&'static str; 3] {
+    let has = |state| statement.state(state).is_some();
+    match statement.table.method {
+        Method::Nonlinear if !has(LimitState::Slc) => ["SLV by displacement", "decides", "C8.7.1.2.1.8"],
+        Method::Nonlinear if !has(LimitState::Slv) => ["SLC by displacement", "decides", "C8.7.1.2.1.8"],
+        Method::Nonlinear => ["SLV and SLC by displacement", "decide", "C8.7.1.2.1.8"],
+        Method::Linear => ["SLV with q", "decides", "C8.7.1.2.1.7"],
+        Method::Dynamic => ["The runs under records", "decide", "C8.7.1.2.1.9"],
+    }
+}
+
 /// Names the checks that decide.
 fn deciding(statement: &Statement) -> String {
-    let has = |state| statement.state(state).is_some();
-    let class_iv = statement.table.use_class == Some(UseClass::IV) && has(LimitState::Sld);
-    let method = match statement.table.method {
-        Method::Nonlinear if !has(LimitState::Slc) => "SLV by displacement",
-        Method::Nonlinear if !has(LimitState::Slv) => "SLC by displacement",
-        Method::Nonlinear => "SLV and SLC by displacement",
-        Method::Linear => "SLV with q",
-        Method::Dynamic => "The runs under records",
-    };
-    if class_iv {
+    let has_sld = statement.state(LimitState::Sld).is_some();
+    let [method, decides, _] = by_method(statement);
+    if statement.table.use_class == Some(UseClass::IV) && has_sld {
         return format!("{method} and SLD in use class IV decide");
     }
-    let is_one = matches!(method, "SLV by displacement" | "SLC by displacement" | "SLV with q");
-    format!("{method} {}", if is_one { "decides" } else { "decide" })
+    format!("{method} {decides}")
 }
 
 /// The dynamic check of a limit state, and its runs.

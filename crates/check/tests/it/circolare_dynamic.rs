@@ -163,7 +163,10 @@ fn both_signs_of_a_record_run() {
     near(brittle.judged.d, largest, "of six runs the worst");
     // a tie that yields does not fail there
     let yields = state(&table("tie_ultimate = 0.5\n"));
-    assert!(yields.judged.at_strength > 0 && yields.judged.passed == (yields.judged.ratio >= 1.0 && yields.judged.beyond_d0 == 0));
+    assert!(
+        yields.judged.at_strength > 0
+            && yields.judged.passed == (yields.judged.ratio >= 1.0 && yields.judged.beyond_d0 == 0)
+    );
     let one = state(&table("").replace("soil =", "polarities = \"as_recorded\"\nsoil ="));
     assert_eq!(one.runs.len(), 3);
     let same = brittle.runs.iter().step_by(2).zip(&one.runs);

@@ -1,12 +1,13 @@
 //! The statements of the engineer, with where they come from.
 
 use crate::circolare::{
-    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Method, RecordScale, Source, Statement,
+    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, RecordScale, Source, Statement,
 };
 use crate::report::Origin;
 use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
+use crate::circolare::rows::by_method;
 use crate::circolare::table::{AtActivation, Hinge, Rocks, STRESS_BLOCK};
 
 use crate::report::markup::{formula, stated, table};
@@ -45,7 +46,8 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if let Some(class) = statement.table.use_class {
         state(format!("Use class {class:?}."), &["use_class"]);
     }
-    state(method(statement).into(), &["method"]);
+    let [method, decides, clause] = by_method(statement);
+    state(format!("{method} {decides} ({clause})."), &["method"]);
     if case.outcome.dynamic.is_some() {
         state(scale(statement.table.record_scale), &["record_scale"]);
     }
@@ -109,19 +111,6 @@ fn compression(statement: &Statement) -> String {
         "The hinges are set back for the compressive strength of the masonry.".into()
     } else {
         "The limited compressive strength of the masonry is neglected: hinges are at the edges.".into()
-    }
-}
-
-/// What decides.
-fn method(statement: &Statement) -> &'static str {
-    match statement.table.method {
-        Method::Nonlinear => match [LimitState::Slv, LimitState::Slc].map(|state| statement.state(state)) {
-            [Some(_), None] => "SLV by displacement decides (C8.7.1.2.1.8).",
-            [None, Some(_)] => "SLC by displacement decides (C8.7.1.2.1.8).",
-            _ => "SLV and SLC by displacement decide (C8.7.1.2.1.8).",
-        },
-        Method::Linear => "SLV with q decides (C8.7.1.2.1.7).",
-        Method::Dynamic => "The runs under records decide (C8.7.1.2.1.9).",
     }
 }
 

@@ -1,18 +1,18 @@
 //! A wall in the table of walls of a report.
 
 use crate::circolare::{Activation, Checked};
-use crate::report::markup::{formula, kilonewtons, millimetres, shown as n, stated};
+use crate::report::markup::{formula, kilonewtons, millimetres, or_dash, shown as n, stated};
 use crate::report::overview;
 
 /// Headings and cells: the wall, its place, what holds it, and the numbers of the side that governs.
 pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<(String, String)> {
     let table = &case.statement.table;
-    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), n);
+    let some = |value: Option<f64>| or_dash(value, n);
     let mut cells = overview(&case.wall, &case.parameters);
     let mut cell = |head: String, text: String| cells.push((head, text));
-    cell(formula("r"), table.overburden_mass.map_or_else(|| "–".to_owned(), stated));
+    cell(formula("r"), or_dash(table.overburden_mass, stated));
     let ratio = table.building.as_ref().and_then(|building| building.height_ratio);
-    cell(formula("z/H"), ratio.map_or_else(|| "–".to_owned(), stated));
+    cell(formula("z/H"), or_dash(ratio, stated));
     let is_held = matches!(table.before_activation, None | Some(Activation::Rigid));
     cell("before rocking".into(), if is_held { "held" } else { "free" }.into());
     let tie = case.wall.tie().map(|tie| tie.strength.map_or_else(|| "elastic".to_owned(), kilonewtons));
@@ -23,10 +23,7 @@ pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<(String, String)> {
     cell(formula("a_0") + " [m/s²]", n(side.a0));
     cell(formula("d_0") + " [mm]", millimetres(side.d0));
     cell(formula("T_SLV") + " [s]", some(side.slv.map(|check| check.period)));
-    cell(
-        formula("S_d") + " SLV [mm]",
-        side.slv.map_or_else(|| "–".to_owned(), |check| millimetres(check.demand)),
-    );
+    cell(formula("S_d") + " SLV [mm]", or_dash(side.slv.map(|check| check.demand), millimetres));
     let raised = side.by_displacement().filter(|(_, check)| check.raised);
     let raised: Vec<_> = raised.map(|(state, _)| state.key()).collect();
     cell("raised".into(), if raised.is_empty() { "–".to_owned() } else { raised.join(", ") });

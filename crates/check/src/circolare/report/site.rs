@@ -9,7 +9,7 @@ use crate::error::CheckError;
 use crate::report::Figure;
 use ::report::palette::{sign, stroke};
 
-use crate::report::markup::{formula, shown, table};
+use crate::report::markup::{formula, or_dash, shown, table};
 
 /// A symbol with its source, its unit, and its number on the ground.
 type OfGround = (&'static str, &'static str, &'static str, fn(&GroundSpectrum) -> f64);
@@ -59,7 +59,11 @@ impl<'a> Rows<'a> {
 }
 
 fn some(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), shown)
+    or_dash(value, shown)
+}
+
+fn each(values: impl Iterator<Item = f64>) -> String {
+    values.map(shown).collect::<Vec<_>>().join("; ")
 }
 
 /// The section of the site: its numbers, and the spectra of its ground.
@@ -79,23 +83,19 @@ pub(in crate::circolare) fn section(case: &Checked<'_>) -> Result<Vec<(String, S
 pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut rows = Rows::new(case);
     rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| shown(given.damping));
-    let each = |values: &[f64]| values.iter().copied().map(shown).collect::<Vec<_>>().join("; ");
-    let modes = |demand: &Demand, value: fn(&Mode) -> f64| {
-        let values = |floor: &FloorSpectrum| each(&floor.modes().iter().map(value).collect::<Vec<_>>());
-        demand.floor().map_or_else(|| "–".to_owned(), values)
+    let modes = |demand: &Demand, value: fn(&FloorSpectrum, &Mode) -> f64| {
+        let of = |floor: &FloorSpectrum| each(floor.modes().iter().map(|mode| value(floor, mode)));
+        demand.floor().map_or_else(|| "–".to_owned(), of)
     };
-    rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |mode| mode.period));
-    rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |mode| mode.participation));
+    rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |_, mode| mode.period));
+    rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |_, mode| mode.participation));
     rows.row(["ξ_k", "C8.7.1.2.1.4", ""], |(_, demand)| some(demand.floor().map(FloorSpectrum::damping)));
     rows.row(["S_e(T_k, ξ_k)", "[3.2.2]", "m/s²"], |(_, demand)| {
-        let of = |floor: &FloorSpectrum| {
-            let at = |mode: &Mode| floor.ground().acceleration(mode.period, floor.damping());
-            each(&floor.modes().iter().map(at).collect::<Vec<_>>())
-        };
-        demand.floor().map_or_else(|| "–".to_owned(), of)
+        modes(demand, |floor, mode| floor.ground().acceleration(mode.period, floor.damping()))
     });
     rows.row(["a_Z,k = S_e(T_k, ξ_k) γ_k ψ_k √(1 + 4 ξ_k²)", "[C7.2.7]", "m/s²"], |(_, demand)| {
-        demand.floor().map_or_else(|| "–".to_owned(), |floor| each(floor.mode_accelerations()))
+        let accelerations = demand.floor().map(|floor| floor.mode_accelerations().iter().copied());
+        accelerations.map_or_else(|| "–".to_owned(), each)
     });
     rows.row(["a_Z = √(Σ a_Z,k²)", "[C7.2.8]", "m/s²"], |(_, demand)| {
         some(demand.floor().map(FloorSpectrum::printed_peak))

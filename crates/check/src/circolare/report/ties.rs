@@ -8,7 +8,7 @@ use super::by_side;
 use super::spectrum::gives;
 use crate::circolare::tie::{TieState, anchors};
 use crate::circolare::{Checked, LARGEST_LOSS, SideVerdict, TieBreak, TieNumbers};
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, table};
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, or_dash, shown as n, table};
 
 /// The section, if the wall has a tie on a side to which it rocks.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
@@ -172,7 +172,7 @@ fn heads(case: &Checked<'_>, before: &[&'static str], after: &[&'static str]) ->
 fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
     let mut rows = Vec::new();
     let mut row = |place: String, d: Option<f64>, force: f64, state: &str| {
-        let d = d.map_or_else(|| "–".to_owned(), millimetres);
+        let d = or_dash(d, millimetres);
         rows.push([place, d, cells(case, force), state.to_owned()]);
     };
     if side.activation.force > 0.0 {
