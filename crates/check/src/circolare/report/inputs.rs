@@ -64,9 +64,8 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     rows.push(taken(one_body.replace("e*", &formula("e*"))));
     if statement.states.iter().flatten().any(|state| matches!(state.source, Source::Code(_))) {
         rows.push(taken(format!(
-            "The shape of each spectrum ({}) is held at that of the site while {} varies.",
-            formula("F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k"),
-            formula("a_g")
+            "The shape of each spectrum ({}) is held at that of the site while a_g varies.",
+            formula("F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k")
         )));
     }
     if !missing.is_empty() {
@@ -81,14 +80,12 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
 /// States what the building is.
 fn of_building(statement: &Statement, state: &mut impl FnMut(String, &[&str])) {
     if statement.table.building.is_some() {
-        let said = format!("{} of the building is stated by the engineer.", formula("T_1"));
-        state(said, &["building"]);
+        state("T_1 of the building is stated by the engineer.".to_owned(), &["building"]);
     }
     for (given, xi) in
         statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
     {
-        let said =
-            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), stated(xi), given.state);
+        let said = format!("The building has the damping ξ_k = {} in {}.", stated(xi), given.state);
         state(said, &[given.state.key(), "building_damping"]);
     }
 }

@@ -91,10 +91,8 @@ fn activation(
         Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
             let ground = floor.ground();
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
-            let words = format!(
-                "Demand: the ground governs, above the {} of the height",
-                if held { formula("a_Z") } else { formula("S_eZ") }
-            );
+            let of_height = if held { "a_Z" } else { "S_eZ" };
+            let words = format!("Demand: the ground governs, above the {of_height} of the height");
             (words, "[3.2.2]", "a_g S", put)
         }
         Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),

@@ -13,13 +13,11 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
          record, with both signs unless stated otherwise. FC = {factor} divides its forces (gravity, \
-         overburden, tie), not its masses. The check is passed if no run exceeds {} or fails by its tie, and \
+         overburden, tie), not its masses. The check is passed if no run exceeds d_0 or fails by its tie, and \
          the mean of the largest |{}| over the threshold of its side (of fewer than {MEAN_COUNTS_FROM} \
-         records the largest, NTC 7.3.5) is at most 1. {} is the lowest factor on all records \
+         records the largest, NTC 7.3.5) is at most 1. ζ_E is the lowest factor on all records \
          that fails, searched upwards.</p>\n",
-        formula("d_0"),
-        formula("d"),
-        formula("ζ_E")
+        formula("d")
     );
     for (name, state) in case.dynamic() {
         text += &one(case, name, state);
@@ -35,14 +33,8 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         let Some(check) = verdict.displacement(name) else { continue };
         thresholds.push(check.d);
         let words = format!("Threshold and zero of the curve, {}", escaped(side));
-        let said = format!(
-            "{} = <b>{}</b> mm, {} = <b>{}</b> mm",
-            formula(&format!("d_{name}")),
-            millimetres(check.d),
-            formula("d_0"),
-            millimetres(verdict.d0)
-        );
-        lines.say(&words, &said);
+        let [d, d_0] = [check.d, verdict.d0].map(millimetres);
+        lines.say(&words, &format!("d_{name} = <b>{d}</b> mm, d_0 = <b>{d_0}</b> mm"));
     }
     for side in [Side::Positive, Side::Negative] {
         // the runs rock as the scene does, to sides that the static checks leave out, too
@@ -69,12 +61,12 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         [&format!("d_{name}/d"), &put],
         (judged.ratio, ""),
     );
-    lines.say(
-        "Runs beyond the zero of the curve",
-        &format!("<b>{}</b>/{}", judged.beyond_d0, state.runs.len()),
-    );
-    let said = format!("<b>{}</b>/{}", judged.at_strength, state.runs.len());
-    lines.say("Runs at the strength of the tie", &said);
+    for (words, count) in [
+        ("Runs beyond the zero of the curve", judged.beyond_d0),
+        ("Runs at the strength of the tie", judged.at_strength),
+    ] {
+        lines.say(words, &format!("<b>{count}</b>/{}", state.runs.len()));
+    }
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
     lines.say("Result", result(judged.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
@@ -84,8 +76,6 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         "factor".to_owned()
     };
     let heads = ["record", &factor, "largest d, u &gt; 0 [mm]", "largest d, u &lt; 0 [mm]", "beyond d_0"];
-    let heads = heads.map(|head| head.replace("d_0", &formula("d_0")));
-    let heads = heads.each_ref().map(String::as_str);
     format!("<h3>{name}</h3>\n{}{}", lines.table(), table(&heads, &rows))
 }
 

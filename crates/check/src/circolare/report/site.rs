@@ -131,9 +131,8 @@ fn place(case: &Checked<'_>) -> String {
     {
         let [period, ratio] = [*period, *ratio].map(shown);
         said.push(format!(
-            "Building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
+            "Building of {storeys} storeys with T_1 = {period} s, linear shape of its first mode, wall at \
              {} = {ratio}: {}, {} ([check] building, [C7.2.10]); {} and {} in [C7.2.6]",
-            formula("T_1"),
             formula("z/H"),
             formula("γ_1 = 3n/(2n + 1)"),
             formula("ψ_1 = z/H"),

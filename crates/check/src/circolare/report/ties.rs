@@ -8,7 +8,7 @@ use super::by_side;
 use super::spectrum::gives;
 use crate::circolare::tie::{TieState, anchors};
 use crate::circolare::{Checked, LARGEST_LOSS, SideVerdict, TieBreak, TieNumbers};
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, or_dash, shown as n, table};
+use crate::report::markup::{Calculation, kilonewtons, millimetres, or_dash, shown as n, table};
 
 /// The section, if the wall has a tie on a side to which it rocks.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
@@ -145,9 +145,9 @@ fn rupture(side: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
     lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
     let early = side.slv.is_some_and(|check| check.limited_by_tie);
     let decides = if early {
-        format!("more than {LARGEST_LOSS}, before 0.40 {}: {} is there", formula("d_0"), formula("d_SLV"))
+        format!("more than {LARGEST_LOSS}, before 0.40 d_0: d_SLV is there")
     } else {
-        format!("{} stays at 0.40 {}", formula("d_SLV"), formula("d_0"))
+        "d_SLV stays at 0.40 d_0".to_owned()
     };
     lines.say("Consequence", &decides);
 }
@@ -180,9 +180,13 @@ fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
     }
     for (state, check) in side.by_displacement() {
         let Some(tie) = check.tie else { continue };
-        row(formula(&format!("d_{state}")), Some(check.d), tie.force, tie.state.name());
-        let demand = format!("Demand of {state}, {}", formula("S_d"));
-        row(demand, Some(check.demand), tie.force_at_demand, tie.state_at_demand.name());
+        row(format!("d_{state}"), Some(check.d), tie.force, tie.state.name());
+        row(
+            format!("Demand of {state}, S_d"),
+            Some(check.demand),
+            tie.force_at_demand,
+            tie.state_at_demand.name(),
+        );
     }
     if case.parameters.tie_strength > 0.0 {
         row("Strength of the tie".to_owned(), None, case.parameters.tie_strength, "");
