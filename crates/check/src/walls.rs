@@ -10,9 +10,10 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{CODES, Code, Entry, Subject, Verdict};
+use crate::code::{CODES, Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::{CheckFile, read};
+use crate::verdict::Verdict;
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {

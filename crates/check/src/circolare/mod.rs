@@ -53,11 +53,11 @@ mod warnings;
 use rocking_wall::scene::Described;
 use rocking_wall::wall::Parameters;
 
-use crate::code::{Code, Entry, Subject, Verdict};
+use crate::code::{Code, Entry, Rule, Subject};
 use crate::error::CheckError;
 use crate::find::Sought;
-use crate::rule::Rule;
 use crate::site::{Level, Records};
+use crate::verdict::Verdict;
 
 pub use checks::LARGEST_LOSS;
 pub use compatibility::{BAND, Compatibility};

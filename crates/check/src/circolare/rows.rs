@@ -13,10 +13,10 @@ use super::statement::Statement;
 use super::table::{Hinge, Method, UseClass};
 use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
 use super::{ENTRY, LimitState};
-use crate::code::{Details, Ends, Raise, Row, Verdict, numbers};
 use crate::error::CheckError;
 use crate::report::markup::or_dash;
 use crate::report::{Figure, Origin};
+use crate::verdict::{Details, Ends, Raise, Row, Verdict, numbers};
 
 impl<'a> Checked<'a> {
     /// The verdict.

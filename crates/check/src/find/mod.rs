@@ -12,6 +12,7 @@ use serde_json::Value;
 
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
+use crate::verdict::Verdict;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 241;
@@ -298,7 +299,7 @@ fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> 
 }
 
 /// The checks of a verdict: the least capacity over demand of all sides.
-fn outcomes(verdict: &crate::code::Verdict<'_>) -> Vec<Outcome> {
+fn outcomes(verdict: &Verdict<'_>) -> Vec<Outcome> {
     let mut all: Vec<Outcome> = Vec::new();
     for row in &verdict.rows {
         match all.iter_mut().find(|one| one.0 == row.check) {

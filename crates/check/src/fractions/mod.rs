@@ -23,11 +23,12 @@ use serde_json::{Value, json};
 use toml::Spanned;
 
 use crate::circolare::Side;
-use crate::code::{Code, Details, Ends, Entry, Row, Subject, Verdict, numbers};
+use crate::code::{Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::report::Figure;
 use crate::site::Records;
+use crate::verdict::{Details, Ends, Row, Verdict, numbers};
 use ::report::table::{Cell, Digits, Table, significant};
 use sides::governing;
 

@@ -55,6 +55,7 @@ pub struct SideCheck {
     pub displacement_ratio: f64,
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
 fn named<S: serde::Serializer>(sign: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(Side::of(*sign).name())
 }

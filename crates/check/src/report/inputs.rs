@@ -28,10 +28,9 @@ impl Origin<'_> {
         let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(name);
         match self.wall {
             Some(wall) if wall.stated.contains(&name) => "file",
-            Some(_) => "default",
             None if self.set.iter().any(is_set) => "--set",
             None if self.file.states(keys) => "scene",
-            None => "default",
+            _ => "default",
         }
     }
 }

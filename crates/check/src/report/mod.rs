@@ -17,15 +17,15 @@ use ::report::plot::Plot;
 use rocking_wall::scene::{SceneError, fingerprint};
 use run::walls::NamedWall;
 
-use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
+use crate::verdict::Verdict;
 
 pub(crate) use inputs::{overview, the_wall};
 pub use language::{Language, terms};
 use language::{translated, with_symbols};
-use markup::{formula, list, table};
+use markup::{list, table};
 use project::as_written;
 pub(crate) use project::{EXCEEDED, no_place, return_period};
 pub use project::{ReportTable, report_schema};
@@ -181,7 +181,7 @@ fn end(mut page: Page, symbols: &str, readings: &[String], origin: &Origin<'_>) 
 fn head(verdict: &Verdict<'_>, wall: Option<&str>) -> String {
     let wall = wall.map_or_else(String::new, |name| as_written(name) + "<br>");
     let passed = if verdict.passed { "holds" } else { "fails" };
-    let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
+    let headline = escaped(&verdict.headline());
     format!("<p class=\"verdict {passed}\">{wall}{headline}</p>")
 }
 

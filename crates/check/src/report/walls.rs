@@ -7,8 +7,8 @@ use run::walls::NamedWall;
 use super::markup::table;
 use super::project::as_written;
 use super::{Origin, begun, end, finished, footer, head, sections, sheet_head};
-use crate::code::Verdict;
 use crate::error::CheckError;
+use crate::verdict::Verdict;
 use crate::walls::{WallCodes, WallVerdicts};
 
 /// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover
