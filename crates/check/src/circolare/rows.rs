@@ -84,8 +84,8 @@ impl<'a> Checked<'a> {
         rows
     }
 
-    /// What the raise by SLD replaces: the least ratio by displacement by which a wall that passes would fail;
-    /// of a wall that fails, that of the check that governs.
+    /// What the raise by SLD replaces: the least ratio by displacement by which a wall that passes would
+    /// fail; of a wall that fails, that of the check that governs.
     fn raise(&self) -> Option<Raise> {
         let Outcome { governs, passed, sides, .. } = &self.outcome;
         if self.statement.table.method != Method::Nonlinear {

@@ -65,8 +65,8 @@ impl SetBack {
             if 2.0 * depth(force) >= b {
                 let [deep, thick] = apart([2e3 * depth(force), 1e3 * b], 4);
                 return refused(format!(
-                    "the masonry at the {place} is crushed by N = {} kN alone: its stress block would be {deep} \
-                     mm deep, the wall is b = {thick} mm thick; check masonry_strength (Pa)",
+                    "the masonry at the {place} is crushed by N = {} kN alone: its stress block would be \
+                     {deep} mm deep, the wall is b = {thick} mm thick; check masonry_strength (Pa)",
                     number(1e-3 * force, 4)
                 ));
             }

@@ -32,8 +32,8 @@ pub(super) fn with_commas(text: &str) -> String {
     written
 }
 
-/// The assignment with which a text begins, such as `hinge_range = [0.1, 0.9]`. Keys have an underscore behind
-/// more than a letter or two, which symbols of formulas have.
+/// The assignment with which a text begins, such as `hinge_range = [0.1, 0.9]`. Keys have an underscore
+/// behind more than a letter or two, which symbols of formulas have.
 fn assignment(text: &str) -> Option<&str> {
     let end = |from: usize, belongs: fn(char) -> bool| {
         text[from..].find(|c| !belongs(c)).map_or(text.len(), |end| from + end)

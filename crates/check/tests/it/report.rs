@@ -225,8 +225,8 @@ fn a_raise_by_analogy_is_named() {
 fn every_threshold_of_runs_is_printed() {
     let text = |rocking: &str| {
         format!(
-            "{PARAPET}{rocking}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
-             rocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
+            "{PARAPET}{rocking}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
+             soil = \"B\"\nrocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
              records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
         )
     };

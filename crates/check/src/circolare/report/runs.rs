@@ -13,8 +13,8 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
          record, with both signs unless stated otherwise. FC = {factor} divides its forces (gravity, \
-         overburden, tie), not its masses. The check is passed if no run exceeds d_0 or fails by its tie, and \
-         the mean of the largest |{}| over the threshold of its side (of fewer than {MEAN_COUNTS_FROM} \
+         overburden, tie), not its masses. The check is passed if no run exceeds d_0 or fails by its tie, \
+         and the mean of the largest |{}| over the threshold of its side (of fewer than {MEAN_COUNTS_FROM} \
          records the largest, NTC 7.3.5) is at most 1. ζ_E is the lowest factor on all records \
          that fails, searched upwards.</p>\n",
         formula("d")
