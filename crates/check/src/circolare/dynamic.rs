@@ -123,23 +123,20 @@ impl DynamicCheck {
         for (name, state) in self.states() {
             if state.judged.passed && state.zeta < 1.0 {
                 warnings.push(format!(
-                    "{}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
+                    "{name}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
                      response is not monotonic",
-                    name.name(),
                     state.zeta
                 ));
             }
             let factors = state.runs.iter().map(|run| run.factor);
-            warnings.extend(
-                state.compatibility.iter().flat_map(|own| own.warnings(name.name(), factors.clone())),
-            );
+            let compatibility = state.compatibility.iter();
+            warnings.extend(compatibility.flat_map(|own| own.warnings(name.key(), factors.clone())));
             let stated = case.floors.into_iter().flat_map(Floors::stated_damping);
-            let xi = statement.state(name.state()).and_then(|given| given.building_damping);
+            let xi = statement.state(name).and_then(|given| given.building_damping);
             if let Some((xi, stated)) = xi.zip(stated.into_iter().find(|stated| Some(*stated) != xi)) {
                 warnings.push(format!(
-                    "{}: the runs have building_damping = {xi} for every mode, not damping_ratio = {stated} \
-                     of [[storeys]]",
-                    name.name()
+                    "{name}: the runs have building_damping = {xi} for every mode, not damping_ratio = \
+                     {stated} of [[storeys]]"
                 ));
             }
         }

@@ -68,7 +68,7 @@ impl<'a> Checked<'a> {
                 ..Row::new(state.key(), side, found.zeta, Ends::Displacements([found.d, found.demand]))
             }));
         }
-        for (state, found) in self.dynamic() {
+        for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
             let (judged, is_slc) = (found.judged, state == LimitState::Slc);
             let check = if is_slc { "SLC under records" } else { "SLV under records" };
             let side = if self.outcome.alike { "both sides" } else { judged.side.name() };
@@ -108,12 +108,6 @@ impl<'a> Checked<'a> {
         raise
     }
 
-    /// The limit states of the dynamic check.
-    pub(super) fn dynamic(&self) -> impl Iterator<Item = (LimitState, &DynamicState)> {
-        let states = self.outcome.dynamic.iter().flat_map(DynamicCheck::states);
-        states.map(|(check, found)| (check.state(), found))
-    }
-
     fn notes(&self) -> Vec<String> {
         let governs = self.outcome.governs;
         let site = self.statement.state(governs.limit_state.state()).map_or(f64::NAN, |given| given.ag);
@@ -148,7 +142,7 @@ impl<'a> Checked<'a> {
             let part = if part == TiePart::Anchor { "the anchor" } else { "the bar" };
             notes.push(format!("The tie: {part} gives way first."));
         }
-        for (state, found) in self.dynamic() {
+        for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
             notes.extend(of_runs(state, found));
         }
         notes

@@ -249,9 +249,9 @@ pub struct DynamicRun {
 }
 
 impl DynamicCheck {
-    pub(super) fn states(&self) -> impl Iterator<Item = (Deciding, &DynamicState)> {
-        let states = [(Deciding::Slv, &self.slv), (Deciding::Slc, &self.slc)];
-        states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
+    pub(super) fn states(&self) -> impl Iterator<Item = (LimitState, &DynamicState)> {
+        let states = [(LimitState::Slv, &self.slv), (LimitState::Slc, &self.slc)];
+        states.into_iter().filter_map(|(state, found)| Some((state, found.as_ref()?)))
     }
 
     /// Returns whether every limit state holds.
@@ -260,10 +260,10 @@ impl DynamicCheck {
     }
 
     pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
-        self.states().map(|(limit_state, state)| Governs {
-            side: state.judged.side,
-            limit_state,
-            zeta: state.zeta,
+        self.states().map(|(state, found)| Governs {
+            side: found.judged.side,
+            limit_state: if state == LimitState::Slc { Deciding::Slc } else { Deciding::Slv },
+            zeta: found.zeta,
         })
     }
 }

@@ -8,7 +8,7 @@ use crate::report::project::as_written;
 
 /// The section of the dynamic check, if there is one.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
-    case.outcome.dynamic.as_ref()?;
+    let dynamic = case.outcome.dynamic.as_ref()?;
     let factor = shown(case.statement.confidence_factor);
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
@@ -19,7 +19,7 @@ pub(super) fn section(case: &Checked<'_>) -> Option<String> {
          that fails, searched upwards.</p>\n",
         formula("d")
     );
-    for (name, state) in case.dynamic() {
+    for (name, state) in dynamic.states() {
         text += &one(case, name, state);
     }
     Some(text)
