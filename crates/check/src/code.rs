@@ -19,20 +19,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use std::fmt::{self, Write};
+use std::fmt;
 
-use report::number;
-use report::table::{Cell, Column, Digits, Table};
 use rocking_wall::scene::{Floors, Scene, Schema};
-use rocking_wall::wall::{Parameters, Wall};
-use serde_json::{Value, json};
+use rocking_wall::wall::Parameters;
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::find::Sought;
-use crate::report::{Figure, Origin, overview, the_wall};
-use crate::rule::Rule;
 use crate::site::{Level, Records};
+use crate::verdict::Verdict;
 use crate::{circolare, fractions};
 
 /// The codes. A new one is a module and a line here.
@@ -156,238 +152,23 @@ impl<'a> From<&'a Scene> for Subject<'a> {
     }
 }
 
-/// The outcome of a check, as every code has it.
-pub struct Verdict<'a> {
-    /// The code.
-    pub code: Entry,
-    /// Whether the wall passes.
-    pub passed: bool,
-    /// The check that governs, such as `SLV`.
-    pub governs: &'static str,
-    /// The side that governs, such as `u > 0`; `None` where both are alike.
-    pub side: Option<&'static str>,
-    /// Capacity over demand of what governs \[-\].
-    pub zeta: f64,
-    /// A row for each check of each side; of sides that are alike, one.
-    pub rows: Vec<Row>,
-    /// Where a rule replaces what lets the wall pass, or what governs one that fails: its own ratio \[-\].
-    pub raised: Option<f64>,
-    /// What is to be said of the rows, in sentences.
-    pub notes: Vec<String>,
-    /// What the engineer should know; none of it stops the check.
-    pub warnings: Vec<String>,
-    /// What only this code knows.
-    pub details: Box<dyn Details + Send + 'a>,
+/// A number in the rule of a check, which a study of reliability varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// Displacement capacity over the displacement at which the force vanishes \[-\].
+    Fraction,
+    /// Factor of π √(d/a) in the period of the demand \[-\].
+    PeriodFactor,
+    /// Behaviour factor q \[-\].
+    BehaviourFactor,
 }
 
-/// A check of one side.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// Name of the check, such as `SLV`.
-    pub check: &'static str,
-    /// The side.
-    pub side: &'static str,
-    /// Capacity over demand \[-\].
-    pub zeta: f64,
-    /// Whether it passes.
-    pub passed: bool,
-    /// Whether it decides; otherwise it informs.
-    pub decides: bool,
-    /// Ground acceleration that just passes, and that of the site, if the code has one \[g\].
-    pub ground: Option<[f64; 2]>,
-    /// Capacity and demand.
-    pub ends: Ends,
-    /// The capacity as u of the wall; `None` of a check of accelerations, and of runs \[m\].
-    pub displacement: Option<f64>,
-    /// Where the code has it.
-    pub clause: &'static str,
-    /// What is to be said beside the numbers; empty where nothing is.
-    pub remark: String,
-}
+impl Rule {
+    /// Every variant.
+    pub const ALL: [Self; 3] = [Self::Fraction, Self::PeriodFactor, Self::BehaviourFactor];
 
-/// A capacity and its demand.
-#[derive(Clone, Copy, Debug)]
-pub enum Ends {
-    /// Accelerations \[m/s²\].
-    Accelerations([f64; 2]),
-    /// Displacements \[m\].
-    Displacements([f64; 2]),
-}
-
-/// What only one code knows of a verdict.
-pub trait Details {
-    /// The wall that was checked.
-    fn wall(&self) -> &Wall;
-
-    /// Its parameters.
-    fn parameters(&self) -> &Parameters;
-
-    /// All numbers by name, in SI units; what `wall check --json` prints.
-    fn json(&self, verdict: &Verdict<'_>) -> Value;
-
-    /// Draws the capacity of the side that governs over the demand.
-    ///
-    /// # Errors
-    /// [`CheckError`] of a record, or of a spectrum that ends too early.
-    fn figure(&self) -> Result<Figure, CheckError>;
-
-    /// Intermediate numbers: a row for each, a column for each side.
-    fn numbers(&self) -> Table;
-
-    /// The wall in a table of walls: headings, with units, and cells, as markup.
-    fn overview(&self) -> Vec<(String, String)> {
-        overview(self.wall(), self.parameters())
-    }
-
-    /// The sections of a report about the site, which the walls of a building share; by default none.
-    ///
-    /// # Errors
-    /// Those of [`figure`](Self::figure).
-    fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
-        Ok(Vec::new())
-    }
-
-    /// The symbols of the sections, as markup; by default none.
-    fn symbols(&self) -> String {
-        String::new()
-    }
-
-    /// Where the code can be read in two ways: the readings taken, as markup; by default none.
-    fn readings(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// The sections of a report about the wall: by default the wall, the figure and the numbers.
-    ///
-    /// # Errors
-    /// Those of [`figure`](Self::figure).
-    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
-        let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
-        Ok(vec![
-            ("The wall".to_owned(), wall),
-            ("Capacity over demand".to_owned(), self.figure()?.html() + &self.numbers().html()),
-        ])
-    }
-}
-
-/// A table of intermediate numbers of some digits, without rows: a name, a unit, and a column for each side.
-pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits) -> Table {
-    let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
-    Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
-}
-
-impl Verdict<'_> {
-    /// The verdict in a line.
-    pub fn headline(&self) -> String {
-        let passed = match (self.passed, self.raised) {
-            (true, None) => "PASSED".to_owned(),
-            (true, Some(raised)) => format!("PASSED by the raise of SLD; by displacement {raised:.3}"),
-            (false, _) => "NOT PASSED".to_owned(),
-        };
-        let raised = self.raised.filter(|_| !self.passed).map_or_else(String::new, |raised| {
-            // the code has the raise for SLV
-            let by = if self.governs == "SLC" { "by analogy with C8.7.1.2.1.8" } else { "by SLD" };
-            format!(", raised {by}; by displacement {raised:.3}")
-        });
-        let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
-        format!(
-            "{passed}: {governs} governs with {symbol} = {zeta:.3}{raised} ({})",
-            self.at("both sides alike")
-        )
-    }
-
-    /// The side that governs, or `both` where they are alike.
-    pub fn at(&self, both: &'static str) -> &'static str {
-        self.side.unwrap_or(both)
-    }
-
-    /// The rows as a table: for people four digits, for files SI units and every digit.
-    pub fn table(&self) -> Table {
-        let four = Digits::AtMost(4);
-        let has_ground = self.rows.iter().any(|row| row.ground.is_some());
-        let ground = |heading: &'static str| if has_ground { heading } else { "" };
-        let has_remarks = self.rows.iter().any(|row| !row.remark.is_empty());
-        let mut table = Table::new([
-            Column::text("check", "check"),
-            Column::text("side", "side"),
-            Column::number(self.code.symbol, self.code.symbol, four),
-            Column::number("passed", "", four),
-            Column::text("", "result"),
-            Column::number(ground("ag_g"), ground("bears a_g [g]"), four),
-            Column::number(ground("site_ag_g"), ground("site a_g [g]"), four),
-            Column::number("capacity", "", four),
-            Column::number("demand", "", four),
-            Column::text("unit", ""),
-            Column::text("", "capacity"),
-            Column::text("", "demand"),
-            Column::number("decides", "decides", four),
-            Column::text("clause", "clause"),
-            Column::text("remark", if has_remarks { "remark" } else { "" }),
-        ]);
-        for row in &self.rows {
-            let (ends, factor, unit, shown) = match row.ends {
-                Ends::Accelerations(ends) => (ends, 1.0, "m/s2", "m/s²"),
-                Ends::Displacements(ends) => (ends, 1000.0, "m", "mm"),
-            };
-            let [capacity, demand] = ends.map(|end| format!("{} {shown}", number(factor * end, 4)));
-            table.row([
-                row.check.into(),
-                row.side.into(),
-                row.zeta.into(),
-                row.passed.into(),
-                if row.passed { "passed" } else { "not passed" }.into(),
-                row.ground.map(|ground| ground[0]).into(),
-                row.ground.map(|ground| ground[1]).into(),
-                ends[0].into(),
-                ends[1].into(),
-                unit.into(),
-                capacity.into(),
-                demand.into(),
-                row.decides.into(),
-                Cell::from(row.clause),
-                row.remark.clone().into(),
-            ]);
-        }
-        table
-    }
-
-    /// The rows as markup, with classes for those that decide and for those that fail.
-    pub fn html(&self) -> String {
-        self.table().html_with(|index| match (self.rows[index].decides, self.rows[index].passed) {
-            (true, true) => "decides",
-            (true, false) => "decides fails",
-            (false, true) => "",
-            (false, false) => "fails",
-        })
-    }
-
-    /// The verdict for a terminal: title, headline, rows, numbers and notes.
-    pub fn text(&self, title: &str) -> String {
-        let numbers = self.details.numbers().text();
-        let mut text = format!("{title}\n{}\n\n{}\n{numbers}\n", self.headline(), self.table().text());
-        for note in &self.notes {
-            // writing to a String cannot fail
-            let _ = writeln!(text, "{note}");
-        }
-        text
-    }
-
-    /// What every front says besides the rows, by name.
-    pub fn summary(&self) -> Value {
-        json!({
-            "code": self.code.name,
-            "passed": self.passed,
-            "governs": self.governs,
-            "side": self.at("both sides"),
-            "zeta": self.zeta,
-            "headline": self.headline(),
-            "notes": self.notes,
-            "warnings": self.warnings,
-        })
-    }
-
-    /// All numbers by name.
-    pub fn json(&self) -> Value {
-        self.details.json(self)
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        ["fraction of d_0", "factor of the period", "q"][self as usize]
     }
 }

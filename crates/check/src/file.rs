@@ -236,13 +236,6 @@ impl<'a> CheckFile<'a> {
         self.document.contains_key("walls")
     }
 
-    /// Returns whether the table of a wall states a parameter of a group.
-    pub(crate) fn wall_states(&self, entry: usize, group: &str, name: &str) -> bool {
-        let walls = self.document.get("walls").and_then(|walls| walls.get_ref().as_array());
-        let wall = walls.and_then(|walls| walls.get(entry));
-        wall.and_then(|wall| wall.get_ref().get(group)?.get_ref().get(name)).is_some()
-    }
-
     /// Returns whether the file states a value.
     pub(crate) fn states(&self, keys: &[&str]) -> bool {
         let mut table = Some(&self.document);

@@ -7,15 +7,15 @@ mod file;
 mod find;
 pub mod fractions;
 mod report;
-mod rule;
 mod site;
+mod verdict;
 mod walls;
 
-pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict};
+pub use code::{CODES, Code, Entry, Rule, Subject};
 pub use error::CheckError;
 pub use file::{CheckFile, complete, how_to_write, read, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
 pub use report::{Figure, Language, Origin, ReportTable, page, page_of_walls, report_schema, terms};
-pub use rule::Rule;
 pub use site::{Level, Records};
+pub use verdict::{Details, Ends, Raise, Row, Verdict};
 pub use walls::{WallCodes, WallVerdicts, check_walls};

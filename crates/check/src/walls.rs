@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 use report::page::Page;
-use report::table::{Cell, Column, Digits, Table};
+use report::table::{Column, Digits, Table};
 use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{CODES, Code, Entry, Subject, Verdict};
+use crate::code::{CODES, Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::{CheckFile, read};
+use crate::verdict::Verdict;
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {
@@ -99,46 +100,24 @@ impl WallVerdicts<'_> {
     pub fn table(&self) -> Table {
         let Entry { symbol, checks, .. } = self.code;
         let four = Digits::Decimals(4);
-        let ratio = |check: &&'static str| {
+        let table = Table::over(self.walls.iter().map(|(name, verdict)| (*name, verdict.as_ref())))
+            .column(Column::text("name", "wall").of_user(), |wall| wall.0.to_owned())
+            .number("passed", "passed", four, |wall| Some(wall.1.ok()?.passed))
+            .number(symbol, symbol, four, |wall| Some(wall.1.ok()?.zeta))
+            .text("governs", "governs", |wall| Some(wall.1.ok()?.governs))
+            .text("side", "side", |wall| Some(wall.1.ok()?.at("both")));
+        let table = checks.iter().fold(table, |table, check| {
             let name = check.replace(" with ", "_").replace(' ', "_");
-            Column::number(format!("{symbol}_{name}"), *check, four)
-        };
-        let mut table = Table::new(
-            [
-                Column::text("name", "wall").of_user(),
-                Column::number("passed", "passed", four),
-                Column::number(symbol, symbol, four),
-                Column::text("governs", "governs"),
-                Column::text("side", "side"),
-            ]
-            .into_iter()
-            .chain(checks.iter().map(ratio))
-            .chain([
-                Column::text("not_checked", if self.refused() > 0 { "not checked" } else { "" }),
-                Column::text("warnings", ""),
-            ]),
-        );
-        for (name, verdict) in &self.walls {
-            let mut row = vec![Cell::from((*name).to_owned())];
-            match verdict {
-                Ok(verdict) => {
-                    let least = |check: &&str| -> Cell<'static> {
-                        let of = verdict.rows.iter().filter(|row| row.check == *check);
-                        of.map(|row| row.zeta).min_by(f64::total_cmp).into()
-                    };
-                    row.extend([verdict.passed.into(), verdict.zeta.into(), verdict.governs.into()]);
-                    row.push(verdict.at("both").into());
-                    row.extend(checks.iter().map(least));
-                    row.extend([Cell::Empty, verdict.warnings.join("; ").into()]);
-                }
-                Err(error) => {
-                    row.resize(5 + checks.len(), Cell::Empty);
-                    row.extend([error.to_string().into(), Cell::Empty]);
-                }
-            }
-            table.row(row);
-        }
+            table.number(format!("{symbol}_{name}"), *check, four, |wall| {
+                let of_check = wall.1.ok()?.rows.iter().filter(|row| row.check == *check);
+                of_check.map(|row| row.zeta).min_by(f64::total_cmp)
+            })
+        });
+        let refused = if self.refused() > 0 { "not checked" } else { "" };
         table
+            .text("not_checked", refused, |wall| Some(wall.1.err()?.to_string()))
+            .column(Column::text("warnings", ""), |wall| Some(wall.1.ok()?.warnings.join("; ")))
+            .done()
     }
 
     /// The verdicts by the names of the walls.

@@ -17,6 +17,17 @@ pub fn number(value: f64, digits: usize) -> String {
     if is_near { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
+/// Two numbers that are compared, with at most so many digits, or as many more as tell them apart.
+///
+/// ```
+/// assert_eq!(report::apart([25.714, 25.7], 3), ["25.71", "25.7"]);
+/// ```
+pub fn apart(values: [f64; 2], digits: usize) -> [String; 2] {
+    let written = |digits| values.map(|value| number(value, digits));
+    // 17 digits tell all numbers apart
+    (digits..17).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(17))
+}
+
 /// Adds a text at a place \[px\]: its start, middle or end, as `anchor` says.
 pub(crate) fn write_text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, text: &str) {
     let _ = write!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>");

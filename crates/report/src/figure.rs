@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::escaped;
-use crate::palette::{Mark, SERIES, sign};
-use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series, extremes};
+use crate::palette::{Mark, SERIES, sign, stroke};
+use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series};
 use crate::points::{simplified, within};
 
 /// Size of a figure, and of a picture of it \[px\].
@@ -37,12 +37,10 @@ impl Plot {
         let mut key = String::new();
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
-            let line =
-                |style| format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>");
             let mut sample = match series.look {
-                Look::Solid => line("solid"),
-                Look::Dashed => line("dashed"),
-                Look::Dotted => line("dotted"),
+                Look::Solid => stroke(color, "solid"),
+                Look::Dashed => stroke(color, "dashed"),
+                Look::Dotted => stroke(color, "dotted"),
                 Look::Marks(_) => String::new(),
             };
             if let Some(mark) = self.mark(series) {
@@ -80,13 +78,7 @@ impl Plot {
 
     /// Returns the plot with lines cut at the axes, without points that nobody would see, and with marks.
     fn traced(&self, size: [f64; 2]) -> Self {
-        let of = |pick: fn(&(f64, f64)) -> f64| {
-            self.series.iter().flat_map(move |series| series.points.iter().map(pick))
-        };
-        let ranges = [
-            self.axes[0].range.unwrap_or_else(|| extremes(of(|point| point.0), self.has_marks())),
-            self.axes[1].range.unwrap_or_else(|| extremes(of(|point| point.1), true)),
-        ];
+        let ranges = [self.range(0, self.has_marks()), self.range(1, true)];
         let [left, right, top, bottom] = MARGINS;
         let area = [size[0] - left - right, size[1] - top - bottom];
         let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));

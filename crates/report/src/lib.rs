@@ -33,7 +33,7 @@ pub mod sheet;
 pub mod table;
 pub mod template;
 
-pub use axes::{label, number, ticks};
+pub use axes::{apart, label, number, ticks};
 
 /// Escapes text for markup.
 ///

@@ -111,6 +111,11 @@ pub fn sign(color: &str, mark: Mark) -> String {
     format!("<b class=\"chip\" style=\"color:{color}\">{character}</b>")
 }
 
+/// Returns the sample of a line in its colour for the text of a page; `style` is solid, dashed or dotted.
+pub fn stroke(color: &str, style: &str) -> String {
+    format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>")
+}
+
 /// Mixes a colour from `stops` (red, green, blue from 0 to 255), evenly spaced over shares from 0 to 1.
 pub fn mixed(stops: &[[f64; 3]], share: f64) -> String {
     let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;

@@ -222,13 +222,16 @@ impl Plot {
     }
 
     fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
-        let of = |index: usize| {
-            let pick = move |&(x, y): &(f64, f64)| if index == 0 { x } else { y };
-            let values = self.series.iter().flat_map(move |series| series.points.iter().map(pick));
-            self.axes[index].range.unwrap_or_else(|| extremes(values, true))
-        };
         let labels = self.axes.each_ref().map(|axis| &*axis.label);
-        Frame { size: self.size, margins, ranges: [of(0), of(1)], labels, scale: self.scale, number_size }
+        let ranges = [0, 1].map(|axis| self.range(axis, true));
+        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size }
+    }
+
+    /// The range of an axis, x or y: its own, or that of the data, with or without room around them.
+    pub(crate) fn range(&self, axis: usize, room: bool) -> [f64; 2] {
+        let pick = |&(x, y): &(f64, f64)| [x, y][axis];
+        let values = self.series.iter().flat_map(|series| series.points.iter().map(pick));
+        self.axes[axis].range.unwrap_or_else(|| extremes(values, room))
     }
 
     /// Draws the frame, and in it the limits and the series.
@@ -256,7 +259,7 @@ pub fn room_for_legend(height: f64, rows: usize) -> f64 {
 }
 
 /// The range of an axis that takes it from the data: their extremes, with or without room around them.
-pub(crate) fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
+fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
     let (low, high) =
         finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));

@@ -7,7 +7,7 @@ use ground_motion::columns::{Columns, Fault, Name, Numbers, Row, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
-use crate::walls::{NamedWall, assumed, wall_parameters};
+use crate::walls::{NamedWall, wall_parameters};
 
 /// Largest table that is read.
 const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -65,11 +65,11 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             return Err(fail(row.line, message.to_owned()));
         }
         let cells: Vec<bool> = row.cells().map(|cell| !cell.is_empty()).collect();
-        let is_stated = |_: &str, name: &str| {
-            names.iter().position(|column| *column == name).is_some_and(|at| cells.get(at) == Some(&true))
+        let is_stated = |name: &&str| {
+            names.iter().position(|column| column == name).is_some_and(|at| cells.get(at) == Some(&true))
         };
-        let assumed = assumed(is_stated);
-        walls.push(NamedWall { assumed, ..NamedWall::new(wall, scene.parameters.clone()) });
+        let stated = wall_parameters().filter(is_stated).collect();
+        walls.push(NamedWall::new(wall, scene.parameters.clone()).stating(stated));
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;

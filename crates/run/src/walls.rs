@@ -34,6 +34,8 @@ pub struct NamedWall {
     pub floors: Option<Floors>,
     /// Those of [`DECIDING`] that nobody stated.
     pub assumed: Vec<&'static str>,
+    /// Parameters that its file states, and numbers of its bar by their names outside of `[tie.bar]`.
+    pub stated: Vec<&'static str>,
     /// The place of its table in the list of walls that was read.
     pub entry: usize,
 }
@@ -52,17 +54,31 @@ pub fn assumed(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
     DECIDING.into_iter().filter(|(group, name)| !is_stated(group, name)).map(|(_, name)| name).collect()
 }
 
+/// Returns the parameters that a file states, by their groups, and the numbers of a bar, of the group `bar`.
+fn stated(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
+    let parameters = GROUPS.iter().flat_map(|(group, names)| names.iter().map(|name| (*group, *name, *name)));
+    let of_bar = Bar::NUMBERS.map(|number| ("bar", number.key(), number.usual.name));
+    let stated = parameters.chain(of_bar).filter(|(group, key, _)| is_stated(group, key));
+    stated.map(|(.., name)| name).collect()
+}
+
 /// Reads a scene file, and returns with the scene those of [`DECIDING`] that the file does not state.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
 pub fn read_scene(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneError> {
+    let (scene, stated) = scene_and_stated(path)?;
+    Ok((scene, assumed(|_, name| stated.contains(&name))))
+}
+
+fn scene_and_stated(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneError> {
     let (name, text) = (path.display().to_string(), Scene::text(path)?);
     let scene = Scene::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))?;
     let document = parse_document(&Place::new(&name, &text))?;
     let group = |group: &str| document.get(group).and_then(|group| group.get_ref().as_table());
-    let is_stated = |of: &str, name: &str| group(of).is_some_and(|group| group.contains_key(name));
-    Ok((scene, assumed(is_stated)))
+    let bar = group("tie").and_then(|tie| tie.get("bar")?.get_ref().as_table());
+    let of = |name: &str| if name == "bar" { bar } else { group(name) };
+    Ok((scene, stated(|group, key| of(group).is_some_and(|group| group.contains_key(key)))))
 }
 
 impl NamedWall {
@@ -73,9 +89,16 @@ impl NamedWall {
         self
     }
 
-    /// Makes a wall on the ground.
+    /// Takes the names of the parameters that its file states; no other is stated.
+    #[must_use]
+    pub(crate) fn stating(self, stated: Vec<&'static str>) -> Self {
+        Self { assumed: assumed(|_, name| stated.contains(&name)), stated, ..self }
+    }
+
+    /// Makes a wall on the ground, all of whose parameters are stated.
     pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), entry: 0 }
+        let (assumed, stated) = (Vec::new(), Vec::new());
+        Self { name: name.into(), parameters, floors: None, assumed, stated, entry: 0 }
     }
 }
 
@@ -93,7 +116,7 @@ pub struct WallEntry {
 /// Source of a wall.
 #[derive(Clone, Debug)]
 pub enum WallSource {
-    /// Parameters in the study file itself, and those of [`DECIDING`] that it does not state.
+    /// Parameters in the study file itself, and the names of those that it states.
     Inline(Box<Parameters>, Vec<&'static str>),
     /// A scene file, relative to the study file, and the line that names it.
     Scene(PathBuf, usize),
@@ -252,11 +275,14 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
     for (name, group) in groups {
         apply_group(&mut parameters, name, group, place)?;
     }
+    let bar =
+        spec.tie.iter().find(|(key, _)| key.get_ref() == "bar").and_then(|(_, bar)| bar.get_ref().as_table());
     let is_stated = |group: &str, name: &str| {
         let keys = groups.iter().find(|(own, _)| *own == group).map(|(_, keys)| *keys);
         keys.is_some_and(|keys| keys.keys().any(|key| key.get_ref() == name))
+            || group == "bar" && bar.is_some_and(|bar| bar.contains_key(name))
     };
-    let source = WallSource::Inline(Box::new(parameters), assumed(is_stated));
+    let source = WallSource::Inline(Box::new(parameters), stated(is_stated));
     Ok(WallEntry { name: spec.name.clone(), source, floors: None })
 }
 
@@ -314,9 +340,9 @@ pub fn walls(
         message: format!("{what}: {error}"),
     };
     match entry.source {
-        WallSource::Inline(parameters, assumed) => {
+        WallSource::Inline(parameters, stated) => {
             let name = entry.name.unwrap_or_default();
-            Ok(vec![NamedWall { floors: entry.floors, assumed, ..NamedWall::new(name, *parameters) }])
+            Ok(vec![NamedWall { floors: entry.floors, ..NamedWall::new(name, *parameters).stating(stated) }])
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
@@ -329,7 +355,8 @@ pub fn walls(
         WallSource::Scene(path, line) => {
             let file = folder.join(&path);
             inputs.push(file.clone());
-            let (scene, assumed) = read_scene(&file).map_err(|error| at(line, "a wall's scene", error))?;
+            let (scene, stated) =
+                scene_and_stated(&file).map_err(|error| at(line, "a wall's scene", error))?;
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
@@ -342,7 +369,7 @@ pub fn walls(
                 ignored.push((name.clone(), warning));
             }
             let floors = entry.floors.or(scene.floors);
-            Ok(vec![NamedWall { floors, assumed, ..NamedWall::new(name, scene.parameters) }])
+            Ok(vec![NamedWall { floors, ..NamedWall::new(name, scene.parameters).stating(stated) }])
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Why no value of a search brings a check to pass.
 
-use report::number;
+use report::apart;
 use rocking_wall::wall::TiePart;
 
 use super::Activation;
@@ -40,18 +40,20 @@ pub(super) fn reason(
     let untied = untied().map_or_else(|_| String::new(), |zeta| format!(", untied {zeta:.3}"));
     let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
     let broken = verdict.tie_break.filter(|_| !by_acceleration);
-    let share = if which == Deciding::Slc { 0.6 } else { 0.4 };
+    let share = statement.rules(which.state()).fraction;
     let limit = share * verdict.d0 / verdict.d_per_u;
     let why = match (verdict.tie, broken) {
         (None, _) => format!("{}: the side without a tie governs", side.name()),
         _ if by_acceleration && statement.at_activation() == AtActivation::None => {
             "at_activation = \"none\": the tie does not count at the activation".into()
         }
-        (_, Some(broken)) if broken.u < limit => format!(
-            "the tie breaks at u_r = {} mm, before {share} u_0 = {} mm: untied whatever its strength",
-            number(1e3 * broken.u, 4),
-            number(1e3 * limit, 4)
-        ),
+        (_, Some(broken)) if broken.u < limit => {
+            let [breaks, limit] = apart([broken.u, limit].map(|u| 1e3 * u), 4);
+            format!(
+                "the tie breaks at u_r = {breaks} mm, before {share} u_0 = {limit} mm: untied whatever its \
+                 strength"
+            )
+        }
         _ if checked.parameters.weaker_part() == Some(TiePart::Anchor) => {
             "the anchor gives way before the bar".into()
         }

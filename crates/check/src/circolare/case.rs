@@ -1,5 +1,6 @@
 //! A wall as the static checks take it, and its checks with the hinge in one place.
 
+use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::{Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
@@ -16,6 +17,7 @@ use crate::code::Subject;
 use crate::error::CheckError;
 
 /// A wall as the static checks take it.
+#[derive(Clone)]
 pub(super) struct Case<'a> {
     pub(super) statement: &'a Statement,
     /// Its parameters, with the sides, the bar and the rupture of the tie that the check states.
@@ -77,12 +79,10 @@ impl<'a> Case<'a> {
 
     /// The same wall with another a₁, or another E of the beam.
     pub(super) fn with(&self, factor: f64) -> Self {
-        let Self { statement, floors, activation, moved, rule, alike, .. } = *self;
-        let mut parameters = self.parameters.clone();
-        parameters.a1 *= factor;
-        let young_modulus = self.young_modulus.map(|modulus| factor * modulus);
-        let shared = self.shared.clone();
-        Self { statement, parameters, floors, activation, moved, young_modulus, rule, alike, shared }
+        let mut varied = self.clone();
+        varied.parameters.a1 *= factor;
+        varied.young_modulus = self.young_modulus.map(|modulus| factor * modulus);
+        varied
     }
 
     /// The name of a side in messages.
@@ -227,15 +227,17 @@ fn possible(parameters: &Parameters, statement: &Statement) -> Result<(), CheckE
     let weight = parameters.density * parameters.gravity * height * parameters.thickness * parameters.width;
     let least = 1e-2 * weight / height;
     if tie_stiffness < least * (1.0 - 1e-9) {
+        let [_, least] = apart([tie_stiffness, least], 6);
         return Err(CheckError::wall(format!(
-            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least:.4} N/m: such a tie is none; \
+            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least} N/m: such a tie is none; \
              give it in N/m"
         )));
     }
     let least = 1e-3 * weight;
     if tie_strength > 0.0 && tie_strength < least * (1.0 - 1e-9) {
+        let [_, least] = apart([tie_strength, least], 6);
         return Err(CheckError::wall(format!(
-            "tie_strength = {tie_strength} N is below W/1000 = {least:.4} N: such a tie is none; give it in N"
+            "tie_strength = {tie_strength} N is below W/1000 = {least} N: such a tie is none; give it in N"
         )));
     }
     let is_held = match parameters.rocking {

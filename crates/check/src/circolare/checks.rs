@@ -1,6 +1,6 @@
 //! The static checks of a side, and what governs a wall.
 
-use report::number;
+use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Body, Warning};
 
@@ -76,8 +76,8 @@ impl Statement {
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
         // the wall as it is drawn: with the hinge of the side that governs
         let mut parameters = case.parameters.clone();
-        let hinge = sides.of(governs.side).or(sides.iter().next().map(|(_, side)| side));
-        parameters.hinge_ratio = hinge.and_then(|side| side.hinge).unwrap_or(parameters.hinge_ratio);
+        let hinge = sides.shown(governs.side).and_then(|side| side.hinge);
+        parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
         let wall = super::sides::drawn(&parameters)?;
         let demands = case.demands_at(wall.body())?;
         let of_statement = super::warnings::of_statement(self, &parameters, floors, &wall);
@@ -151,7 +151,7 @@ impl Checks {
         demands: &Demands,
         [wants_sld, wants_slv_q, wants_slv, wants_slc]: [bool; 4],
     ) -> Result<Self, CheckError> {
-        let of = |state: LimitState| statement.state(state).zip(demands[state as usize].as_ref());
+        let of = |state: LimitState| statement.demanded(demands).find(|(given, _)| given.state == state);
         let sld = of(LimitState::Sld)
             .filter(|_| wants_sld || wants_slv || wants_slc)
             .map(|(given, demand)| activation(curve, statement, (given, demand), given.damping, 1.0))
@@ -178,7 +178,7 @@ impl Checks {
         if let (Some(slv), Some(slc)) = (slv, slc)
             && slc.d < slv.d
         {
-            let [slc, slv] = [slc.d, slv.d].map(|d| number(1e3 * d, 4));
+            let [slc, slv] = apart([slc.d, slv.d].map(|d| 1e3 * d), 4);
             let message = format!("SLC comes before SLV: d_SLC = {slc} mm is below d_SLV = {slv} mm");
             return Err(CheckError::value(&["SLC", "displacement"], message));
         }
@@ -263,11 +263,10 @@ pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<
     }
     let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
     if yields > limit {
+        let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
         return refused(format!(
-            "at_activation = \"yield\": the tie reaches its strength at u_y = {} mm, beyond {SOFTEST} \
-             u_0 = {} mm; a tie so soft does not act at the activation",
-            number(1e3 * yields, 4),
-            number(1e3 * limit, 4)
+            "at_activation = \"yield\": the tie reaches its strength at u_y = {yields} mm, beyond {SOFTEST} \
+             u_0 = {limit} mm; a tie so soft does not act at the activation"
         ));
     }
     Ok(tie.lever * strength)
@@ -279,7 +278,7 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
     if given.state == LimitState::Slc {
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
         if !(local > 0.0 && local < curve.zero) {
-            let zero = number(curve.zero, 4);
+            let [local, zero] = apart([local, curve.zero], 4);
             let message = format!("SLC.displacement = {local} m must be above 0 and below u_0 = {zero} m");
             return Err(CheckError::value(&["SLC", "displacement"], message));
         }
@@ -306,11 +305,10 @@ fn displacement(
     }
     let (elastic, end) = (curve.elastic.displacement, fraction * curve.d0());
     if end <= elastic {
+        let [elastic, end] = apart([elastic, end].map(|d| 1e3 * d), 4);
         return Err(CheckError::wall(format!(
-            "{state}: the elastic branch ends at d_y = {} mm, beyond {fraction:.2} d_0 = {} mm: lower a1 or \
-             raise E",
-            number(1e3 * elastic, 4),
-            number(1e3 * end, 4)
+            "{state}: the elastic branch ends at d_y = {elastic} mm, beyond {fraction:.2} d_0 = {end} mm: \
+             lower a1 or raise E"
         )));
     }
     let period = Curve::period(period_factor, d, a);

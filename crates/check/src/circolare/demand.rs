@@ -41,6 +41,20 @@ pub(super) struct DisplacementDemand {
 }
 
 impl Demand {
+    /// The spectrum of the ground by the code, where the demand comes from it.
+    pub fn ground(&self) -> Option<&GroundSpectrum> {
+        match self {
+            Self::Ground(ground) => Some(ground),
+            Self::Floor(floor) => Some(floor.ground()),
+            Self::Points(..) | Self::Records(_) => None,
+        }
+    }
+
+    /// The spectrum at a height of the building, if it is one.
+    pub fn floor(&self) -> Option<&FloorSpectrum> {
+        if let Self::Floor(floor) = self { Some(floor) } else { None }
+    }
+
     /// The acceleration at T = 0: `a_g` S, or `a_Z` \[m/s²\].
     pub fn peak(&self) -> f64 {
         match self {

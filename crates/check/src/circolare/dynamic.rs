@@ -15,9 +15,9 @@ use super::case::Case;
 use super::curve::Curve;
 use super::demand::{MEAN_COUNTS_FROM, combined};
 use super::level::{has_storeys, scaled};
-use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::side_verdict::SideVerdict;
 use super::table::{Method, Polarities};
-use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdicts};
+use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Judged, Side, SideVerdicts};
 use crate::error::CheckError;
 use crate::site::Records;
 use run::bisection::first_true;
@@ -48,41 +48,22 @@ struct Thresholds {
 /// The maxima of |d| of a run, on both sides \[m\].
 type Maxima = [f64; 2];
 
-/// The judgement of the maxima of some records, each with its signs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Judged {
-    d: f64,
-    ratio: f64,
-    beyond_d0: usize,
-    at_strength: usize,
-    side: Side,
-    passed: bool,
-}
-
 impl Thresholds {
-    fn of(wall: &Wall, sides: &SideVerdicts, limit: impl Fn(&SideVerdict) -> Option<f64>) -> Self {
-        let each = |value: &dyn Fn(f64, &SideVerdict) -> Option<f64>| {
-            [(1.0, &sides.positive), (-1.0, &sides.negative)]
-                .map(|(sign, side)| side.as_ref().and_then(|side| value(sign, side)).unwrap_or(f64::INFINITY))
+    /// Those of a limit state; `stretch` is d/u.
+    fn of(wall: &Wall, sides: &SideVerdicts, state: LimitState, stretch: f64) -> Self {
+        let of_side = |(sign, side): (f64, Option<&SideVerdict>)| {
+            // runs rock as the scene does: where the static checks leave a side out, they may go up to
+            // overturning
+            let falls = stretch * wall.body().instability.of(sign);
+            let end = side.map_or(falls, |side| side.d0.min(falls));
+            let limit = side.and_then(|side| side.displacement(state)).map_or(end, |check| check.d);
+            let tie = wall.tie().filter(|tie| side.is_some() && tie.holds(sign));
+            let strength = tie.and_then(Tie::strength_displacement).map_or(f64::INFINITY, |u| stretch * u);
+            [limit, end, strength]
         };
-        // runs rock as the scene does: they may fall to a side that the static checks leave out, too
-        let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
-        let falls = |sign: f64| stretch * wall.body().instability.of(sign);
-        let [positive, negative] = each(&|_, side| Some(side.d0));
-        let strength = |sign: f64, side: &SideVerdict| {
-            let tie = wall.tie().filter(|tie| tie.holds(sign))?;
-            Some(side.d_per_u * tie.strength_displacement()?)
-        };
-        let end = [positive.min(falls(1.0)), negative.min(falls(-1.0))];
-        let limits = each(&|_, side| limit(side));
-        // where the static checks leave a side out, its runs may go up to overturning
-        let limit = [0, 1].map(|side| if limits[side].is_finite() { limits[side] } else { end[side] });
-        Self {
-            limit,
-            end,
-            strength: each(&strength),
-            tie_is_end: wall.tie().and_then(Tie::fracture_displacement).is_none(),
-        }
+        let sides = [(1.0, sides.positive.as_ref()), (-1.0, sides.negative.as_ref())].map(of_side);
+        let [limit, end, strength] = [0, 1, 2].map(|of| sides.map(|side| side[of]));
+        Self { limit, end, strength, tie_is_end: is_end(wall) }
     }
 
     fn is_beyond(&self, [positive, negative]: Maxima) -> bool {
@@ -140,25 +121,22 @@ impl DynamicCheck {
             );
         }
         for (name, state) in self.states() {
-            if state.passed && state.zeta < 1.0 {
+            if state.judged.passed && state.zeta < 1.0 {
                 warnings.push(format!(
-                    "{}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
+                    "{name}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
                      response is not monotonic",
-                    name.name(),
                     state.zeta
                 ));
             }
             let factors = state.runs.iter().map(|run| run.factor);
-            warnings.extend(
-                state.compatibility.iter().flat_map(|own| own.warnings(name.name(), factors.clone())),
-            );
+            let compatibility = state.compatibility.iter();
+            warnings.extend(compatibility.flat_map(|own| own.warnings(name.key(), factors.clone())));
             let stated = case.floors.into_iter().flat_map(Floors::stated_damping);
-            let xi = statement.state(name.state()).and_then(|given| given.building_damping);
+            let xi = statement.state(name).and_then(|given| given.building_damping);
             if let Some((xi, stated)) = xi.zip(stated.into_iter().find(|stated| Some(*stated) != xi)) {
                 warnings.push(format!(
-                    "{}: the runs have building_damping = {xi} for every mode, not damping_ratio = {stated} \
-                     of [[storeys]]",
-                    name.name()
+                    "{name}: the runs have building_damping = {xi} for every mode, not damping_ratio = \
+                     {stated} of [[storeys]]"
                 ));
             }
         }
@@ -174,11 +152,11 @@ fn divided(
     sides: &SideVerdicts,
 ) -> Result<(Parameters, Option<f64>), CheckError> {
     let mut parameters = case.statement.with_bar(parameters)?;
-    let least = |check: fn(&SideVerdict) -> Option<DisplacementCheck>| {
-        let found = sides.iter().filter_map(|(_, side)| check(side));
+    let least = |state: LimitState| {
+        let found = sides.iter().filter_map(|(_, side)| side.displacement(state));
         found.min_by(|a, b| a.zeta.total_cmp(&b.zeta)).map(|check| check.hinge)
     };
-    let hinge = least(|side| side.slv).or_else(|| least(|side| side.slc)).flatten();
+    let hinge = least(LimitState::Slv).or_else(|| least(LimitState::Slc)).flatten();
     parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
     if case.statement.masonry.is_some() {
         let a3 = |sign: f64| {
@@ -219,13 +197,10 @@ pub(super) fn check(
     let is_alike = case.alike && motion.wall().has_equal_sides();
     let both = statement.table.polarities == Polarities::Both && !is_alike;
     let signs: &[f64] = if both { &[1.0, -1.0] } else { &[1.0] };
-    let tie_is_end = motion
-        .wall()
-        .tie()
-        .is_some_and(|tie| tie.strength.is_some() && tie.fracture_displacement().is_none());
-    let state = |state: LimitState, of: fn(&SideVerdict) -> Option<(f64, f64)>| {
+    let state = |state: LimitState| {
         let Some(given) = statement.state(state) else { return Ok::<_, CheckError>(None) };
-        let longest = sides.iter().filter_map(|(_, side)| Some(of(side)?.1)).fold(0.0, f64::max);
+        let longest =
+            sides.iter().filter_map(|(_, side)| Some(side.displacement(state)?.period)).fold(0.0, f64::max);
         let (factors, compatibility) = match scaled(case, given, longest) {
             Err(_) if !decides => return Ok(None),
             found => found?,
@@ -236,12 +211,21 @@ pub(super) fn check(
         let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
         let shake = |(record, solver)| Shaking::new(solver, record, DEFAULT_TAIL);
         let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch, signs };
-        let thresholds = Thresholds::of(motion.wall(), sides, |side| Some(of(side)?.0));
-        Ok(Some(DynamicState { compatibility, ..runs.check(&thresholds, &factors, records)? }))
+        let thresholds = Thresholds::of(motion.wall(), sides, state, stretch);
+        let rocks = |sign: f64| motion.wall().sides().any(|own| own == sign);
+        let [positive, negative] = thresholds.limit;
+        let limit = [rocks(1.0).then_some(positive), rocks(-1.0).then_some(negative)];
+        let found = runs.check(&thresholds, &factors, records)?;
+        Ok(Some(DynamicState { compatibility, thresholds: limit, ..found }))
     };
-    let slv = state(LimitState::Slv, |side| side.slv.map(|check| (check.d, check.period)))?;
-    let slc = state(LimitState::Slc, |side| side.slc.map(|check| (check.d, check.period)))?;
+    let (slv, slc) = (state(LimitState::Slv)?, state(LimitState::Slc)?);
+    let tie_is_end = is_end(motion.wall());
     Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { hinge, tie_is_end, slv, slc }))
+}
+
+/// Whether a run that reaches the strength of the tie fails: it does not break, and has no other end.
+fn is_end(wall: &Wall) -> bool {
+    wall.tie().is_some_and(|tie| tie.strength.is_some() && tie.fracture_displacement().is_none())
 }
 
 /// Runs of one wall under what it feels of each record.
@@ -260,7 +244,6 @@ impl Runs<'_> {
         records: &Records,
     ) -> Result<DynamicState, CheckError> {
         let maxima = self.maxima(factors, &[1.0])?.remove(0);
-        let Judged { d, ratio, beyond_d0, at_strength, side, passed } = thresholds.judge(&maxima);
         let of_record = |((record, factor), runs): ((&run::records::NamedRecord, &f64), &Vec<Maxima>)| {
             let run = |(sign, d): (&f64, &Maxima)| DynamicRun {
                 record: record.name.clone(),
@@ -274,14 +257,10 @@ impl Runs<'_> {
         };
         let runs = records.named.iter().zip(factors).zip(&maxima).flat_map(of_record);
         Ok(DynamicState {
-            passed,
-            d,
-            ratio,
-            beyond_d0,
-            at_strength,
+            judged: thresholds.judge(&maxima),
             zeta: self.lowest_failure(thresholds, factors)?,
-            side,
             compatibility: None,
+            thresholds: [None; 2],
             runs: runs.collect(),
         })
     }

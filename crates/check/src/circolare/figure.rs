@@ -84,9 +84,8 @@ pub(super) fn over_demand(
     demands: &[Option<Demand>; 3],
     cut: Option<f64>,
 ) -> Result<Plot, CheckError> {
-    let shown = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)].into_iter();
-    let shown = shown.filter_map(|(state, check)| {
-        Some((statement.state(state)?, demands[state as usize].as_ref()?, check?))
+    let shown = side.by_displacement().filter_map(|(state, check)| {
+        Some((statement.state(state)?, demands[state as usize].as_ref()?, check))
     });
     let shown: Vec<(&StateStatement, &Demand, DisplacementCheck)> = shown.collect();
     // the demand on the ray of its period

@@ -36,37 +36,31 @@ impl Soil {
 
     /// `S_S` of Tab. 3.2.IV for F0 `a_g`/g \[-\].
     fn amplification(self, x: f64) -> f64 {
-        let (most, slope, low, high) = match self {
-            Self::A => return 1.0,
-            Self::B => (1.40, 0.40, 1.00, 1.20),
-            Self::C => (1.70, 0.60, 1.00, 1.50),
-            Self::D => (2.40, 1.50, 0.90, 1.80),
-            Self::E => (2.00, 1.10, 1.00, 1.60),
-        };
+        let ([most, slope, low, high], ..) = SOILS[self as usize];
         (most - slope * x).clamp(low, high)
     }
 
     /// `C_C` of Tab. 3.2.IV for `T_C`* \[s\].
     fn period_factor(self, tc: f64) -> f64 {
-        let (factor, exponent) = match self {
-            Self::A => return 1.0,
-            Self::B => (1.10, -0.20),
-            Self::C => (1.05, -0.33),
-            Self::D => (1.25, -0.50),
-            Self::E => (1.15, -0.40),
-        };
+        let (_, [factor, exponent], _) = SOILS[self as usize];
         factor * libm::pow(tc, exponent)
     }
 
     /// `T_E` of Tab. 3.2.VII \[s\].
     fn long_period(self) -> f64 {
-        match self {
-            Self::A => 4.5,
-            Self::B => 5.0,
-            Self::C | Self::D | Self::E => 6.0,
-        }
+        SOILS[self as usize].2
     }
 }
+
+/// Of soils A to E: `S_S` = a − b F0 `a_g`/g from a least to a largest value, `C_C` = c `T_C`*^d of Tab.
+/// 3.2.IV, and `T_E` of Tab. 3.2.VII \[s\].
+const SOILS: [([f64; 4], [f64; 2], f64); 5] = [
+    ([1.00, 0.00, 1.00, 1.00], [1.00, 0.00], 4.5),
+    ([1.40, 0.40, 1.00, 1.20], [1.10, -0.20], 5.0),
+    ([1.70, 0.60, 1.00, 1.50], [1.05, -0.33], 6.0),
+    ([2.40, 1.50, 0.90, 1.80], [1.25, -0.50], 6.0),
+    ([2.00, 1.10, 1.00, 1.60], [1.15, -0.40], 6.0),
+];
 
 /// Hazard of a limit state on rigid ground, NTC 3.2.
 #[derive(Clone, Copy, Debug, PartialEq)]

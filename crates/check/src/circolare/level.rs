@@ -2,12 +2,12 @@
 
 use rocking_wall::scene::Floors;
 
+use super::G;
 use super::case::Case;
 use super::compatibility::{Compatibility, Ratios};
 use super::statement::Statement;
 use super::states::{Source, StateStatement};
 use super::table::{Polarities, RecordScale};
-use super::{G, LimitState};
 use crate::code::Subject;
 use crate::error::CheckError;
 use crate::site::Level;
@@ -35,8 +35,7 @@ pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
     if statement.table.record_scale == RecordScale::Spectrum {
         for sign in case.sides() {
             let (side, _) = super::sides::side(&case, sign)?;
-            let check = if given.state == LimitState::Slc { side.slc } else { side.slv };
-            longest = longest.max(check.map_or(0.0, |check| check.period));
+            longest = longest.max(side.displacement(given.state).map_or(0.0, |check| check.period));
         }
     }
     let (factors, compatibility) = scaled(&case, given, longest)?;

@@ -53,11 +53,11 @@ mod warnings;
 use rocking_wall::scene::Described;
 use rocking_wall::wall::Parameters;
 
-use crate::code::{Code, Entry, Subject, Verdict};
+use crate::code::{Code, Entry, Rule, Subject};
 use crate::error::CheckError;
 use crate::find::Sought;
-use crate::rule::Rule;
 use crate::site::{Level, Records};
+use crate::verdict::Verdict;
 
 pub use checks::LARGEST_LOSS;
 pub use compatibility::{BAND, Compatibility};
@@ -77,7 +77,7 @@ pub use table::{
 };
 pub use tie::{TieAtLimit, TieState};
 pub use verdict::{
-    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Outcome, Side, SideVerdicts,
+    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Judged, Outcome, Side, SideVerdicts,
 };
 
 /// Fewest records, NTC 7.3.5.
@@ -87,7 +87,7 @@ const FEWEST_RECORDS: usize = 3;
 pub const ENTRY: Entry = Entry {
     name: "circolare-2019",
     title: "Circolare 7/2019",
-    source: "Check of a local out-of-plane mechanism by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
+    source: "Check of local out-of-plane mechanisms by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
     symbol: "zeta_E",
     gravity: G,

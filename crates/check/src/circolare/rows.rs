@@ -2,21 +2,21 @@
 
 use std::fmt::Write;
 
-use ::report::number;
 use ::report::table::{Cell, Digits, Table};
+use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::Value;
 
-use super::demand::Demand;
 use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
 use super::table::{Hinge, Method, UseClass};
-use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState};
+use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
 use super::{ENTRY, LimitState};
-use crate::code::{Details, Ends, Row, Verdict, numbers};
 use crate::error::CheckError;
+use crate::report::markup::or_dash;
 use crate::report::{Figure, Origin};
+use crate::verdict::{Details, Ends, Raise, Row, Verdict, numbers};
 
 impl<'a> Checked<'a> {
     /// The verdict.
@@ -28,7 +28,7 @@ impl<'a> Checked<'a> {
             governs: governs.limit_state.name(),
             side: (!self.outcome.alike).then(|| governs.side.name()),
             zeta: governs.zeta,
-            raised: self.raised(),
+            raise: self.raise(),
             rows: self.rows(),
             notes: self.notes(),
             warnings: self.outcome.warnings.clone(),
@@ -43,87 +43,69 @@ impl<'a> Checked<'a> {
         let site = |state| self.statement.state(state).map_or(f64::NAN, |given| given.ag);
         for (side, _, verdict) in self.sides() {
             let activations = [
-                (Deciding::Sld, verdict.sld, LimitState::Sld, class_iv, "C8.7.1.2.1.5"),
-                (
-                    Deciding::SlvWithQ,
-                    verdict.slv_q,
-                    LimitState::Slv,
-                    method == Method::Linear,
-                    "C8.7.1.2.1.7",
-                ),
+                (Deciding::Sld, verdict.sld, class_iv, "C8.7.1.2.1.5"),
+                (Deciding::SlvWithQ, verdict.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
             ];
-            for (check, found, state, decides, clause) in activations {
+            for (check, found, decides, clause) in activations {
                 rows.extend(found.map(|found| Row {
-                    check: check.name(),
-                    side,
-                    zeta: found.ratio,
-                    passed: found.ratio >= 1.0,
                     decides,
-                    ground: Some([found.ag, site(state)]),
-                    ends: Ends::Accelerations([found.capacity, found.demand]),
-                    displacement: None,
+                    ground: Some([found.ag, site(check.state())]),
                     clause,
-                    remark: String::new(),
+                    ..Row::new(
+                        check.name(),
+                        side,
+                        found.ratio,
+                        Ends::Accelerations([found.capacity, found.demand]),
+                    )
                 }));
             }
-            let displacements = [(LimitState::Slv, verdict.slv), (LimitState::Slc, verdict.slc)];
-            rows.extend(displacements.into_iter().filter_map(|(state, found)| Some((state, found?))).map(
-                |(state, found)| Row {
-                    check: state.key(),
-                    side,
-                    zeta: found.zeta,
-                    passed: found.zeta >= 1.0,
-                    decides: method == Method::Nonlinear,
-                    ground: Some([found.ag, site(state)]),
-                    ends: Ends::Displacements([found.d, found.demand]),
-                    displacement: Some(found.d / verdict.d_per_u),
-                    clause: "C8.7.1.2.1.8",
-                    remark: remark(state, &found),
-                },
-            ));
+            rows.extend(verdict.by_displacement().map(|(state, found)| Row {
+                decides: method == Method::Nonlinear,
+                ground: Some([found.ag, site(state)]),
+                displacement: Some(found.d / verdict.d_per_u),
+                clause: "C8.7.1.2.1.8",
+                remark: remark(state, &found),
+                ..Row::new(state.key(), side, found.zeta, Ends::Displacements([found.d, found.demand]))
+            }));
         }
-        for (state, found) in self.dynamic() {
-            let is_slc = state == LimitState::Slc;
+        for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
+            let (judged, is_slc) = (found.judged, state == LimitState::Slc);
+            let check = if is_slc { "SLC under records" } else { "SLV under records" };
+            let side = if self.outcome.alike { "both sides" } else { judged.side.name() };
+            let ends = Ends::Displacements([judged.ratio * judged.d, judged.d]);
             rows.push(Row {
-                check: if is_slc { "SLC under records" } else { "SLV under records" },
-                side: if self.outcome.alike { "both sides" } else { found.side.name() },
-                zeta: found.zeta,
-                passed: found.passed,
+                passed: judged.passed,
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
-                ends: Ends::Displacements([found.ratio * found.d, found.d]),
-                displacement: None,
                 clause: "C8.7.1.2.1.9",
-                remark: String::new(),
+                ..Row::new(check, side, found.zeta, ends)
             });
         }
         rows
     }
 
-    /// The ratio by displacement that the raise by SLD replaces: of a wall that passes the least that
-    /// decides, of another that of the check that governs.
-    fn raised(&self) -> Option<f64> {
-        let governs = self.outcome.governs;
-        if !self.outcome.passed && self.statement.table.method == Method::Nonlinear {
-            let side = self.outcome.sides.of(governs.side)?;
-            let check = match governs.limit_state {
-                Deciding::Slv => side.slv?,
-                Deciding::Slc => side.slc?,
-                Deciding::Sld | Deciding::SlvWithQ => return None,
-            };
-            return check.raised.then_some(check.ratio);
+    /// What the raise by SLD replaces: the least ratio by displacement by which a wall that passes would
+    /// fail; of a wall that fails, that of the check that governs.
+    fn raise(&self) -> Option<Raise> {
+        let Outcome { governs, passed, sides, .. } = &self.outcome;
+        if self.statement.table.method != Method::Nonlinear {
+            return None;
         }
-        let of_side = |(_, side): (_, &SideVerdict)| [side.slv, side.slc];
-        let found = self.outcome.sides.iter().flat_map(of_side).flatten().map(|check| check.ratio);
-        let by_displacement = self.statement.table.method == Method::Nonlinear;
-        let least = found.fold(f64::INFINITY, f64::min);
-        (by_displacement && self.outcome.passed && least < 1.0).then_some(least)
-    }
-
-    /// The limit states of the dynamic check.
-    pub(super) fn dynamic(&self) -> impl Iterator<Item = (LimitState, &DynamicState)> {
-        let states = self.outcome.dynamic.iter().flat_map(DynamicCheck::states);
-        states.map(|(check, found)| (check.state(), found))
+        let mut raise: Option<Raise> = None;
+        for (side, verdict) in sides.iter() {
+            for (state, check) in verdict.by_displacement() {
+                let is_told = *passed || (side, state) == (governs.side, governs.limit_state.state());
+                if !is_told || !check.raised || check.ratio >= 1.0 {
+                    continue;
+                }
+                let ratio = raise.map_or(check.ratio, |raise| raise.ratio.min(check.ratio));
+                // the code has the raise for SLV only
+                let is_of_slc = state == LimitState::Slc || raise.is_some_and(|raise| raise.by != "SLD");
+                let by = if is_of_slc { "SLD, for SLC by analogy with C8.7.1.2.1.8" } else { "SLD" };
+                raise = Some(Raise { ratio, by });
+            }
+        }
+        raise
     }
 
     fn notes(&self) -> Vec<String> {
@@ -145,14 +127,14 @@ impl<'a> Checked<'a> {
         for (name, _, side) in self.sides() {
             notes.extend(self.of_side(side).into_iter().map(|note| format!("{name}: {note}")));
         }
-        for given in self.statement.states.iter().flatten() {
-            let Some(Demand::Floor(floor)) = &self.demands[given.state as usize] else { continue };
+        for (given, demand) in self.statement.demanded(&self.demands) {
+            let Some(floor) = demand.floor() else { continue };
             if floor.peak_acceleration() > floor.printed_peak() {
+                let [ground, printed] = apart([floor.peak_acceleration(), floor.printed_peak()], 4);
                 notes.push(format!(
-                    "{}: a_g S = {} m/s² of the ground governs at the height, above a_Z = {} m/s² [C7.2.8].",
-                    given.state,
-                    number(floor.peak_acceleration(), 4),
-                    number(floor.printed_peak(), 4)
+                    "{}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = {printed} \
+                     m/s² [C7.2.8].",
+                    given.state
                 ));
             }
         }
@@ -160,7 +142,7 @@ impl<'a> Checked<'a> {
             let part = if part == TiePart::Anchor { "the anchor" } else { "the bar" };
             notes.push(format!("The tie: {part} gives way first."));
         }
-        for (state, found) in self.dynamic() {
+        for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
             notes.extend(of_runs(state, found));
         }
         notes
@@ -171,7 +153,7 @@ impl Checked<'_> {
     /// What is to be said of a side: its hinge, its tie, what raises it, and what a₁ or E changes.
     fn of_side(&self, side: &SideVerdict) -> Vec<String> {
         let mut notes = Vec::new();
-        let three = |zeta: Option<f64>| zeta.map_or_else(|| "–".to_owned(), |zeta| format!("{zeta:.3}"));
+        let three = |zeta: Option<f64>| or_dash(zeta, |zeta| format!("{zeta:.3}"));
         if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
             let mut note = format!(
                 "{}; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
@@ -189,8 +171,7 @@ impl Checked<'_> {
             }
             notes.push(note + ".");
         }
-        for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-            let Some(check) = check else { continue };
+        for (state, check) in side.by_displacement() {
             if check.limited_by_tie {
                 notes.push(format!("the tie breaks at d_{state}."));
             }
@@ -242,38 +223,43 @@ fn remark(state: LimitState, check: &DisplacementCheck) -> String {
     format!("{state} {ratio:.3}, raised to {zeta:.3} by SLD (a_g {ag:.3} g){exceeded}")
 }
 
+/// Names the checks of the method, says that they decide, and where the code has them.
+pub(super) fn by_method(statement: &Statement) -> [&'static str; 3] {
+    let has = |state| statement.state(state).is_some();
+    match statement.table.method {
+        Method::Nonlinear if !has(LimitState::Slc) => ["SLV by displacement", "decides", "C8.7.1.2.1.8"],
+        Method::Nonlinear if !has(LimitState::Slv) => ["SLC by displacement", "decides", "C8.7.1.2.1.8"],
+        Method::Nonlinear => ["SLV and SLC by displacement", "decide", "C8.7.1.2.1.8"],
+        Method::Linear => ["SLV with q", "decides", "C8.7.1.2.1.7"],
+        Method::Dynamic => ["The runs under records", "decide", "C8.7.1.2.1.9"],
+    }
+}
+
 /// Names the checks that decide.
 fn deciding(statement: &Statement) -> String {
-    let has = |state| statement.state(state).is_some();
-    let class_iv = statement.table.use_class == Some(UseClass::IV) && has(LimitState::Sld);
-    let method = match statement.table.method {
-        Method::Nonlinear if !has(LimitState::Slc) => "SLV by displacement",
-        Method::Nonlinear if !has(LimitState::Slv) => "SLC by displacement",
-        Method::Nonlinear => "SLV and SLC by displacement",
-        Method::Linear => "SLV with q",
-        Method::Dynamic => "The runs under records",
-    };
-    if class_iv {
+    let has_sld = statement.state(LimitState::Sld).is_some();
+    let [method, decides, _] = by_method(statement);
+    if statement.table.use_class == Some(UseClass::IV) && has_sld {
         return format!("{method} and SLD in use class IV decide");
     }
-    let is_one = matches!(method, "SLV by displacement" | "SLC by displacement" | "SLV with q");
-    format!("{method} {}", if is_one { "decides" } else { "decide" })
+    format!("{method} {decides}")
 }
 
 /// The dynamic check of a limit state, and its runs.
 fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
     let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
+    let judged = check.judged;
     let mut notes = vec![format!(
         "{state} under {} records in {} runs: {}; d = {} mm, threshold over it {:.3}, zeta_E = {:.3}; {} \
          runs beyond d_0, {} at the strength of the tie",
         records.len(),
         check.runs.len(),
-        if check.passed { "passed" } else { "not passed" },
-        number(1e3 * check.d, 4),
-        check.ratio,
+        if judged.passed { "passed" } else { "not passed" },
+        number(1e3 * judged.d, 4),
+        judged.ratio,
         check.zeta,
-        check.beyond_d0,
-        check.at_strength
+        judged.beyond_d0,
+        judged.at_strength
     )];
     if let Some(found) = &check.compatibility {
         notes.push(format!(
@@ -325,10 +311,10 @@ impl Details for Checked<'_> {
         for (name, unit, factor, value) in SIDE {
             row(name.to_owned(), unit, factor, shown.iter().map(|(_, side)| value(side)).collect());
         }
-        let states: [(_, fn(&SideVerdict) -> _); 2] = [("SLV", |side| side.slv), ("SLC", |side| side.slc)];
-        for (state, pick) in states {
+        for state in [LimitState::Slv, LimitState::Slc] {
             for (name, unit, factor, value) in DISPLACEMENT {
-                let values = shown.iter().map(|(_, side)| pick(side).as_ref().and_then(value)).collect();
+                let of = |side: &SideVerdict| side.displacement(state).as_ref().and_then(value);
+                let values = shown.iter().map(|(_, side)| of(side)).collect();
                 row(format!("{state} {name}"), unit, factor, values);
             }
         }

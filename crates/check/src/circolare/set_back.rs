@@ -3,7 +3,7 @@
 //! A rectangular block of depth N/(κ `f_d` `b_w`) carries the force N of a hinge, which is in its middle: t =
 //! N/(2 κ `f_d` `b_w`). k₀ does not change, so that F falls parallel to itself.
 
-use report::number;
+use report::{apart, number};
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Body, Parameters};
 use serde::Serialize;
@@ -63,12 +63,11 @@ impl SetBack {
         // below b
         for (place, force) in forces {
             if 2.0 * depth(force) >= b {
+                let [deep, thick] = apart([2e3 * depth(force), 1e3 * b], 4);
                 return refused(format!(
-                    "the masonry at the {place} is crushed by N = {} kN alone: its stress block would be {} \
-                     mm deep, the wall is b = {} mm thick; check masonry_strength (Pa)",
-                    number(1e-3 * force, 4),
-                    number(2e3 * depth(force), 4),
-                    number(1e3 * b, 4)
+                    "the masonry at the {place} is crushed by N = {} kN alone: its stress block would be \
+                     {deep} mm deep, the wall is b = {thick} mm thick; check masonry_strength (Pa)",
+                    number(1e-3 * force, 4)
                 ));
             }
         }

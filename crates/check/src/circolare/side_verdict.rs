@@ -3,6 +3,7 @@
 use ::report::number;
 use serde::Serialize;
 
+use super::LimitState;
 use super::checks::Checks;
 use super::set_back::SetBack;
 use super::tie::TieAtLimit;
@@ -87,6 +88,16 @@ impl SideVerdict {
     /// The numbers of the side at a hinge.
     pub(super) fn at(&self, hinge: Option<f64>) -> &Self {
         self.others.iter().find(|other| other.hinge == hinge).unwrap_or(self)
+    }
+
+    /// The check of a limit state by displacement.
+    pub(super) fn displacement(&self, state: LimitState) -> Option<DisplacementCheck> {
+        [None, self.slv, self.slc][state as usize]
+    }
+
+    /// The checks by displacement that are made.
+    pub(super) fn by_displacement(&self) -> impl Iterator<Item = (LimitState, DisplacementCheck)> {
+        LimitState::ALL.into_iter().filter_map(|state| Some((state, self.displacement(state)?)))
     }
 
     pub(super) fn checks(&self) -> Checks {

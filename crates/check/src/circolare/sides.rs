@@ -1,5 +1,6 @@
 //! A side of a wall: its hinge by the rule that is stated, its numbers there, and what other rules give.
 
+use report::apart;
 use rocking_wall::variables::{DampingModel, Impact, Rocking};
 use rocking_wall::wall::{Parameters, Wall};
 
@@ -8,6 +9,7 @@ use super::checks::{Checks, tie_at_activation};
 use super::curve::Curve;
 use super::hinge::{self, Search};
 use super::side_verdict::{AtActivationNumbers, LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
+use super::statement::Statement;
 use super::states::Source;
 use super::table::{Activation, Hinge};
 use super::verdict::{Deciding, Side};
@@ -76,12 +78,31 @@ fn searched(
 
 /// Checks a side; returns what the engineer should know of it, too.
 pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<String>), CheckError> {
-    let statement = case.statement;
     let (curve, checks) = by_rule(case, sign, case.rule)?;
     let mut warnings = super::warnings::of_curve(&curve, case);
     let beside = case.rule.map(|rule| beside(case, sign, rule, &checks, &mut warnings));
     let least_alpha0 = beside.transpose()?.flatten();
-    let hinge = curve.hinge;
+    let untied = curve.tie().is_some().then(|| case.at(sign, curve.hinge, false)).transpose()?;
+    let untied = untied.map(|(_, checks)| Untied {
+        slv: checks.slv.map(|check| check.zeta),
+        slc: checks.slc.map(|check| check.zeta),
+    });
+    let mut verdict = SideVerdict {
+        least_alpha0,
+        untied,
+        sensitivity: sensitivity(case, sign),
+        sld: checks.sld,
+        slv_q: checks.slv_q,
+        slv: checks.slv,
+        slc: checks.slc,
+        ..numbers(&curve, case.statement)?
+    };
+    verdict.others = others(case, sign, &verdict)?;
+    Ok((verdict, warnings))
+}
+
+/// The numbers of a side that its curve has, without checks.
+fn numbers(curve: &Curve, statement: &Statement) -> Result<SideVerdict, CheckError> {
     let tie = curve.tie().map(|tie| TieNumbers {
         engaged: tie.onset(),
         yields: tie.strength_displacement(),
@@ -90,21 +111,15 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         strength: tie.strength,
         anchors: curve.anchors,
     });
-    let untied = curve.tie().is_some().then(|| case.at(sign, hinge, false)).transpose()?;
-    let untied = untied.map(|(_, checks)| Untied {
-        slv: checks.slv.map(|check| check.zeta),
-        slc: checks.slc.map(|check| check.zeta),
-    });
-    let pull = tie_at_activation(&curve, statement)?;
+    let pull = tie_at_activation(curve, statement)?;
     let activation = AtActivationNumbers {
         alpha0: curve.alpha0 + pull / curve.pushed_weight,
         acceleration: curve.elastic.acceleration + curve.of_force(pull),
         t0: if pull > 0.0 { curve.tied_period() } else { curve.elastic.period },
         force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
     };
-    let sensitivity = sensitivity(case, sign);
-    let mut verdict = SideVerdict {
-        hinge,
+    Ok(SideVerdict {
+        hinge: curve.hinge,
         alpha0: curve.alpha0,
         e_star: 1.0,
         mass: curve.mass,
@@ -114,25 +129,23 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         dy: curve.elastic.displacement,
         ay: curve.elastic.acceleration,
         d_per_u: curve.stretch,
-        least_alpha0,
+        least_alpha0: None,
         set_back: curve.set_back,
         activation,
         tie,
-        untied,
-        sensitivity,
-        sld: checks.sld,
-        slv_q: checks.slv_q,
-        slv: checks.slv,
-        slc: checks.slc,
+        untied: None,
+        sensitivity: Vec::new(),
+        sld: None,
+        slv_q: None,
+        slv: None,
+        slc: None,
         acting_force: curve.acting,
         pushed_weight: curve.pushed_weight,
         a3: curve.a3,
         tie_break: curve.tie_break(),
         corners: curve.corners(),
         others: Vec::new(),
-    };
-    verdict.others = others(case, sign, &verdict)?;
-    Ok((verdict, warnings))
+    })
 }
 
 /// The numbers of a side at the hinges of checks that have their own.
@@ -143,19 +156,7 @@ fn others(case: &Case<'_>, sign: f64, side: &SideVerdict) -> Result<Vec<SideVerd
             continue;
         }
         let (curve, _) = case.of_these(sign, (Some(hinge), true), [false; 4])?;
-        found.push(SideVerdict {
-            hinge: curve.hinge,
-            alpha0: curve.alpha0,
-            a0: curve.a0(),
-            d0: curve.d0(),
-            t0: curve.elastic.period,
-            dy: curve.elastic.displacement,
-            ay: curve.elastic.acceleration,
-            set_back: curve.set_back,
-            acting_force: curve.acting,
-            a3: curve.a3,
-            ..side.clone()
-        });
+        found.push(numbers(&curve, case.statement)?);
     }
     Ok(found)
 }
@@ -243,8 +244,9 @@ fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, 
     let at = hinge.unwrap_or(0.5);
     let shortest = height * at.min(1.0 - at);
     if shortest < thickness {
+        let [shortest, thickness] = apart([shortest, thickness], 4);
         warnings.push(format!(
-            "{side}: with the hinge at {at:.4} a body is {shortest:.3} m high, lower than b = {thickness} m: \
+            "{side}: with the hinge at {at:.4} a body is {shortest} m high, lower than b = {thickness} m: \
              small rotations no longer hold"
         ));
     }

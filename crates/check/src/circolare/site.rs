@@ -7,7 +7,7 @@ use rocking_wall::scene::SceneError;
 
 use crate::error::CheckError;
 use crate::file::lines_of_grid;
-use crate::report::return_period;
+use crate::report::{no_place, return_period};
 
 use super::LimitState;
 use super::grid::{Grid, SiteHazard, UNITS};
@@ -75,12 +75,7 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
 fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHazard, CheckError> {
     let refused = |key, message: String| Err(CheckError::value(&["site", key], format!("site: {message}")));
     let SiteTable { ag_unit, coordinates, nominal_life, use_coefficient, .. } = site;
-    let [latitude, longitude] = *coordinates;
-    if !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0) {
-        let message = format!(
-            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
-             [42.35, 13.40]"
-        );
+    if let Some(message) = no_place(*coordinates) {
         return refused("coordinates", message);
     }
     for (key, value) in [("nominal_life", *nominal_life), ("use_coefficient", *use_coefficient)] {

@@ -6,6 +6,8 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
 
+use super::case::Demands;
+use super::demand::Demand;
 use super::site::{self, FromGrid};
 use super::states::{StateStatement, limit_state};
 use super::table::{
@@ -85,13 +87,8 @@ impl Statement {
     /// Checks the values against each other and the code.
     fn new(table: CheckTable) -> Result<Self, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        let q = table.behaviour_factor.unwrap_or(2.0);
-        if !(q >= 1.0 && q.is_finite()) {
-            return refused("behaviour_factor", format!("behaviour_factor = {q} must be at least 1"));
-        }
-        if let Some(r) = table.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
-            return refused("overburden_mass", format!("overburden_mass = {r} must be at least 0"));
-        }
+        let behaviour_factor = at_least(1.0, "behaviour_factor", table.behaviour_factor.unwrap_or(2.0))?;
+        at_least(0.0, "overburden_mass", table.overburden_mass.unwrap_or(0.0))?;
         if let Some(e) = table.young_modulus.filter(|e| !(*e >= SOFTEST && e.is_finite())) {
             let doubt = super::warnings::YOUNG_MODULUS.warning(e).map(|doubt| format!("{doubt}; "));
             let doubt = doubt.unwrap_or_default();
@@ -140,8 +137,7 @@ impl Statement {
             let message = format!("record_range = [{from}, {to}] s must rise from above 0");
             return refused("record_range", message);
         }
-        let records = Records::default();
-        let (behaviour_factor, displacements) = (q, Displacements::OF_CODE);
+        let (records, displacements) = (Records::default(), Displacements::OF_CODE);
         Ok(Self {
             table,
             confidence_factor,
@@ -194,10 +190,29 @@ impl Statement {
         self.displacements[usize::from(state == LimitState::Slc)]
     }
 
+    /// Returns the limit states whose checks are made, with their demands.
+    pub(super) fn demanded<'a>(
+        &'a self,
+        demands: &'a Demands,
+    ) -> impl Iterator<Item = (&'a StateStatement, &'a Demand)> {
+        self.states
+            .iter()
+            .flatten()
+            .filter_map(|given| Some((given, demands[given.state as usize].as_ref()?)))
+    }
+
     /// Returns the statements about a limit state; `None` where its check is not made.
     pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
         self.states[state as usize].as_ref()
     }
+}
+
+/// Refuses a value of the table `[check]` that is below a limit, or not finite.
+fn at_least(limit: f64, key: &str, value: f64) -> Result<f64, CheckError> {
+    if value >= limit && value.is_finite() {
+        return Ok(value);
+    }
+    Err(CheckError::value(&[key], format!("{key} = {value} must be at least {limit}")))
 }
 
 /// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].
@@ -221,10 +236,7 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
         );
         return refused("masonry_strength", message);
     }
-    let gamma = table.masonry_gamma.unwrap_or(1.0);
-    if !(gamma >= 1.0 && gamma.is_finite()) {
-        return refused("masonry_gamma", format!("masonry_gamma = {gamma} must be at least 1"));
-    }
+    let gamma = at_least(1.0, "masonry_gamma", table.masonry_gamma.unwrap_or(1.0))?;
     let block = table.stress_block.unwrap_or(STRESS_BLOCK);
     if !(block > 0.0 && block <= 1.0) {
         return refused("stress_block", format!("stress_block = {block} must be above 0 and at most 1"));
@@ -237,20 +249,16 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
 const SOFTEST: f64 = 1e7;
 
 fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
-    let (key, factor) = match (table.confidence_factor, table.knowledge_level) {
+    let factor = match (table.confidence_factor, table.knowledge_level) {
         (Some(_), Some(_)) => {
             let message = "confidence_factor and knowledge_level state the same; leave one out";
             return Err(CheckError::value(&["knowledge_level"], message));
         }
-        (Some(factor), None) => ("confidence_factor", factor),
-        (None, Some(KnowledgeLevel::LC2)) => ("knowledge_level", 1.20),
-        (None, Some(KnowledgeLevel::LC3)) => ("knowledge_level", 1.00),
+        (Some(factor), None) => at_least(1.0, "confidence_factor", factor)?,
+        (None, Some(KnowledgeLevel::LC2)) => 1.20,
+        (None, Some(KnowledgeLevel::LC3)) => 1.00,
         (None, Some(KnowledgeLevel::LC1) | None) => return Ok(LARGEST_CONFIDENCE_FACTOR),
     };
-    if !(factor >= 1.0 && factor.is_finite()) {
-        let message = format!("confidence_factor = {factor} must be at least 1");
-        return Err(CheckError::value(&[key], message));
-    }
     let is_considered = table.compression_considered || table.masonry_strength.is_some();
     if factor < LARGEST_CONFIDENCE_FACTOR && !is_considered {
         let message = format!(
@@ -258,6 +266,8 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
              hinges back: give masonry_strength, or a3 < 1 or a smaller thickness and state \
              compression_considered = true"
         );
+        let is_given = table.confidence_factor.is_some();
+        let key = if is_given { "confidence_factor" } else { "knowledge_level" };
         return Err(CheckError::value(&[key], message));
     }
     Ok(factor)

@@ -41,14 +41,18 @@ pub enum Source {
     Records,
 }
 
+/// Refuses what is stated of a limit state.
+fn refused(state: LimitState, key: &str, message: &str) -> CheckError {
+    CheckError::value(&[state.key(), key], format!("{state}: {message}"))
+}
+
 /// Checks what is stated of a limit state.
 pub(super) fn limit_state(
     state: LimitState,
     given: &LimitStateTable,
     table: &CheckTable,
 ) -> Result<StateStatement, CheckError> {
-    let name = state.key();
-    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
+    let refused = |key, message: String| refused(state, key, &message);
     let Some(ag) = given.ag else {
         let message = "ag is missing; state a_g in g, with F0 and TC, or the site on a grid in [check.site]";
         return Err(refused("ag", message.into()));
@@ -103,8 +107,7 @@ fn source(
     given: &LimitStateTable,
     table: &CheckTable,
 ) -> Result<Source, CheckError> {
-    let name = state.key();
-    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
+    let refused = |key, message: String| refused(state, key, &message);
     match (given.f0, given.tc, &given.spectrum) {
         (Some(_), Some(_), None) if given.spectrum_damping.is_some() => {
             Err(refused("spectrum_damping", "spectrum_damping is that of a spectrum; leave it out".into()))
@@ -234,11 +237,9 @@ impl StateStatement {
         }
         let name = self.state.key();
         let Some(xi) = self.building_damping else {
-            let message = format!(
-                "{name}: state building_damping, the damping of the building in this limit state \
-                 (C8.7.1.2.1.4)"
-            );
-            return Err(CheckError::value(&[name, "building_damping"], message));
+            let message = "state building_damping, the damping of the building in this limit state \
+                           (C8.7.1.2.1.4)";
+            return Err(refused(self.state, "building_damping", message));
         };
         let floor = FloorSpectrum::new(ground, modes, xi);
         if floor.printed_peak() <= 0.0 {
@@ -248,8 +249,8 @@ impl StateStatement {
         }
         let largest = self.damping.max(self.activation_damping);
         if floor.amplification(largest) <= 1.0 {
-            let message = format!("{name}: xi_k = {xi} leaves no amplification: [C7.2.6] does not hold");
-            return Err(CheckError::value(&[name, "building_damping"], message));
+            let message = format!("xi_k = {xi} leaves no amplification: [C7.2.6] does not hold");
+            return Err(refused(self.state, "building_damping", &message));
         }
         Ok(Some(if bounded { floor.not_below_ground() } else { floor }))
     }

@@ -37,12 +37,7 @@ impl Checked<'_> {
 
     /// The side that governs.
     pub(super) fn governing(&self) -> Option<&SideVerdict> {
-        let Outcome { sides, governs, .. } = &self.outcome;
-        sides
-            .iter()
-            .find(|(side, _)| *side == governs.side)
-            .or(sides.iter().next())
-            .map(|(_, verdict)| verdict)
+        self.outcome.sides.shown(self.outcome.governs.side)
     }
 }
 
@@ -159,7 +154,12 @@ pub struct SideVerdicts {
 impl SideVerdicts {
     /// The verdict of a side.
     pub(super) fn of(&self, side: Side) -> Option<&SideVerdict> {
-        self.iter().find(|(own, _)| *own == side).map(|(_, verdict)| verdict)
+        [&self.positive, &self.negative][side as usize].as_ref()
+    }
+
+    /// The verdict of a side; where the wall is not checked to that, of the other.
+    pub(super) fn shown(&self, side: Side) -> Option<&SideVerdict> {
+        self.of(side).or(self.positive.as_ref()).or(self.negative.as_ref())
     }
 
     pub(super) fn of_mut(&mut self, side: Side) -> &mut Option<SideVerdict> {
@@ -193,9 +193,9 @@ pub struct DynamicCheck {
     pub slc: Option<DynamicState>,
 }
 
-/// The dynamic check of a limit state.
-#[derive(Clone, Debug, Serialize)]
-pub struct DynamicState {
+/// The judgement of the maxima of some records, each with its signs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judged {
     /// Whether no run exceeds `d_0` or fails by its tie, and the mean of the shares of the threshold is at
     /// most 1.
     pub passed: bool,
@@ -207,14 +207,26 @@ pub struct DynamicState {
     pub beyond_d0: usize,
     /// How many runs reach the strength of the tie.
     pub at_strength: usize,
+    /// The side of the largest |d| over its threshold.
+    pub side: Side,
+}
+
+/// The dynamic check of a limit state.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicState {
+    /// The judgement of its runs.
+    #[serde(flatten)]
+    pub judged: Judged,
     /// The lowest factor on all records that fails \[-\].
     #[serde(rename = "zeta_E")]
     pub zeta: f64,
-    /// The side of the largest |d| over its threshold.
-    pub side: Side,
     /// The records beside the spectrum of the ground, where the site has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compatibility: Option<Compatibility>,
+    /// Thresholds of d on the sides u > 0 and u < 0; `None` on one to which the wall of the runs does not
+    /// rock \[m\].
+    #[serde(skip)]
+    pub thresholds: [Option<f64>; 2],
     /// The runs: of each record, with each sign.
     pub runs: Vec<DynamicRun>,
 }
@@ -237,17 +249,21 @@ pub struct DynamicRun {
 }
 
 impl DynamicCheck {
-    pub(super) fn states(&self) -> impl Iterator<Item = (Deciding, &DynamicState)> {
-        let states = [(Deciding::Slv, &self.slv), (Deciding::Slc, &self.slc)];
-        states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
+    pub(super) fn states(&self) -> impl Iterator<Item = (LimitState, &DynamicState)> {
+        let states = [(LimitState::Slv, &self.slv), (LimitState::Slc, &self.slc)];
+        states.into_iter().filter_map(|(state, found)| Some((state, found.as_ref()?)))
     }
 
     /// Returns whether every limit state holds.
     pub fn passed(&self) -> bool {
-        self.states().all(|(_, state)| state.passed)
+        self.states().all(|(_, state)| state.judged.passed)
     }
 
     pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
-        self.states().map(|(limit_state, state)| Governs { side: state.side, limit_state, zeta: state.zeta })
+        self.states().map(|(state, found)| Governs {
+            side: found.judged.side,
+            limit_state: if state == LimitState::Slc { Deciding::Slc } else { Deciding::Slv },
+            zeta: found.zeta,
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! What the engineer should know of a check that can be made.
 
+use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
@@ -7,8 +8,7 @@ use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use super::LimitState;
 use super::case::{Case, Demands};
 use super::curve::Curve;
-use super::demand::Demand;
-use super::side_verdict::SideVerdict;
+use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 use super::states::Source;
 use super::table::{AtActivation, Method, UseClass};
@@ -108,15 +108,13 @@ pub(super) fn improbable(statement: &Statement, floors: Option<&Floors>) -> Vec<
 
 /// What the printed `a_Z` lets pass: an acceleration below that of the ground.
 pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String> {
-    let floors = LimitState::ALL.into_iter().zip(demands).filter_map(|(state, demand)| match demand {
-        Some(Demand::Floor(floor)) => Some((state, floor)),
-        _ => None,
-    });
-    let below = floors.filter_map(|(state, floor)| {
+    let below = statement.demanded(demands).filter_map(|(given, demand)| {
+        let (state, floor) = (given.state, demand.floor()?);
         let (place, ground) = (floor.printed_peak(), floor.ground().acceleration(0.0, 0.05));
         let is_below = place < ground && !statement.bounds_heights();
         is_below.then(|| {
-            format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground")
+            let [place, ground] = apart([place, ground], 5);
+            format!("{state}: a_Z = {place} m/s² is below a_g S = {ground} m/s² of the ground")
         })
     });
     below.collect()
@@ -178,13 +176,14 @@ pub(super) fn of_rocking(statement: &Statement, scene: &Parameters) -> Option<St
 /// Where a spectrum at a height is below that of the ground at T0.
 pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<String> {
     let mut warnings = Vec::new();
-    for given in statement.states.iter().flatten() {
-        let Some(Demand::Floor(floor)) = &demands[given.state as usize] else { continue };
+    for (given, demand) in statement.demanded(demands) {
+        let Some(floor) = demand.floor() else { continue };
         let (xi, t0) = (LimitState::Sld.damping(), side.t0);
         let (above, ground) = (floor.acceleration(t0, xi), floor.ground().acceleration(t0, xi));
         if t0 > 0.0 && t0 < floor.first_period() && above < ground {
+            let [above, ground] = apart([above, ground], 5);
             warnings.push(format!(
-                "{}: S_eZ(T0) = {above:.4} m/s² is below S_e(T0) = {ground:.4} m/s² of the ground",
+                "{}: S_eZ(T0) = {above} m/s² is below S_e(T0) = {ground} m/s² of the ground",
                 given.state
             ));
         }
@@ -195,18 +194,17 @@ pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Deman
 /// What a verdict owes to the raise by SLD, or lacks without it.
 pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) -> Vec<String> {
     let (mut warnings, statement) = (Vec::new(), case.statement);
+    let decides = statement.table.method != Method::Linear;
     for (side, verdict) in sides.iter() {
         let side = case.name(side);
-        for (check, found) in [(Deciding::Slv, verdict.slv), (Deciding::Slc, verdict.slc)] {
-            let Some(found) = found.filter(|found| found.ratio < 1.0) else { continue };
+        for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < 1.0) {
             if statement.state(LimitState::Sld).is_none() {
                 warnings.push(format!(
-                    "{side}: {} by displacement is {:.3}; without [check.SLD] no a_g of activation raises it \
-                     (C8.7.1.2.1.8)",
-                    check.name(),
+                    "{side}: {state} by displacement is {:.3}; without [check.SLD] no a_g of activation \
+                     raises it (C8.7.1.2.1.8)",
                     found.ratio
                 ));
-            } else if check == Deciding::Slc && statement.decides(check) && found.raised && found.zeta < 1.0 {
+            } else if state == LimitState::Slc && decides && found.raised && found.zeta < 1.0 {
                 let is_tied = verdict.activation.force > 0.0;
                 let is_broken = found.tie.is_some_and(|tie| tie.state == TieState::Broken);
                 let tie =
@@ -216,14 +214,13 @@ pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) ->
                      which has the raise for SLV only{tie}",
                     found.ratio, found.zeta
                 ));
-            } else if passed && statement.decides(check) && found.zeta >= 1.0 {
+            } else if passed && decides && found.zeta >= 1.0 {
                 warnings.push(format!(
-                    "{side}: the raise by SLD turns the verdict of {}: {:.3} by displacement, raised to \
+                    "{side}: the raise by SLD turns the verdict of {state}: {:.3} by displacement, raised to \
                      {:.3}{}",
-                    check.name(),
                     found.ratio,
                     found.zeta,
-                    if check == Deciding::Slc { "; the text has the raise for SLV only" } else { "" }
+                    if state == LimitState::Slc { "; the text has the raise for SLV only" } else { "" }
                 ));
             }
         }
@@ -232,11 +229,9 @@ pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) ->
 }
 
 pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
-    let checks =
-        sides.iter().flat_map(|(_, side)| [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)]);
-    let periods = checks.filter_map(|(state, check)| Some((state, check?.period)));
-    let long = periods.filter(|(_, period)| *period > LONGEST_PERIOD);
-    long.map(|(state, period)| {
+    let checks = sides.iter().flat_map(|(_, side)| side.by_displacement());
+    let long = checks.filter(|(_, check)| check.period > LONGEST_PERIOD);
+    long.map(|(state, DisplacementCheck { period, .. })| {
         format!(
             "T_{state} = {period:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s; the demand of {state} is \
              outside and needs a spectrum of a special study"

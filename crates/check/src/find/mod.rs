@@ -7,10 +7,12 @@ use std::fmt::Write;
 use report::number;
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
+use crate::verdict::Verdict;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 241;
@@ -22,7 +24,8 @@ const HALVINGS: u32 = 30;
 const LARGE: f64 = 0.5;
 
 /// What is sought.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Sought {
     /// The smallest thickness \[m\].
     Thickness,
@@ -102,9 +105,10 @@ fn load(parameters: &Parameters) -> f64 {
 }
 
 /// What was found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Found {
     /// What was sought.
+    #[serde(rename = "parameter")]
     pub sought: Sought,
     /// The value from which on the wall passes every check that decides; `None` if there is none.
     pub value: Option<f64>,
@@ -113,13 +117,15 @@ pub struct Found {
     /// Each check, in the order of the verdict.
     pub checks: Vec<FoundCheck>,
     /// Force of the tie at the value over W + O \[-\].
+    #[serde(rename = "force_over_load")]
     pub force_ratio: Option<f64>,
     /// Symbol of capacity over demand.
+    #[serde(skip)]
     symbol: &'static str,
 }
 
 /// What was found for one check.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoundCheck {
     /// Its name.
     pub check: &'static str,
@@ -128,6 +134,7 @@ pub struct FoundCheck {
     /// The value from which on the wall passes it, up to the end of the range (a height: down to its start).
     pub value: Option<f64>,
     /// Whether the wall passes it all over the range.
+    #[serde(rename = "passes_everywhere")]
     pub everywhere: bool,
     /// Intervals of values that pass, apart from that one.
     pub intervals: Vec<[f64; 2]>,
@@ -181,25 +188,9 @@ impl Found {
 
     /// What was found, by names.
     pub fn json(&self) -> Value {
-        let one = |found: &FoundCheck| {
-            json!({
-                "check": found.check,
-                "decides": found.decides,
-                "value": found.value,
-                "passes_everywhere": found.everywhere,
-                "intervals": found.intervals,
-                "reason": found.reason,
-                "curve": found.curve,
-            })
-        };
-        json!({
-            "parameter": self.sought.name(),
-            "value": self.value,
-            "range": self.range,
-            "passes_everywhere": self.everywhere(),
-            "force_over_load": self.force_ratio,
-            "checks": self.checks.iter().map(one).collect::<Vec<_>>(),
-        })
+        let mut found = serde_json::to_value(self).unwrap_or_default();
+        found["passes_everywhere"] = self.everywhere().into();
+        found
     }
 }
 
@@ -308,7 +299,7 @@ fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> 
 }
 
 /// The checks of a verdict: the least capacity over demand of all sides.
-fn outcomes(verdict: &crate::code::Verdict<'_>) -> Vec<Outcome> {
+fn outcomes(verdict: &Verdict<'_>) -> Vec<Outcome> {
     let mut all: Vec<Outcome> = Vec::new();
     for row in &verdict.rows {
         match all.iter_mut().find(|one| one.0 == row.check) {
@@ -336,23 +327,20 @@ fn one_check(
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut edge =
         |fails: usize, holds: usize| first_true([tries[fails].0, tries[holds].0], HALVINGS, &mut passes);
-    // runs of tries that pass: first and last
+    // tries that pass one after the other
     let (mut intervals, mut value) = (Vec::new(), None);
-    let mut index = 0;
-    while index < passed.len() {
-        if !passed[index] {
-            index += 1;
+    let mut after = 0;
+    for alike in passed.chunk_by(|a, b| a == b) {
+        let first = after;
+        after += alike.len();
+        if !alike[0] {
             continue;
         }
-        let first = index;
-        while index < passed.len() && passed[index] {
-            index += 1;
-        }
         let begins = if first == 0 { tries[0].0 } else { edge(first - 1, first)? };
-        if index == passed.len() {
+        if after == passed.len() {
             value = Some(begins);
         } else {
-            let ends = edge(index, index - 1)?;
+            let ends = edge(after, after - 1)?;
             intervals.push([begins.min(ends), begins.max(ends)]);
         }
     }

@@ -14,7 +14,7 @@ use crate::report::Figure;
 /// # Errors
 /// [`CheckError`] for a period that the demand does not have.
 pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<Figure, CheckError> {
-    let [d_s, a_s] = side.secant;
+    let (d_s, a_s) = (side.secant_displacement, side.secant_acceleration);
     let right = 1.25 * side.displacement_capacity.max(side.displacement_demand);
     let corners = wall.capacity_corners(side.sign);
     let curve: Vec<_> =

@@ -23,11 +23,12 @@ use serde_json::{Value, json};
 use toml::Spanned;
 
 use crate::circolare::Side;
-use crate::code::{Code, Details, Ends, Entry, Row, Subject, Verdict, numbers};
+use crate::code::{Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::report::Figure;
 use crate::site::Records;
+use crate::verdict::{Details, Ends, Row, Verdict, numbers};
 use ::report::table::{Cell, Digits, Table, significant};
 use sides::governing;
 
@@ -216,7 +217,7 @@ impl Code for Statement {
             governs: "displacement",
             side: (!checked.wall.has_equal_sides()).then(|| name(&worst)),
             zeta: worst.displacement_ratio,
-            raised: None,
+            raise: None,
             rows: checked.rows(),
             notes: checked.notes(),
             warnings: std::mem::take(&mut checked.warnings),
@@ -260,8 +261,8 @@ const NUMBERS: [Line; 10] = [
     ("onset a0*", "m/s2", 1.0, |side| side.onset_acceleration),
     ("zero of F d0*", "mm", 1e3, |side| side.zero_displacement),
     ("capacity d_u*", "mm", 1e3, |side| side.displacement_capacity),
-    ("secant d_s*", "mm", 1e3, |side| side.secant[0]),
-    ("secant a_s*", "m/s2", 1.0, |side| side.secant[1]),
+    ("secant d_s*", "mm", 1e3, |side| side.secant_displacement),
+    ("secant a_s*", "m/s2", 1.0, |side| side.secant_acceleration),
     ("secant period T_s", "s", 1.0, |side| side.secant_period),
     ("demand Sa(0)", "m/s2", 1.0, |side| side.peak_acceleration),
     ("demand Sd(T_s)", "mm", 1e3, |side| side.displacement_demand),
@@ -279,29 +280,17 @@ impl Checked<'_> {
 
     fn rows(&self) -> Vec<Row> {
         let of_side = |(side, found): (&'static str, &SideCheck)| {
-            let accelerations = [found.onset_acceleration, found.peak_acceleration];
-            let displacements = [found.displacement_capacity, found.displacement_demand];
-            let participation = self.wall.body().participation;
-            let row = |check, zeta: f64, decides, ends, clause| Row {
-                check,
-                side,
-                zeta,
-                passed: zeta >= 1.0,
-                decides,
-                ground: None,
-                ends,
-                displacement: match ends {
-                    Ends::Displacements([capacity, _]) => Some(participation * capacity),
-                    Ends::Accelerations(_) => None,
-                },
-                clause,
-                remark: String::new(),
-            };
-            let onset = Ends::Accelerations(accelerations);
-            let displacement = Ends::Displacements(displacements);
+            let onset = Ends::Accelerations([found.onset_acceleration, found.peak_acceleration]);
+            let ends = Ends::Displacements([found.displacement_capacity, found.displacement_demand]);
+            let displacement = Some(self.wall.body().participation * found.displacement_capacity);
             [
-                row("onset", found.acceleration_ratio, false, onset, "a0*/Sa(0)"),
-                row("displacement", found.displacement_ratio, true, displacement, "d_u*/Sd(T_s)"),
+                Row { clause: "a0*/Sa(0)", ..Row::new("onset", side, found.acceleration_ratio, onset) },
+                Row {
+                    decides: true,
+                    displacement,
+                    clause: "d_u*/Sd(T_s)",
+                    ..Row::new("displacement", side, found.displacement_ratio, ends)
+                },
             ]
         };
         self.shown().flat_map(of_side).collect()
@@ -339,22 +328,6 @@ impl Details for Checked<'_> {
     }
 
     fn json(&self, verdict: &Verdict<'_>) -> Value {
-        let side = |side: &SideCheck| {
-            json!({
-                "side": name(side),
-                "onset_acceleration": side.onset_acceleration,
-                "zero_displacement": side.zero_displacement,
-                "displacement_capacity": side.displacement_capacity,
-                "limited_by_tie": side.limited_by_tie,
-                "secant_displacement": side.secant[0],
-                "secant_acceleration": side.secant[1],
-                "secant_period": side.secant_period,
-                "peak_acceleration": side.peak_acceleration,
-                "displacement_demand": side.displacement_demand,
-                "acceleration_ratio": side.acceleration_ratio,
-                "displacement_ratio": side.displacement_ratio,
-            })
-        };
         let governs = RESULTS.map(|(result, ratio, _)| {
             let worst = governing(&self.sides, ratio);
             (result.to_owned(), json!({ "side": name(worst), "ratio": ratio(worst) }))
@@ -366,7 +339,7 @@ impl Details for Checked<'_> {
             "damping": self.statement.damping,
             "displacement_fraction": self.statement.fractions.displacement,
             "secant_fraction": self.statement.fractions.secant,
-            "sides": self.sides.iter().map(side).collect::<Vec<_>>(),
+            "sides": self.sides,
             "governs": governs.into_iter().collect::<serde_json::Map<_, _>>(),
             "warnings": verdict.warnings,
         })

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use rocking_wall::wall::{Tie, Wall};
+use serde::Serialize;
 
+use crate::circolare::Side;
 use crate::error::CheckError;
 
 /// The displacements at which capacity is read, as fractions of `u_ins`.
@@ -23,9 +25,10 @@ impl Default for Fractions {
 }
 
 /// The check of one side, in d* = u/λ and a* = F/(λ `m_eff`).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SideCheck {
     /// Sign of u.
+    #[serde(rename = "side", serialize_with = "named")]
     pub sign: f64,
     /// a₀*, the acceleration of the onset of rocking: the largest a* of the law, with a tie the largest up to
     /// `d_u*` \[m/s²\].
@@ -36,8 +39,10 @@ pub struct SideCheck {
     pub displacement_capacity: f64,
     /// Whether the strength of the tie limits it.
     pub limited_by_tie: bool,
-    /// Displacement and acceleration of the secant \[m, m/s²\].
-    pub secant: [f64; 2],
+    /// Displacement of the secant \[m\].
+    pub secant_displacement: f64,
+    /// Its acceleration \[m/s²\].
+    pub secant_acceleration: f64,
     /// Its period `T_s` = 2π √(d*/a*) \[s\].
     pub secant_period: f64,
     /// `S_a(0)` of the demand \[m/s²\].
@@ -48,6 +53,11 @@ pub struct SideCheck {
     pub acceleration_ratio: f64,
     /// `d_u*/S_d(T_s)`.
     pub displacement_ratio: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn named<S: serde::Serializer>(sign: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(Side::of(*sign).name())
 }
 
 /// Returns the side with the smallest ratio, which governs.
@@ -121,7 +131,8 @@ fn check_side(
         zero_displacement: zero / participation,
         displacement_capacity,
         limited_by_tie: ultimate < of_wall,
-        secant: [d_s, a_s],
+        secant_displacement: d_s,
+        secant_acceleration: a_s,
         secant_period,
         peak_acceleration,
         displacement_demand,

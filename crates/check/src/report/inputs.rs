@@ -2,7 +2,7 @@
 
 use ::report::escaped;
 use rocking_wall::scene::{GROUPS, parameter_text, variable};
-use rocking_wall::variables::Mechanism;
+use rocking_wall::variables::{Mechanism, TieSide};
 use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
 
 use super::markup::{formula, kilonewtons, shown, stated, table};
@@ -14,38 +14,23 @@ const SMALL: [&str; 2] = ["tie_slack", "tie_ultimate"];
 const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 
 impl Origin<'_> {
-    /// Returns where a number of the bar of the tie comes from; `is_usual` says that it is the default.
-    fn of_bar(&self, number: &BarNumber, is_usual: bool) -> &'static str {
-        let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(number.usual.name);
+    /// Returns where a number of the bar of the tie comes from.
+    fn of_bar(&self, number: &BarNumber) -> &'static str {
         if self.file.states(&["check", "tie", "bar", number.key()]) {
             "[check] tie"
-        } else if self.set.iter().any(is_set) {
-            "--set"
-        } else if self.file.states(&["tie", "bar", number.key()]) {
-            "scene"
-        } else if self.wall.is_some() && !is_usual {
-            "file"
         } else {
-            "default"
+            self.of_parameter(&["tie", "bar", number.key()], number.usual.name)
         }
     }
 
-    /// Returns where a parameter of a group comes from.
-    fn of_parameter(&self, group: &str, name: &str) -> &'static str {
-        let is_set = |set: &String| set.split_once('=').map_or(set.as_str(), |set| set.0).trim() == name;
-        let has_points = name == "force_law" && self.file.states(&[group, "points"]);
-        if let Some(wall) = self.wall {
-            // a table of walls, and scenes that they name, state parameters without a key of the file
-            let usual = parameter_text(&Parameters::default(), name);
-            let is_own = parameter_text(&wall.parameters, name) != usual;
-            return if is_own || self.file.wall_states(wall.entry, group, name) { "file" } else { "default" };
-        }
-        if self.set.iter().any(is_set) {
-            "--set"
-        } else if has_points || self.file.states(&[group, name]) {
-            "scene"
-        } else {
-            "default"
+    /// Returns where a parameter comes from, by its keys in a scene.
+    fn of_parameter(&self, keys: &[&str], name: &str) -> &'static str {
+        let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(name);
+        match self.wall {
+            Some(wall) if wall.stated.contains(&name) => "file",
+            None if self.set.iter().any(is_set) => "--set",
+            None if self.file.states(keys) => "scene",
+            _ => "default",
         }
     }
 }
@@ -71,7 +56,8 @@ pub(crate) fn the_wall(
         let points: Vec<_> =
             points.iter().map(|[u, f]| format!("({}, {})", stated(*u), stated(*f))).collect();
         let name = format!("Corners of the force law, {}", formula("u/u_ins, F/F0"));
-        rows.push([name, points.join(" "), "scene".into()]);
+        let from = origin.of_parameter(&["force_law", "force_law"], "force_law");
+        rows.push([name, points.join(" "), from.into()]);
     }
     rows.extend(bar(parameters, origin));
     let rows = table(&["parameter", "value", "from"], &rows);
@@ -85,12 +71,17 @@ fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
     let row = |(index, number): (usize, &BarNumber)| {
         let given = bar.get(index)?;
         let unit = if number.key() == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
-        let text = number.text.split("; ").next().unwrap_or_default();
-        let name = format!("{} <small translate=\"no\">{}</small>", escaped(text), number.usual.name);
-        let is_usual = Bar::default().get(index) == Some(given);
-        Some([name, value_in(given, unit), origin.of_bar(number, is_usual).to_owned()])
+        let name = described(number.text, number.usual.name);
+        Some([name, value_in(given, unit), origin.of_bar(number).to_owned()])
     };
     numbers.filter_map(row).collect()
+}
+
+/// A parameter with its name. Its description says first what it is; behind a semicolon, for who states it,
+/// what follows from some values.
+fn described(description: &str, name: &str) -> String {
+    let what = description.split("; ").next().unwrap_or_default();
+    format!("{} <small translate=\"no\">{name}</small>", escaped(what))
 }
 
 /// The unit in which people read a number in an SI unit, and the factor to it.
@@ -144,25 +135,23 @@ fn parameter(
         Some(number) if is_of_bar => {
             (format!("<span class=\"value\">{} {}</span>", shown(unit.1 * number), unit.0), "computed")
         }
-        Some(number) => (value_in(number, unit), origin.of_parameter(group, name)),
+        Some(number) => (value_in(number, unit), origin.of_parameter(&[group, name], name)),
         None => {
             let value = if name == "mechanism" {
                 mechanism(parameters.mechanism).to_owned()
             } else if name == "tie_side" {
-                let sides = ["to the outside (u &gt; 0)", "to the inside (u &lt; 0)", "both"];
-                let named = ["positive", "negative", "both"].into_iter().zip(sides);
-                let own = text.trim_matches('"');
-                named.into_iter().find(|(name, _)| *name == own).map_or(own, |(_, side)| side).to_owned()
+                match parameters.tie_side {
+                    TieSide::Positive => "to the outside (u &gt; 0)".to_owned(),
+                    TieSide::Negative => "to the inside (u &lt; 0)".to_owned(),
+                    TieSide::Both => "both".to_owned(),
+                }
             } else {
                 text.trim_matches('"').replace('_', " ")
             };
-            (format!("<span class=\"value\">{value}</span>"), origin.of_parameter(group, name))
+            (format!("<span class=\"value\">{value}</span>"), origin.of_parameter(&[group, name], name))
         }
     };
-    // what follows is for who states it
-    let description = variable.description.split("; ").next().unwrap_or_default();
-    let name = format!("{} <small translate=\"no\">{name}</small>", escaped(description));
-    Some([name, value, from.to_owned()])
+    Some([described(variable.description, name), value, from.to_owned()])
 }
 
 /// The mechanism, as codes name it.
@@ -179,5 +168,24 @@ fn computed_value(wall: &Wall, parameters: &Parameters, name: &str) -> String {
         "restitution" => stated(wall.restitution()),
         _ if parameters.damping_model.ratio_name() == Some(name) => stated(wall.damping_ratio()),
         _ => "–".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::language::{Language, translated};
+
+    /// A description that is worded anew, so that other words stand before its semicolon, is translated anew.
+    #[test]
+    fn what_each_parameter_is_stands_in_the_terms() {
+        let names = GROUPS.into_iter().flat_map(|(_, names)| names.iter().copied());
+        let of_bar = Bar::NUMBERS.map(|number| (number.text, number.usual.name));
+        let of_wall = names.filter_map(|name| Some((variable(name)?.description, name)));
+        let missing = of_wall.chain(of_bar).filter(|(description, name)| {
+            let english = described(description, name);
+            translated(english.clone(), Language::It) == english
+        });
+        assert_eq!(missing.collect::<Vec<_>>(), []);
     }
 }

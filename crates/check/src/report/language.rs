@@ -45,6 +45,14 @@ const SYMBOLS: [&str; 42] = [
     "T_B", "T_C", "T_D", "T_R", "T_s", "T_SLC", "T_SLV", "u_0", "u_ins", "u_r", "u_y", "k_0", "V_N", "V_R",
     "ξ_k",
 ];
+/// Where what stays as it is begins and ends.
+const SKIPPED: [(&str, &str); 5] = [
+    ("<style", "</style>"),
+    ("<span translate=\"no\"", "</span>"),
+    ("<small translate=\"no\"", "</small>"),
+    ("<title", "</title>"),
+    ("<tspan", "</tspan>"),
+];
 /// Tags within a formula, or a sentence.
 const INLINE: [&str; 4] = ["i", "b", "sub", "sup"];
 
@@ -125,34 +133,20 @@ enum Part<'a> {
 fn walk<'a>(page: &'a str, mut take: impl FnMut(Part<'a>)) {
     let mut rest = page;
     while !rest.is_empty() {
-        if let Some(end) = skipped(rest) {
-            take(Part::Markup(&rest[..end]));
-            rest = &rest[end..];
-            continue;
-        }
-        let end = text_end(rest);
-        if end > 0 {
-            take(Part::Text(&rest[..end]));
-            rest = &rest[end..];
-        } else {
-            let end = rest.find('>').map_or(rest.len(), |end| end + 1);
-            take(Part::Markup(&rest[..end]));
-            rest = &rest[end..];
-        }
+        let text = if skipped(rest).is_some() { 0 } else { text_end(rest) };
+        let tag = || skipped(rest).or(rest.find('>').map(|end| end + 1)).unwrap_or(rest.len());
+        let (part, after) = rest.split_at(if text > 0 { text } else { tag() });
+        take(if text > 0 { Part::Text(part) } else { Part::Markup(part) });
+        rest = after;
     }
 }
 
 /// Where what stays as it is ends, if that begins here.
 fn skipped(rest: &str) -> Option<usize> {
-    let ends = |begins: &str, end: &str| {
-        let found = rest.starts_with(begins).then(|| rest.find(end))?;
-        found.map(|place| place + end.len())
-    };
-    ends("<style", "</style>")
-        .or_else(|| ends("<span translate=\"no\"", "</span>"))
-        .or_else(|| ends("<small translate=\"no\"", "</small>"))
-        .or_else(|| ends("<title", "</title>"))
-        .or_else(|| ends("<tspan", "</tspan>"))
+    SKIPPED.into_iter().find_map(|(begins, ends)| {
+        let found = rest.starts_with(begins).then(|| rest.find(ends))?;
+        found.map(|place| place + ends.len())
+    })
 }
 
 /// Where the text that begins here ends.

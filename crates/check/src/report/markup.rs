@@ -47,6 +47,11 @@ pub(crate) fn stated(value: f64) -> String {
     number(value, 6)
 }
 
+/// The text of a number; a dash without one.
+pub(crate) fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), text)
+}
+
 /// A table of markup; without heads if there are none.
 pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> String {
     let mut text = String::from("<div class=\"scroll\"><table>\n");

@@ -17,17 +17,17 @@ use ::report::plot::Plot;
 use rocking_wall::scene::{SceneError, fingerprint};
 use run::walls::NamedWall;
 
-use crate::code::Verdict;
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::site::Records;
+use crate::verdict::Verdict;
 
 pub(crate) use inputs::{overview, the_wall};
 pub use language::{Language, terms};
 use language::{translated, with_symbols};
-use markup::{formula, list, table};
+use markup::{list, table};
 use project::as_written;
-pub(crate) use project::{EXCEEDED, return_period};
+pub(crate) use project::{EXCEEDED, no_place, return_period};
 pub use project::{ReportTable, report_schema};
 pub use walls::page_of_walls;
 
@@ -80,21 +80,26 @@ impl Figure {
 /// # Errors
 /// [`CheckError`] of a demand, or of a record that cannot be read again.
 pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckError> {
-    let top = origin.source(verdict) + "\n" + &head(verdict, None);
-    let page = Page::new(origin.title).styled(include_str!("page.css"));
-    let page = page.styled(&footer("", &origin.footer(None))).text(&top);
-    let project = origin.report.project_data();
-    let page = if project.is_empty() { page } else { page.section("Project", &project) };
+    let page = begun(origin.title, verdict, &format!("\n{}", head(verdict, None)), origin);
     let page = sections(sheet_head(page, verdict, origin), verdict.details.site()?);
     let page = sections(page, verdict.details.sections(origin)?);
     let page = end(page, &verdict.details.symbols(), &verdict.details.readings(), origin)?;
-    let title = format!("<h1>{}</h1>", escaped(origin.title));
-    let page = page.html().replacen(&title, &format!("<h1>{}</h1>", as_written(origin.title)), 1);
-    Ok(finished(page, origin))
+    Ok(finished(&page, origin.title, origin))
 }
 
-/// Returns a page in its language, with its symbols as formulas and the files of the user as they are named.
-fn finished(page: String, origin: &Origin<'_>) -> String {
+/// Begins a page: what it is, the verdict where it is one, and the data of the project.
+fn begun(title: &str, verdict: &Verdict<'_>, headline: &str, origin: &Origin<'_>) -> Page {
+    let page = Page::new(title).styled(include_str!("page.css"));
+    let page = page.styled(&footer("", &origin.footer(None))).text(&(origin.source(verdict) + headline));
+    let project = origin.report.project_data();
+    if project.is_empty() { page } else { page.section("Project", &project) }
+}
+
+/// Returns a page in its language, with its symbols as formulas, its title and the files of the user as they
+/// are written.
+fn finished(page: &Page, title: &str, origin: &Origin<'_>) -> String {
+    let [plain, written] = [escaped(title), as_written(title)].map(|title| format!("<h1>{title}</h1>"));
+    let page = page.html().replacen(&plain, &written, 1);
     let mut page = with_symbols(&translated(page, origin.report.language));
     for (index, path) in origin.records.files.iter().enumerate() {
         page = page.replace(&mark(index), &as_written(&file_name(path)));
@@ -176,7 +181,7 @@ fn end(mut page: Page, symbols: &str, readings: &[String], origin: &Origin<'_>) 
 fn head(verdict: &Verdict<'_>, wall: Option<&str>) -> String {
     let wall = wall.map_or_else(String::new, |name| as_written(name) + "<br>");
     let passed = if verdict.passed { "holds" } else { "fails" };
-    let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
+    let headline = escaped(&verdict.headline());
     format!("<p class=\"verdict {passed}\">{wall}{headline}</p>")
 }
 

@@ -69,6 +69,17 @@ pub(crate) fn return_period(reference: f64, exceeded: f64) -> f64 {
     -reference / libm::log1p(-exceeded)
 }
 
+/// Says why coordinates are no place; `None` where they are.
+pub(crate) fn no_place([latitude, longitude]: [f64; 2]) -> Option<String> {
+    let is_place = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
+    (!is_place).then(|| {
+        format!(
+            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
+             [42.35, 13.40]"
+        )
+    })
+}
+
 /// What the user writes stands as it is in every language.
 pub(crate) fn as_written(text: &str) -> String {
     format!("<span translate=\"no\">{}</span>", escaped(text))
@@ -118,13 +129,7 @@ impl ReportTable {
 
     /// Says which key has a number that cannot be, and why.
     pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
-        if let Some([latitude, longitude]) = self.coordinates
-            && !(latitude.abs() <= 90.0 && longitude.abs() <= 180.0)
-        {
-            let message = format!(
-                "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
-                 [42.35, 13.40]"
-            );
+        if let Some(message) = self.coordinates.and_then(no_place) {
             return Some(("coordinates", message));
         }
         let positive = [("nominal_life", self.nominal_life), ("use_coefficient", self.use_coefficient)];

@@ -2,15 +2,13 @@
 
 use std::fmt::Write as _;
 
-use ::report::escaped;
-use ::report::page::Page;
 use run::walls::NamedWall;
 
 use super::markup::table;
 use super::project::as_written;
-use super::{Origin, end, finished, footer, head, sections, sheet_head};
-use crate::code::Verdict;
+use super::{Origin, begun, end, finished, footer, head, sections, sheet_head};
 use crate::error::CheckError;
+use crate::verdict::Verdict;
 use crate::walls::{WallCodes, WallVerdicts};
 
 /// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover
@@ -51,15 +49,8 @@ pub fn page_of_walls(
         data(checked())
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
-    let mut page = Page::new(title).styled(include_str!("page.css"));
-    let source =
-        origin.source(worst).replace("a local out-of-plane mechanism", "local out-of-plane mechanisms");
-    page = page.styled(&footer("", &origin.footer(None))).text(&source);
-    let project = origin.report.project_data();
-    if !project.is_empty() {
-        page = page.section("Project", &project);
-    }
-    page = sections(page.section("Summary of the walls", &cover), worst.details.site()?);
+    let page = begun(title, worst, "", origin).section("Summary of the walls", &cover);
+    let mut page = sections(page, worst.details.site()?);
     for (index, (name, verdict)) in checked().enumerate() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
         let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
@@ -81,9 +72,7 @@ pub fn page_of_walls(
         }
     }
     let page = end(page, &worst.details.symbols(), &readings, origin)?;
-    let plain = format!("<h1>{}</h1>", escaped(title));
-    let page = page.html().replacen(&plain, &format!("<h1>{}</h1>", as_written(title)), 1);
-    Ok(finished(page, origin))
+    Ok(finished(&page, title, origin))
 }
 
 /// The data of the walls and the numbers of their governing sides: a row a wall.

@@ -24,9 +24,9 @@ fn runs_under_records() {
     assert_eq!(state.runs.len(), 8);
     // a run beyond u_ins stops where it overturns
     let maxima = state.runs.iter().map(|run| run.d[0].max(run.d[1]));
-    near(state.d, maxima.sum::<f64>() / 8.0, "mean of the maxima");
-    near(state.ratio, 0.08 / state.d, "threshold over it");
-    assert_eq!(state.passed, state.beyond_d0 == 0 && state.ratio >= 1.0);
+    near(state.judged.d, maxima.sum::<f64>() / 8.0, "mean of the maxima");
+    near(state.judged.ratio, 0.08 / state.judged.d, "threshold over it");
+    assert_eq!(state.judged.passed, state.judged.beyond_d0 == 0 && state.judged.ratio >= 1.0);
     assert!(!verdict.passed && state.zeta < 1.0 && verdict.governs.zeta == state.zeta);
     // at the factor found the same check fails, just below it passes
     for (factor, passes) in [(1.0, false), (1.0 - 2e-5, true)] {
@@ -37,11 +37,11 @@ fn runs_under_records() {
     let seven = checked(&table(0.15, "7")).unwrap();
     let state = seven.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
     let mean = state.runs.iter().map(|run| run.d[0].max(run.d[1])).sum::<f64>() / 7.0;
-    near(state.d, mean, "of seven records the mean");
+    near(state.judged.d, mean, "of seven records the mean");
     let six = checked(&table(0.15, "6")).unwrap();
     let state = six.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
     let largest = state.runs.iter().map(|run| run.d[0].max(run.d[1])).fold(0.0, f64::max);
-    near(state.d, largest, "of six records the least favourable");
+    near(state.judged.d, largest, "of six records the least favourable");
 }
 
 /// FC divides forces, not masses: with FC = 1 and gravity, load and tie over 1.35 the runs are the same.
@@ -156,14 +156,17 @@ fn both_signs_of_a_record_run() {
     let state = |text: &str| checked(text).unwrap().dynamic.unwrap().slv.unwrap();
     let brittle = state(&table(""));
     assert_eq!(brittle.runs.len(), 6);
-    assert!(!brittle.passed && brittle.at_strength > 0);
+    assert!(!brittle.judged.passed && brittle.judged.at_strength > 0);
     let signs: Vec<f64> = brittle.runs.iter().map(|run| run.sign).collect();
     assert_eq!(signs, [1.0, -1.0, 1.0, -1.0, 1.0, -1.0]);
     let largest = brittle.runs.iter().map(|run| run.d[0].max(run.d[1])).fold(0.0, f64::max);
-    near(brittle.d, largest, "of six runs the worst");
+    near(brittle.judged.d, largest, "of six runs the worst");
     // a tie that yields does not fail there
     let yields = state(&table("tie_ultimate = 0.5\n"));
-    assert!(yields.at_strength > 0 && yields.passed == (yields.ratio >= 1.0 && yields.beyond_d0 == 0));
+    assert!(
+        yields.judged.at_strength > 0
+            && yields.judged.passed == (yields.judged.ratio >= 1.0 && yields.judged.beyond_d0 == 0)
+    );
     let one = state(&table("").replace("soil =", "polarities = \"as_recorded\"\nsoil ="));
     assert_eq!(one.runs.len(), 3);
     let same = brittle.runs.iter().step_by(2).zip(&one.runs);
@@ -187,7 +190,7 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     assert!(outcome.warnings.iter().any(|warning| warning.contains(said)), "{:?}", outcome.warnings);
     let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
     let fallen = state.runs.iter().filter(|run| run.d[1] > 0.2).count();
-    assert!(fallen > 0 && !state.passed, "{:?}", state.runs);
+    assert!(fallen > 0 && !state.judged.passed, "{:?}", state.runs);
     assert!(state.runs.iter().all(|run| run.beyond_d0 == (run.d[0] > 0.2 || run.d[1] > 0.2)));
     // both signs, since the side that is not checked has a threshold of its own: overturning
     assert_eq!(state.runs.len(), 6);
@@ -196,8 +199,8 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     };
     let limit = outcome.sides.positive.as_ref().unwrap().slv.as_ref().unwrap().d;
     let worst = state.runs.iter().map(|run| share(run, [limit, 0.2])).fold(0.0, f64::max);
-    near(state.ratio, 1.0 / worst, "the largest share of a threshold");
-    assert!(state.ratio < 1.0);
+    near(state.judged.ratio, 1.0 / worst, "the largest share of a threshold");
+    assert!(state.judged.ratio < 1.0);
 }
 
 /// A wall may stand under the records and fall under weaker ones, which is said.
@@ -210,7 +213,7 @@ fn a_response_that_is_not_monotonic_is_told() {
     ));
     let outcome = outcome.unwrap();
     let state = outcome.dynamic.as_ref().unwrap().slv.as_ref().unwrap();
-    assert!(state.passed && state.zeta < 1.0, "{}", state.zeta);
+    assert!(state.judged.passed && state.zeta < 1.0, "{}", state.zeta);
     let said = format!("fails when they are scaled by {:.3}: the response is not monotonic", state.zeta);
     assert!(outcome.warnings.iter().any(|warning| warning.contains(&said)), "{:?}", outcome.warnings);
 }

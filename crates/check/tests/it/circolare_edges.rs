@@ -54,7 +54,7 @@ fn what_decides() {
     let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
     let verdict = code.check((&scene).into()).unwrap();
-    assert!(verdict.passed && verdict.raised.is_none(), "{}", verdict.headline());
+    assert!(verdict.passed && verdict.raise.is_none(), "{}", verdict.headline());
     assert!(verdict.headline().starts_with("PASSED: SLV with q governs"), "{}", verdict.headline());
 }
 

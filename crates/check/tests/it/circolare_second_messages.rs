@@ -6,7 +6,7 @@ use rocking_wall::scene::Scene;
 use run::walls::read_walls;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
-use crate::circolare_second::{facade, palazzo, strip};
+use crate::circolare_second::{facade, palazzo, positive, strip};
 
 const LAW: &str = "before_activation = \"law\"";
 const YIELD: &str = "tie.at_activation = \"yield\"";
@@ -102,6 +102,15 @@ fn ties_that_do_not_act_at_the_activation() {
     ] {
         refuses(&text, message);
     }
+    // numbers that are compared have digits until they differ: a tie a little softer than 0.1 u_0 asks
+    let outcome = checked(&facade(stiff, "")).unwrap();
+    let side = positive(&outcome);
+    // u_y = N_y h/(2 K y), so that this K has u_y = 0.1 u_0
+    let limit = 10e3 * 7.0 / (2.0 * 6.8) / (0.1 * side.d0 / side.d_per_u);
+    let soft = format!("tie_stiffness = {}\ntie_strength = 10e3", limit * (1.0 - 1e-7));
+    let told = refuses(&facade(&soft, YIELD), "reaches its strength at u_y = ");
+    let numbers: Vec<_> = told.split(" = ").skip(2).map(|after| after.split(' ').next().unwrap()).collect();
+    assert!(numbers.len() == 2 && numbers[0] != numbers[1], "{told}");
     warns(&facade(stiff, ""), "SLD and SLV with q do not count the tie");
     warns(&facade(stiff, YIELD), "SLV with q counts a brittle tie");
     warns(&facade(stiff, ""), "u < 0: no tie holds this side");

@@ -5,6 +5,7 @@ use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_w
 use rocking_wall::scene::Scene;
 use run::walls::read_walls;
 
+use crate::circolare::PARAPET;
 use crate::circolare_second::palazzo;
 
 /// A parapet, a strip whose hinges are searched and set back, and a façade with a tie, on one building.
@@ -36,9 +37,12 @@ fn walls() -> String {
 }
 
 fn report_of_walls(language: Language) -> String {
-    let text = walls();
-    let walls = read_walls(&text, "walls.toml".as_ref(), &mut Vec::new(), &mut Vec::new()).unwrap();
-    let file = CheckFile::parse("walls.toml", &text).unwrap();
+    report_of_file("walls.toml", &walls(), language)
+}
+
+fn report_of_file(name: &str, text: &str, language: Language) -> String {
+    let walls = read_walls(text, name.as_ref(), &mut Vec::new(), &mut Vec::new()).unwrap();
+    let file = CheckFile::parse(name, text).unwrap();
     let codes = WallCodes::read(&file, &walls).unwrap();
     let verdicts = check_walls(&codes, &walls, 1);
     let mut report = file.report().unwrap();
@@ -46,6 +50,17 @@ fn report_of_walls(language: Language) -> String {
     let records = codes.shared().records();
     let origin = Origin { title: "walls", wall: None, file: &file, set: &[], records, report: &report };
     page_of_walls(&verdicts, (&walls, &codes), &origin).unwrap()
+}
+
+/// The text of the report of one wall.
+fn report_of_one(text: &str) -> String {
+    let file = CheckFile::parse("one.toml", text).unwrap();
+    let code = read(&file).unwrap();
+    let scene = Scene::parse("one.toml", text, ".".as_ref()).unwrap();
+    let verdict = code.check((&scene).into()).unwrap();
+    let (records, report) = (code.records(), file.report().unwrap());
+    let origin = Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report };
+    plain(&page(&verdict, &origin).unwrap())
 }
 
 /// The text of a page without its markup; spaces do not break and powers have `^`.
@@ -129,11 +144,12 @@ fn every_number_has_its_formula() {
             "81,89",
             "0,8233",
             // the tie
-            "N = max[0; (FC S − a0) (W + 2 r O) e*/(g 2 y/h)] = max[0; (1,35 · 1,365 − \
+            "N = max[0; (FC Sa − a0) (W + 2 r O) e*/(g 2 y/h)] = max[0; (1,35 · 1,365 − \
              0,5688) · 89,24/(9,81 · 2 · 6,8/7)] = 5,964 kN",
             "((W + 2 r O) e*)]/FC = [0,5688",
             "Simboli",
             "pendenza della retta che si annulla a u0",
+            "Sa\naccelerazione richiesta da una verifica all'attivazione",
         ],
     );
 }
@@ -181,13 +197,7 @@ fn limit_states_without_hazard_do_not_decide() {
                 tie_stiffness = 5e6\ntie_strength = 10e3\n\
                 [check]\ncode = \"circolare-2019\"\nsoil = \"C\"\nbefore_activation = \"rigid\"\n\
                 SLV = { ag = 0.18, F0 = 2.45, TC = 0.34 }\n[report]\nlanguage = \"it\"\n";
-    let file = CheckFile::parse("one.toml", text).unwrap();
-    let code = read(&file).unwrap();
-    let scene = Scene::parse("one.toml", text, ".".as_ref()).unwrap();
-    let verdict = code.check((&scene).into()).unwrap();
-    let (records, report) = (code.records(), file.report().unwrap());
-    let origin = Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report };
-    let text = plain(&page(&verdict, &origin).unwrap());
+    let text = report_of_one(text);
     assert_says(
         &text,
         &[
@@ -198,4 +208,48 @@ fn limit_states_without_hazard_do_not_decide() {
         ],
     );
     assert_never_says(&text, &["SLC –", "Decidono"]);
+}
+
+/// A wall that passes by the raise of SLC says that this is by analogy, as one that fails by it does.
+#[test]
+fn a_raise_by_analogy_is_named() {
+    let data: toml::Table = include_str!("../data/circolare.toml").parse().unwrap();
+    let text = report_of_one(data["cases"][2]["scene"].as_str().unwrap());
+    let passed = "PASSED by the raise of SLD, for SLC by analogy with C8.7.1.2.1.8; by displacement 0.599";
+    assert_says(&text, &[passed, "Check of local out-of-plane mechanisms by Circolare"]);
+}
+
+/// Runs may fall to a side that the static checks leave out: what judges it there is printed. A parapet with
+/// the hinge at its edge overturns at half its thickness.
+#[test]
+fn every_threshold_of_runs_is_printed() {
+    let text = |rocking: &str| {
+        format!(
+            "{PARAPET}{rocking}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
+             soil = \"B\"\nrocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
+             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
+        )
+    };
+    let left_out = "Threshold on the side u < 0, which the static checks leave out: overturning";
+    assert_says(&report_of_one(&text("")), &[&format!("{left_out}\n(d/u) uins = 200 mm")]);
+    // a wall that rocks to one side in its runs, too, has no threshold on the other
+    let one = "[impact]\nimpact = \"restitution\"\nrocking = \"one_sided_positive\"\nrestitution = 0.5\n\
+               [damping]\ndamping_model = \"none\"\n";
+    assert_never_says(&report_of_one(&text(one)), &[left_out]);
+}
+
+/// A parameter that is stated comes from its file, also where its value is that of the default.
+#[test]
+fn what_a_table_of_walls_states_is_not_a_default() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let table = folder.join("stated.csv");
+    std::fs::write(&table, "name,height,thickness,density,width\na,4,0.4,1800,1\nb,4,0.4,1800,\n").unwrap();
+    let width = rocking_wall::wall::Parameters::default().width;
+    assert_eq!(width, 1.0, "the table states the default");
+    let text = "check = { code = \"circolare-2019\", before_activation = \"rigid\", soil = \"B\", \
+                SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }\nwalls = [{ table = \"stated.csv\" }]\n";
+    let name = folder.join("stated.toml");
+    let text = plain(&report_of_file(name.to_str().unwrap(), text, Language::En));
+    let origins: Vec<_> = text.split("width\n1 m\n").skip(1).map(|after| after.lines().next()).collect();
+    assert_eq!(origins, [Some("file"), Some("default")]);
 }

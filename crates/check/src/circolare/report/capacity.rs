@@ -4,27 +4,22 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
-use crate::circolare::{Activation, Checked, LimitState, Side, SideVerdict};
+use crate::circolare::{Activation, Checked, Side, SideVerdict};
 use crate::error::CheckError;
 use crate::report::Figure;
-use ::report::palette::{BLACK, sign};
+use ::report::palette::{BLACK, sign, stroke};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 use rocking_wall::wall::{Body, Parameters};
 
+use super::by_side;
 use super::hinges::body_of;
 use super::spectrum::gives;
 use crate::circolare::verdict::Deciding;
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head, table};
+use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, table};
 
 pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
-    let mut text = String::new();
-    for (name, side, verdict) in case.sides() {
-        if !case.outcome.alike {
-            text.push_str(&side_head(name));
-        }
-        text += &numbers(case, side, verdict);
-        text += &at_hinges(case, side, verdict);
-    }
+    let mut text =
+        by_side(case, |side, verdict| numbers(case, side, verdict) + &at_hinges(case, side, verdict));
     for (name, _, side) in case.sides() {
         if side.slv.is_some() || side.slc.is_some() {
             text += &figure(case, name, side)?.html();
@@ -43,14 +38,9 @@ pub(in crate::circolare) fn figure(
     side: &SideVerdict,
 ) -> Result<Figure, CheckError> {
     let entry = |sample: String, name: &str| format!("<span>{sample}{name}</span>");
-    let line = |color: &str, style: &str, name: &str| {
-        entry(format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>"), name)
-    };
+    let line = |color: &str, style: &str, name: &str| entry(stroke(color, style), name);
     let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
-    for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
-        if check.is_none() {
-            continue;
-        }
+    for (state, _) in side.by_displacement() {
         let color = color(state);
         key += &entry(sign(color, CAPACITY), &formula(&format!("d_{state}")));
         key += &entry(sign(color, DEMAND), &format!("demand of {state}"));
@@ -59,8 +49,8 @@ pub(in crate::circolare) fn figure(
         key += &line(color, "solid", "its spectrum");
     }
     let mut of_others = String::new();
-    for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
-        if let Some(hinge) = check.and_then(|check| check.hinge).filter(|hinge| Some(*hinge) != side.hinge) {
+    for (state, check) in side.by_displacement() {
+        if let Some(hinge) = check.hinge.filter(|hinge| Some(*hinge) != side.hinge) {
             // the curve is that of the hinge that governs
             let [d, at] = [format!("d_{state}"), "h_1/h".to_owned()].map(|text| formula(&text));
             let _ = write!(of_others, " <span>{d} is of the hinge {at} = {}.</span>", n(hinge));

@@ -3,21 +3,14 @@
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Body, Parameters, Statics};
 
+use super::by_side;
 use crate::circolare::table::{Hinge, STRESS_BLOCK};
-use crate::circolare::{Checked, SideVerdict};
-use crate::report::markup::{Calculation, formula, kilonewtons, shown as n, side_head, table};
+use crate::circolare::{Checked, Deciding, SideVerdict};
+use crate::report::markup::{Calculation, formula, kilonewtons, or_dash, shown as n, table};
 
 /// The section, if the wall is a strip or its hinges are set back.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
-    let mut text = String::new();
-    for (name, _, side) in case.sides() {
-        let mut own = rules(case, side);
-        own += &set_back(case, side);
-        if !own.is_empty() && !case.outcome.alike {
-            text += &side_head(name);
-        }
-        text += &own;
-    }
+    let text = by_side(case, |_, side| rules(case, side) + &set_back(case, side));
     (!text.is_empty()).then_some(text)
 }
 
@@ -31,7 +24,7 @@ pub(super) fn body_of(case: &Checked<'_>, side: &SideVerdict) -> Body {
 /// What each rule on the hinge gives, and where the hinge of each check is.
 fn rules(case: &Checked<'_>, side: &SideVerdict) -> String {
     let (Some(rule), Some(found)) = (case.rule, side.least_alpha0) else { return String::new() };
-    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), n);
+    let some = |value: Option<f64>| or_dash(value, n);
     let taken = |own: Hinge| if rule == own { "yes" } else { "no" }.to_owned();
     let words = |words: &str, key: &str| format!("{words} <small translate=\"no\">{key}</small>");
     let mut rows = vec![
@@ -60,17 +53,11 @@ fn rules(case: &Checked<'_>, side: &SideVerdict) -> String {
     lines.line(words, ["min α0", ""], (found.alpha0, ""));
     text += &lines.table();
     if rule == Hinge::Worst {
-        let checks = [
-            ("SLD", side.sld.map(|check| (check.hinge, check.ratio))),
-            ("SLV with q", side.slv_q.map(|check| (check.hinge, check.ratio))),
-            ("SLV", side.slv.map(|check| (check.hinge, check.zeta))),
-            ("SLC", side.slc.map(|check| (check.hinge, check.zeta))),
-        ];
-        let row = |(name, found): (&str, Option<(Option<f64>, f64)>)| {
-            let (hinge, zeta) = found?;
-            Some([name.to_owned(), some(hinge), n(zeta)])
-        };
-        let rows: Vec<_> = checks.into_iter().filter_map(row).collect();
+        let checks = side.checks();
+        let made = Deciding::ALL.into_iter().zip(checks.zetas()).filter(|(_, zeta)| zeta.is_finite());
+        let row =
+            |(check, zeta): (Deciding, f64)| [check.name().to_owned(), some(checks.hinge(check)), n(zeta)];
+        let rows: Vec<_> = made.map(row).collect();
         text += &table(&["check, each with its own hinge", &at, &zeta], &rows);
     }
     text

@@ -1,12 +1,13 @@
 //! The statements of the engineer, with where they come from.
 
 use crate::circolare::{
-    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Method, RecordScale, Source, Statement,
+    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, RecordScale, Source, Statement,
 };
 use crate::report::Origin;
 use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
+use crate::circolare::rows::by_method;
 use crate::circolare::table::{AtActivation, Hinge, Rocks, STRESS_BLOCK};
 
 use crate::report::markup::{formula, stated, table};
@@ -45,7 +46,8 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if let Some(class) = statement.table.use_class {
         state(format!("Use class {class:?}."), &["use_class"]);
     }
-    state(method(statement).into(), &["method"]);
+    let [method, decides, clause] = by_method(statement);
+    state(format!("{method} {decides} ({clause})."), &["method"]);
     if case.outcome.dynamic.is_some() {
         state(scale(statement.table.record_scale), &["record_scale"]);
     }
@@ -62,9 +64,8 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     rows.push(taken(one_body.replace("e*", &formula("e*"))));
     if statement.states.iter().flatten().any(|state| matches!(state.source, Source::Code(_))) {
         rows.push(taken(format!(
-            "The shape of each spectrum ({}) is held at that of the site while {} varies.",
-            formula("F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k"),
-            formula("a_g")
+            "The shape of each spectrum ({}) is held at that of the site while a_g varies.",
+            formula("F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k")
         )));
     }
     if !missing.is_empty() {
@@ -79,14 +80,12 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
 /// States what the building is.
 fn of_building(statement: &Statement, state: &mut impl FnMut(String, &[&str])) {
     if statement.table.building.is_some() {
-        let said = format!("{} of the building is stated by the engineer.", formula("T_1"));
-        state(said, &["building"]);
+        state("T_1 of the building is stated by the engineer.".to_owned(), &["building"]);
     }
     for (given, xi) in
         statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
     {
-        let said =
-            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), stated(xi), given.state);
+        let said = format!("The building has the damping ξ_k = {} in {}.", stated(xi), given.state);
         state(said, &[given.state.key(), "building_damping"]);
     }
 }
@@ -109,19 +108,6 @@ fn compression(statement: &Statement) -> String {
         "The hinges are set back for the compressive strength of the masonry.".into()
     } else {
         "The limited compressive strength of the masonry is neglected: hinges are at the edges.".into()
-    }
-}
-
-/// What decides.
-fn method(statement: &Statement) -> &'static str {
-    match statement.table.method {
-        Method::Nonlinear => match [LimitState::Slv, LimitState::Slc].map(|state| statement.state(state)) {
-            [Some(_), None] => "SLV by displacement decides (C8.7.1.2.1.8).",
-            [None, Some(_)] => "SLC by displacement decides (C8.7.1.2.1.8).",
-            _ => "SLV and SLC by displacement decide (C8.7.1.2.1.8).",
-        },
-        Method::Linear => "SLV with q decides (C8.7.1.2.1.7).",
-        Method::Dynamic => "The runs under records decide (C8.7.1.2.1.9).",
     }
 }
 

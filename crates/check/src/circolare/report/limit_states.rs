@@ -2,7 +2,7 @@
 
 use crate::circolare::statement::Displacements;
 use crate::circolare::{
-    ActivationCheck, Checked, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
+    ActivationCheck, Checked, Deciding, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
     StateStatement,
 };
 use rocking_wall::wall::Parameters;
@@ -16,38 +16,37 @@ const BEYOND: f64 = 1.1;
 
 /// The sections of all checks that are made.
 pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
-    let xi = case.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
-    let q = case.statement.behaviour_factor;
-    let checks: [(&str, LimitState, &Check<'_>); 4] = [
-        ("SLD: activation C8.7.1.2.1.5", LimitState::Sld, &|side, given, demand| {
-            Some(activation((case, side), (given, demand, xi), side.sld?, 1.0))
-        }),
-        ("SLV with q C8.7.1.2.1.7", LimitState::Slv, &|side, given, demand| {
-            Some(activation((case, side), (given, demand, xi), side.slv_q?, q))
-        }),
-        ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
-            Some(displacement((case, side), (given, demand), side.slv?))
-        }),
-        ("SLC by displacement C8.7.1.2.1.8", LimitState::Slc, &|side, given, demand| {
-            Some(displacement((case, side), (given, demand), side.slc?))
-        }),
+    let titles = [
+        "SLD: activation C8.7.1.2.1.5",
+        "SLV with q C8.7.1.2.1.7",
+        "SLV by displacement C8.7.1.2.1.8",
+        "SLC by displacement C8.7.1.2.1.8",
     ];
-    let made = checks.into_iter().map(|(title, state, check)| (title.to_owned(), one(case, state, check)));
+    let made =
+        Deciding::ALL.into_iter().zip(titles).map(|(check, title)| (title.to_owned(), one(case, check)));
     made.filter(|(_, markup)| !markup.is_empty()).collect()
 }
 
-/// The calculation of a check on a side.
-type Check<'a> = dyn Fn(&SideVerdict, &StateStatement, &Demand) -> Option<String> + 'a;
-
 /// A check of both sides; empty where it is not made.
-fn one(case: &Checked<'_>, state: LimitState, check: &Check<'_>) -> String {
-    let given = case.statement.state(state);
-    let Some((given, demand)) = given.zip(case.demands[state as usize].as_ref()) else {
+fn one(case: &Checked<'_>, check: Deciding) -> String {
+    let mut demanded = case.statement.demanded(&case.demands);
+    let Some((given, demand)) = demanded.find(|(given, _)| given.state == check.state()) else {
         return String::new();
     };
+    let xi = case.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
+    let activated = |side, check, q| activation((case, side), (given, demand, xi), check, q);
     let mut text = String::new();
     for (name, _, side) in case.sides() {
-        let Some(calculation) = check(side, given, demand) else { continue };
+        let displaced =
+            || side.displacement(given.state).map(|found| displacement((case, side), (given, demand), found));
+        let calculation = match check {
+            Deciding::Sld => side.sld.map(|found| activated(side, found, 1.0)),
+            Deciding::SlvWithQ => {
+                side.slv_q.map(|found| activated(side, found, case.statement.behaviour_factor))
+            }
+            Deciding::Slv | Deciding::Slc => displaced(),
+        };
+        let Some(calculation) = calculation else { continue };
         let head = if case.outcome.alike { String::new() } else { side_head(name) };
         text.push_str(&["<div class=\"together\">", &head, &calculation, "</div>\n"].concat());
     }
@@ -92,10 +91,8 @@ fn activation(
         Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
             let ground = floor.ground();
             let put = format!("{} · {}", n(ground.a_g), n(ground.s));
-            let words = format!(
-                "Demand: the ground governs, above the {} of the height",
-                if held { formula("a_Z") } else { formula("S_eZ") }
-            );
+            let of_height = if held { "a_Z" } else { "S_eZ" };
+            let words = format!("Demand: the ground governs, above the {of_height} of the height");
             (words, "[3.2.2]", "a_g S", put)
         }
         Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),

@@ -12,10 +12,25 @@ mod spectrum;
 pub(super) mod symbols;
 mod ties;
 
+use super::side_verdict::SideVerdict;
 use super::table::{Activation, Hinge};
-use super::verdict::Checked;
+use super::verdict::{Checked, Side};
 use crate::error::CheckError;
+use crate::report::markup::side_head;
 use crate::report::{Origin, the_wall};
+
+/// What is to be said of each side, under its name where they differ; nothing of one is left out.
+fn by_side(case: &Checked<'_>, say: impl Fn(Side, &SideVerdict) -> String) -> String {
+    let mut text = String::new();
+    for (name, side, verdict) in case.sides() {
+        let own = say(side, verdict);
+        if !own.is_empty() && !case.outcome.alike {
+            text += &side_head(name);
+        }
+        text += &own;
+    }
+    text
+}
 
 /// The groups of parameters that the static check uses, and those that only runs use.
 const STATIC: [&str; 3] = ["geometry", "force_law", "tie"];

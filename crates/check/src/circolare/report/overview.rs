@@ -1,34 +1,30 @@
 //! A wall in the table of walls of a report.
 
-use crate::circolare::{Activation, Checked, LimitState};
-use crate::report::markup::{formula, kilonewtons, millimetres, shown as n, stated};
+use crate::circolare::{Activation, Checked};
+use crate::report::markup::{formula, kilonewtons, millimetres, or_dash, shown as n, stated};
 use crate::report::overview;
 
 /// Headings and cells: the wall, its place, what holds it, and the numbers of the side that governs.
 pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<(String, String)> {
     let table = &case.statement.table;
-    let some = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), n);
+    let some = |value: Option<f64>| or_dash(value, n);
     let mut cells = overview(&case.wall, &case.parameters);
     let mut cell = |head: String, text: String| cells.push((head, text));
-    cell(formula("r"), table.overburden_mass.map_or_else(|| "–".to_owned(), stated));
+    cell(formula("r"), or_dash(table.overburden_mass, stated));
     let ratio = table.building.as_ref().and_then(|building| building.height_ratio);
-    cell(formula("z/H"), ratio.map_or_else(|| "–".to_owned(), stated));
+    cell(formula("z/H"), or_dash(ratio, stated));
     let is_held = matches!(table.before_activation, None | Some(Activation::Rigid));
     cell("before rocking".into(), if is_held { "held" } else { "free" }.into());
     let tie = case.wall.tie().map(|tie| tie.strength.map_or_else(|| "elastic".to_owned(), kilonewtons));
-    cell(format!("tie, {} [kN]", formula("N_y")), tie.unwrap_or_else(|| "–".to_owned()));
+    cell("tie, N_y [kN]".into(), tie.unwrap_or_else(|| "–".to_owned()));
     let Some(side) = case.governing() else { return cells };
     cell(formula("h_1/h"), some(side.hinge));
-    cell(formula("α0"), n(side.alpha0));
-    cell(formula("a_0") + " [m/s²]", n(side.a0));
-    cell(formula("d_0") + " [mm]", millimetres(side.d0));
-    cell(formula("T_SLV") + " [s]", some(side.slv.map(|check| check.period)));
-    cell(
-        formula("S_d") + " SLV [mm]",
-        side.slv.map_or_else(|| "–".to_owned(), |check| millimetres(check.demand)),
-    );
-    let checks = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)];
-    let raised = checks.into_iter().filter(|(_, check)| check.is_some_and(|check| check.raised));
+    cell("α0".into(), n(side.alpha0));
+    cell("a_0 [m/s²]".into(), n(side.a0));
+    cell("d_0 [mm]".into(), millimetres(side.d0));
+    cell("T_SLV [s]".into(), some(side.slv.map(|check| check.period)));
+    cell("S_d SLV [mm]".into(), or_dash(side.slv.map(|check| check.demand), millimetres));
+    let raised = side.by_displacement().filter(|(_, check)| check.raised);
     let raised: Vec<_> = raised.map(|(state, _)| state.key()).collect();
     cell("raised".into(), if raised.is_empty() { "–".to_owned() } else { raised.join(", ") });
     cells

@@ -9,7 +9,7 @@ fn any_demand(case: &Checked<'_>, holds: fn(&Demand) -> bool) -> bool {
 }
 
 fn is_at_height(case: &Checked<'_>) -> bool {
-    any_demand(case, |demand| matches!(demand, Demand::Floor(_)))
+    any_demand(case, |demand| demand.floor().is_some())
 }
 
 /// Returns whether there is a check of accelerations of a side whose T0 fulfils a condition.

@@ -7,35 +7,9 @@ use crate::circolare::{
 };
 use crate::error::CheckError;
 use crate::report::Figure;
-use ::report::palette::sign;
+use ::report::palette::{sign, stroke};
 
-use crate::report::markup::{formula, shown, table};
-
-/// A limit state that is checked, with its demand.
-fn checked<'a>(case: &'a Checked<'_>) -> impl Iterator<Item = (&'a StateStatement, &'a Demand)> {
-    let statement = case.statement;
-    LimitState::ALL
-        .into_iter()
-        .zip(&case.demands)
-        .filter_map(|(state, demand)| Some((statement.state(state)?, demand.as_ref()?)))
-}
-
-/// The ground below a demand of the code.
-fn ground(demand: &Demand) -> Option<&GroundSpectrum> {
-    match demand {
-        Demand::Ground(ground) => Some(ground),
-        Demand::Floor(floor) => Some(floor.ground()),
-        Demand::Points(..) | Demand::Records(_) => None,
-    }
-}
-
-/// The spectrum of a floor of the building, if the demand is one.
-fn floor(demand: &Demand) -> Option<&FloorSpectrum> {
-    match demand {
-        Demand::Floor(floor) => Some(floor),
-        _ => None,
-    }
-}
+use crate::report::markup::{formula, or_dash, shown, table};
 
 /// A symbol with its source, its unit, and its number on the ground.
 type OfGround = (&'static str, &'static str, &'static str, fn(&GroundSpectrum) -> f64);
@@ -64,7 +38,7 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(case: &'a Checked<'_>) -> Self {
-        Self { states: checked(case).collect(), rows: Vec::new() }
+        Self { states: case.statement.demanded(&case.demands).collect(), rows: Vec::new() }
     }
 
     /// Adds a row: symbol, source, unit and values, unless no limit state has one.
@@ -85,7 +59,11 @@ impl<'a> Rows<'a> {
 }
 
 fn some(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), shown)
+    or_dash(value, shown)
+}
+
+fn each(values: impl Iterator<Item = f64>) -> String {
+    values.map(shown).collect::<Vec<_>>().join("; ")
 }
 
 /// The section of the site: its numbers, and the spectra of its ground.
@@ -93,10 +71,10 @@ pub(in crate::circolare) fn section(case: &Checked<'_>) -> Result<Vec<(String, S
     let mut rows = Rows::new(case);
     rows.row(["a_g", "[check]", "g"], |(given, _)| shown(given.ag));
     for (name, source, unit, value) in GROUND {
-        rows.row([name, source, unit], |(_, demand)| some(ground(demand).map(value)));
+        rows.row([name, source, unit], |(_, demand)| some(demand.ground().map(value)));
     }
     rows.row(["a_g S", "[3.2.2]", "m/s²"], |(_, demand)| {
-        some(ground(demand).map(|ground| ground.acceleration(0.0, 0.05)))
+        some(demand.ground().map(|ground| ground.acceleration(0.0, 0.05)))
     });
     Ok(vec![("Site hazard".to_owned(), ground_of(case) + &rows.table() + &of_ground(case)?)])
 }
@@ -105,29 +83,25 @@ pub(in crate::circolare) fn section(case: &Checked<'_>) -> Result<Vec<(String, S
 pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut rows = Rows::new(case);
     rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| shown(given.damping));
-    let each = |values: &[f64]| values.iter().copied().map(shown).collect::<Vec<_>>().join("; ");
-    let modes = |demand: &Demand, value: fn(&Mode) -> f64| {
-        let values = |floor: &FloorSpectrum| each(&floor.modes().iter().map(value).collect::<Vec<_>>());
-        floor(demand).map_or_else(|| "–".to_owned(), values)
+    let modes = |demand: &Demand, value: fn(&FloorSpectrum, &Mode) -> f64| {
+        let of = |floor: &FloorSpectrum| each(floor.modes().iter().map(|mode| value(floor, mode)));
+        demand.floor().map_or_else(|| "–".to_owned(), of)
     };
-    rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |mode| mode.period));
-    rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |mode| mode.participation));
-    rows.row(["ξ_k", "C8.7.1.2.1.4", ""], |(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
+    rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |_, mode| mode.period));
+    rows.row(["γ_k ψ_k", "C7.2.3", ""], |(_, demand)| modes(demand, |_, mode| mode.participation));
+    rows.row(["ξ_k", "C8.7.1.2.1.4", ""], |(_, demand)| some(demand.floor().map(FloorSpectrum::damping)));
     rows.row(["S_e(T_k, ξ_k)", "[3.2.2]", "m/s²"], |(_, demand)| {
-        let of = |floor: &FloorSpectrum| {
-            let at = |mode: &Mode| floor.ground().acceleration(mode.period, floor.damping());
-            each(&floor.modes().iter().map(at).collect::<Vec<_>>())
-        };
-        floor(demand).map_or_else(|| "–".to_owned(), of)
+        modes(demand, |floor, mode| floor.ground().acceleration(mode.period, floor.damping()))
     });
     rows.row(["a_Z,k = S_e(T_k, ξ_k) γ_k ψ_k √(1 + 4 ξ_k²)", "[C7.2.7]", "m/s²"], |(_, demand)| {
-        floor(demand).map_or_else(|| "–".to_owned(), |floor| each(floor.mode_accelerations()))
+        let accelerations = demand.floor().map(|floor| floor.mode_accelerations().iter().copied());
+        accelerations.map_or_else(|| "–".to_owned(), each)
     });
     rows.row(["a_Z = √(Σ a_Z,k²)", "[C7.2.8]", "m/s²"], |(_, demand)| {
-        some(floor(demand).map(FloorSpectrum::printed_peak))
+        some(demand.floor().map(FloorSpectrum::printed_peak))
     });
     rows.row(["A = 1.1 ξ_k^−0.5 η(ξ)", "[C7.2.9]", ""], |(given, demand)| {
-        some(floor(demand).map(|floor| floor.amplification(given.damping)))
+        some(demand.floor().map(|floor| floor.amplification(given.damping)))
     });
     Ok(place(case) + &rows.table() + &spectra_at_wall(case)?)
 }
@@ -157,9 +131,8 @@ fn place(case: &Checked<'_>) -> String {
     {
         let [period, ratio] = [*period, *ratio].map(shown);
         said.push(format!(
-            "Building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
+            "Building of {storeys} storeys with T_1 = {period} s, linear shape of its first mode, wall at \
              {} = {ratio}: {}, {} ([check] building, [C7.2.10]); {} and {} in [C7.2.6]",
-            formula("T_1"),
             formula("z/H"),
             formula("γ_1 = 3n/(2n + 1)"),
             formula("ψ_1 = z/H"),
@@ -208,8 +181,10 @@ fn last_period(case: &Checked<'_>) -> f64 {
 
 /// The spectra of the ground; empty where none is by the code.
 fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
-    let grounds: Vec<_> = checked(case)
-        .filter_map(|(given, demand)| Some((given.state, Demand::Ground(*ground(demand)?))))
+    let grounds: Vec<_> = case
+        .statement
+        .demanded(&case.demands)
+        .filter_map(|(given, demand)| Some((given.state, Demand::Ground(*demand.ground()?))))
         .collect();
     let damping = LimitState::Sld.damping();
     let drawn = grounds.iter().map(|(state, demand)| Drawn { state: *state, demand, damping, period: None });
@@ -225,7 +200,7 @@ fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
 fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     let periods = periods(case);
     // points of another damping have no value for a check that is not made
-    let drawn = checked(case).filter_map(|(given, demand)| {
+    let drawn = case.statement.demanded(&case.demands).filter_map(|(given, demand)| {
         let (state, damping) = (given.state, given.damping);
         Some(Drawn { state, demand, damping, period: Some(periods[state as usize]?) })
     });
@@ -233,7 +208,7 @@ fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     if drawn.is_empty() {
         return Ok(String::new());
     }
-    let is_of_code = checked(case).any(|(_, demand)| ground(demand).is_some());
+    let is_of_code = case.statement.demanded(&case.demands).any(|(_, demand)| demand.ground().is_some());
     let at_height = drawn.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
     let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
     let source = if is_of_code { source } else { "as given" };
@@ -251,7 +226,7 @@ fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
 fn key(drawn: &[Drawn<'_>], has_marks: bool) -> String {
     let one = |drawn: &Drawn<'_>| {
         let color = color(drawn.state);
-        let line = format!("<i class=\"chip line\" style=\"border-top:2px solid {color}\"></i>");
+        let line = stroke(color, "solid");
         let mark = if has_marks { sign(color, DEMAND) } else { String::new() };
         format!("<span>{line}{mark}{}, {} %</span>", drawn.state, shown(100.0 * drawn.damping))
     };

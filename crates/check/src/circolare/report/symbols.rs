@@ -4,11 +4,12 @@ use crate::report::markup::{formula, table};
 
 /// Symbols that no heading or row of a report explains, and what they mean; displacements are positive
 /// outwards.
-const SYMBOLS: [(&str, &str); 18] = [
+const SYMBOLS: [(&str, &str); 19] = [
     ("u", "displacement at mid-height of a parapet, at the hinge of a strip; u > 0: outwards"),
     ("u_ins", "u at which the wall overturns, hinges at the edges"),
     ("u_0, d_0", "u and d at which the force of the wall vanishes"),
     ("d, a", "spectral displacement and acceleration of the mechanism"),
+    ("S_a", "acceleration that a check of the activation demands"),
     ("d_y, a_y", "end of the elastic branch"),
     ("k_0", "slope of the line that falls to u_0"),
     ("h, b, l", "height, thickness and width of the wall"),

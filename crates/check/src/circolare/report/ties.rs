@@ -4,29 +4,21 @@ use std::f64::consts::{PI, TAU};
 
 use rocking_wall::wall::{Bar, Parameters, TiePart};
 
+use super::by_side;
 use super::spectrum::gives;
 use crate::circolare::tie::{TieState, anchors};
-use crate::circolare::{ActivationCheck, Checked, LARGEST_LOSS, SideVerdict, TieBreak};
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, shown as n, side_head, table};
+use crate::circolare::{Checked, LARGEST_LOSS, SideVerdict, TieBreak, TieNumbers};
+use crate::report::markup::{Calculation, kilonewtons, millimetres, or_dash, shown as n, table};
 
 /// The section, if the wall has a tie on a side to which it rocks.
 pub(super) fn section(case: &Checked<'_>) -> Option<String> {
-    let mut text = bar(case);
-    let is_held = case.sides().any(|(_, _, side)| side.tie.is_some());
-    for (name, _, side) in case.sides() {
-        if side.tie.is_none() {
-            continue;
-        }
-        if !case.outcome.alike {
-            text += &side_head(name);
-        }
-        text += &displacements(case, side);
-        text += &forces(case, side);
-        text += &required(case, side);
-    }
-    text +=
+    let of_sides = by_side(case, |_, side| {
+        let Some(tie) = side.tie else { return String::new() };
+        displacements(case, side, tie) + &forces(case, side) + &required(case, side)
+    });
+    let apart =
         "<p>The plate, the masonry around it and the connections are verified apart for these forces.</p>\n";
-    is_held.then_some(text)
+    (!of_sides.is_empty()).then(|| bar(case) + &of_sides + apart)
 }
 
 /// What the bar and its anchor make of the tie, for the width of the wall.
@@ -84,8 +76,7 @@ fn bar(case: &Checked<'_>) -> String {
 }
 
 /// Where the tie pulls, yields and breaks, what it does at the activation, and what its rupture takes.
-fn displacements(case: &Checked<'_>, side: &SideVerdict) -> String {
-    let Some(tie) = side.tie else { return String::new() };
+fn displacements(case: &Checked<'_>, side: &SideVerdict, tie: TieNumbers) -> String {
     let parameters = &case.parameters;
     let mut lines = Calculation::default();
     let [n_y, k] = [parameters.tie_strength, parameters.tie_stiffness].map(|value| n(1e-3 * value));
@@ -154,9 +145,9 @@ fn rupture(side: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
     lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
     let early = side.slv.is_some_and(|check| check.limited_by_tie);
     let decides = if early {
-        format!("more than {LARGEST_LOSS}, before 0.40 {}: {} is there", formula("d_0"), formula("d_SLV"))
+        format!("more than {LARGEST_LOSS}, before 0.40 d_0: d_SLV is there")
     } else {
-        format!("{} stays at 0.40 {}", formula("d_SLV"), formula("d_0"))
+        "d_SLV stays at 0.40 d_0".to_owned()
     };
     lines.say("Consequence", &decides);
 }
@@ -181,17 +172,21 @@ fn heads(case: &Checked<'_>, before: &[&'static str], after: &[&'static str]) ->
 fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
     let mut rows = Vec::new();
     let mut row = |place: String, d: Option<f64>, force: f64, state: &str| {
-        let d = d.map_or_else(|| "–".to_owned(), millimetres);
+        let d = or_dash(d, millimetres);
         rows.push([place, d, cells(case, force), state.to_owned()]);
     };
     if side.activation.force > 0.0 {
         row("Activation".to_owned(), None, side.activation.force, TieState::AtStrength.name());
     }
-    for (state, check) in [("SLV", side.slv), ("SLC", side.slc)] {
-        let Some((check, tie)) = check.and_then(|check| Some((check, check.tie?))) else { continue };
-        row(formula(&format!("d_{state}")), Some(check.d), tie.force, tie.state.name());
-        let demand = format!("Demand of {state}, {}", formula("S_d"));
-        row(demand, Some(check.demand), tie.force_at_demand, tie.state_at_demand.name());
+    for (state, check) in side.by_displacement() {
+        let Some(tie) = check.tie else { continue };
+        row(format!("d_{state}"), Some(check.d), tie.force, tie.state.name());
+        row(
+            format!("Demand of {state}, S_d"),
+            Some(check.demand),
+            tie.force_at_demand,
+            tie.state_at_demand.name(),
+        );
     }
     if case.parameters.tie_strength > 0.0 {
         row("Strength of the tie".to_owned(), None, case.parameters.tie_strength, "");
@@ -199,12 +194,12 @@ fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
     table(&heads(case, &["force of the tie, of anchor and bar", "d [mm]"], &["state"]), &rows)
 }
 
-/// The formula of the strength that brings `ζ_E` of a check at the activation to 1.
-fn required_by(case: &Checked<'_>, side: &SideVerdict) -> Calculation {
+/// The strength that brings `ζ_E` of the checks at the activation to 1, and `ζ_E` without the tie.
+fn required(case: &Checked<'_>, side: &SideVerdict) -> String {
     let (fc, q) = (case.statement.confidence_factor, case.statement.behaviour_factor);
     let Parameters { tie_height, height, gravity, .. } = case.parameters;
     let own = if side.t0 > 0.0 { ("a_y", side.ay) } else { ("a_0", side.a0) };
-    let mut lines = Calculation::default();
+    let (mut lines, mut rows) = (Calculation::default(), Vec::new());
     let all = [("SLD", side.sld, 1.0), ("SLV with q", side.slv_q, q)];
     for (name, check, factor) in all {
         let Some((check, force)) = check.and_then(|check| Some((check, check.required?))) else { continue };
@@ -225,21 +220,14 @@ fn required_by(case: &Checked<'_>, side: &SideVerdict) -> Calculation {
         // a tie that does not count here changes the period, and with it the demand
         let put = if gives(found, force) || found == force { put } else { String::new() };
         let divisor = if factor == 1.0 { "" } else { "/q" };
-        let left = format!("N = max[0; (FC S{divisor} − {}) (W + 2 r O) e*/(g 2 y/h)]", own.0);
+        let left = format!("N = max[0; (FC S_a{divisor} − {}) (W + 2 r O) e*/(g 2 y/h)]", own.0);
         let words = format!("Required force for ζ_E = 1, {name}");
         lines.line([&words, ""], [&left, &put], (1e-3 * force, "kN"));
+        rows.push([name.to_owned(), cells(case, force)]);
     }
-    lines
-}
-
-/// The strength that brings `ζ_E` of the checks at the activation to 1, and `ζ_E` without the tie.
-fn required(case: &Checked<'_>, side: &SideVerdict) -> String {
-    let checks: [(&str, Option<ActivationCheck>); 2] = [("SLD", side.sld), ("SLV with q", side.slv_q)];
-    let needed = checks.into_iter().filter_map(|(name, check)| Some((name, check?.required?)));
-    let rows: Vec<_> = needed.map(|(name, force)| [name.to_owned(), cells(case, force)]).collect();
     let mut text = String::new();
     if !rows.is_empty() {
-        text += &required_by(case, side).table();
+        text += &lines.table();
         text += &table(&heads(case, &["required force, at the activation"], &[]), &rows);
     }
     let Some(untied) = side.untied else { return text };
