@@ -136,6 +136,27 @@ impl Secant {
     }
 }
 
+/// Adds terms until a series leaves out no more than `most` of u/u₀ and of L u̇/u₀ over its length. Returns
+/// the order, and the time up to which it may go where the highest does not reach \[s\].
+fn reach<L: SecantLaw>(series: &mut Scaled<f64>, length: f64, most: f64) -> (usize, f64) {
+    series.extend_to_8::<L>();
+    if excess::<f64, 8>(series.last::<8>(), most) <= 0.0 {
+        return (8, length);
+    }
+    series.extend_to_10::<L>();
+    if excess::<f64, 10>(series.last::<10>(), most) <= 0.0 {
+        return (10, length);
+    }
+    series.extend_to_12::<L>();
+    if excess::<f64, 12>(series.last::<12>(), most) <= 0.0 {
+        return (12, length);
+    }
+    series.extend_to_16::<L>();
+    let last = series.last::<ORDER>();
+    let is_whole = excess::<f64, ORDER>(last, most) <= 0.0;
+    (ORDER, if is_whole { length } else { length * longest(last, most) })
+}
+
 fn series<L: SecantLaw>(
     branch: &SecantBranch<f64>,
     now: [f64; 2],
@@ -146,17 +167,7 @@ fn series<L: SecantLaw>(
     let (start, inverse) = branch.start::<L>(now, [p[0], p[1] - p[0]], length);
     let mut series = Scaled::new(start);
     let most = tolerances.over(inverse, length);
-    let (mut order, mut horizon) = (8, length);
-    series.extend_to_8::<L>();
-    if excess::<f64, 8>(series.last::<8>(), most) > 0.0 {
-        order = ORDER;
-        series.extend_to_10::<L>();
-        series.extend_to_12::<L>();
-        series.extend_to_16::<L>();
-        if excess::<f64, ORDER>(series.last::<ORDER>(), most) > 0.0 {
-            horizon = length * longest(series.last::<ORDER>(), most);
-        }
-    }
+    let (order, horizon) = reach::<L>(&mut series, length, most);
     let mut coefficients = [0.0; HIGHEST_ORDER + 1];
     let (mut scale, rate) = (now[0], 1.0 / length);
     for (coefficient, x) in coefficients.iter_mut().zip(&series.x[..=order]) {
