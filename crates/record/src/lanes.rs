@@ -51,6 +51,8 @@ pub(crate) struct Run {
     pub(crate) departed: bool,
     pub(crate) peaks: Peaks,
     pub(crate) tie: TieMemory,
+    /// Whether a tie has changed, so that the prepared steps are those of another wall.
+    pub(crate) is_stretched: bool,
     /// Bound f̂ on the force per mass while |u| stays within the reach of the block \[m/s²\].
     pub(crate) force: f64,
     pub(crate) overturning: Option<f64>,
