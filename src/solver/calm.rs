@@ -177,13 +177,12 @@ impl Motion {
                 }
                 Way::Series(secant) => {
                     let ends = [from, from + rate * step];
-                    let (series, horizon) = secant.series(start, ends, step, self.tolerances);
-                    if horizon < step {
+                    let Some([displacement, velocity]) = secant.end(start, ends, step, self.tolerances)
+                    else {
                         break;
-                    }
-                    let end = series.at(step);
-                    let acceleration = branch.acceleration(end.displacement, end.velocity, to);
-                    KinematicState { acceleration, ..end }
+                    };
+                    let acceleration = branch.acceleration(displacement, velocity, to);
+                    KinematicState { displacement, velocity, acceleration }
                 }
             };
             if !calm.holds(&end, acceleration) {
