@@ -42,6 +42,7 @@ impl Block {
 }
 
 /// The data of a run, except its motion, which is in [`Rows`].
+#[allow(clippy::struct_excessive_bools, reason = "independent marks of one run")]
 pub(crate) struct Run {
     pub(crate) block: Block,
     /// The sample at which this pass through the record ends.
