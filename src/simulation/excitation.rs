@@ -87,9 +87,9 @@ impl Excitation {
         stronger.unwrap_or(&self.bottom).warning()
     }
 
-    /// Returns the number of the sample at a time after the start \[s\], and the accelerations of both supports
-    /// from there on; `None` between samples, beyond the last, and for a motion that is not one record,
-    /// interpolated.
+    /// Returns the number of the sample at a time after the start \[s\], and the accelerations of both
+    /// supports from there on; `None` between samples, beyond the last, and for a motion that is not one
+    /// record, interpolated.
     pub(crate) fn samples_from(&self, elapsed: f64) -> Option<(usize, &[f64])> {
         if self.top.is_some() || self.drift.is_some() || self.held {
             return None;

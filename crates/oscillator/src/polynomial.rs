@@ -38,8 +38,8 @@ impl Polynomial {
     /// Evaluates the motion at a time \[s\].
     #[inline]
     pub fn at(&self, time: f64) -> KinematicState {
-        // two terms at a time, p = q t² + c₁ t + c₀ and its derivatives: the chain of operations that wait for
-        // each other is half as long
+        // two terms at a time, p = q t² + c₁ t + c₀ and its derivatives: the chain of operations that wait
+        // for each other is half as long
         let (pairs, last) = self.used().as_chunks::<2>();
         let (square, double) = (time * time, 2.0 * time);
         let (mut velocity, mut half_acceleration) = (0.0, 0.0);
