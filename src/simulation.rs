@@ -7,7 +7,7 @@ mod outputs;
 use std::sync::Arc;
 
 use crate::choices::Mechanism;
-use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, State, Work};
+use crate::solver::{Demands, Memo, Method, Motion, Phase, Samples, Segment, SolverError, State, Work};
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall, Warning};
 
 pub use events::Handled;
@@ -79,6 +79,8 @@ pub enum RunError {
 
 /// Most segments in one step.
 const MOST_SEGMENTS: usize = 2_000_000;
+/// Fewest steps among which calm ones are looked for: the ranges of these cost as much as a few steps.
+const FEWEST_CALM: f64 = 8.0;
 
 impl Simulation {
     /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. The tighter of
@@ -161,28 +163,69 @@ impl Simulation {
         self.add_segment(segment, Some(demands), &mut step).map(|()| step)
     }
 
-    /// Moves the wall through the segments of a step, and adds their demands to `demands`. `next` receives
-    /// the present time and the length of the step that is done \[s\]. It returns the next segment and the
-    /// length that is left \[s\].
+    /// Moves the wall through the segments of a step. `next` receives the present time and the length of the
+    /// step that is done \[s\]. It returns the next segment and the length that is left \[s\].
     ///
     /// # Errors
     /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
     pub fn advance_through(
         &mut self,
         mut next: impl FnMut(f64, f64) -> (Segment, f64),
+    ) -> Result<Step, RunError> {
+        self.advance_by(|simulation, _, done| next(simulation.progress.time, done), None)
+    }
+
+    /// Moves the wall to a time \[s\] under a motion of its supports, or without one, and adds its demands to
+    /// `demands`. Steps of a record in which nothing happens are passed many at once.
+    ///
+    /// ```
+    /// use rocking_wall::simulation::Simulation;
+    /// use rocking_wall::wall::{Parameters, Support};
+    ///
+    /// // free vibration from rest for 3 s
+    /// let mut simulation = Simulation::new(&Parameters::default(), None, 0.0, Support::default())?;
+    /// simulation.advance_to(3.0, None, None)?;
+    /// assert_eq!(simulation.progress().time, 3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
+    pub fn advance_to(
+        &mut self,
+        end: f64,
+        motion: Option<&Excitation>,
+        demands: Option<&mut Demands>,
+    ) -> Result<Step, RunError> {
+        let next = |simulation: &mut Self, demands: Option<&mut Demands>, _| {
+            if let (Some(motion), Some(demands)) = (motion, demands) {
+                simulation.pass_calm_steps(end, motion, demands);
+            }
+            let now = simulation.progress.time;
+            (segment_of(motion, now, end - now), end - now)
+        };
+        let step = self.advance_by(next, demands)?;
+        self.set_time(end);
+        Ok(step)
+    }
+
+    /// Moves the wall through the segments that `next` returns, with the length of the step that is left.
+    fn advance_by(
+        &mut self,
+        mut next: impl FnMut(&mut Self, Option<&mut Demands>, f64) -> (Segment, f64),
         mut demands: Option<&mut Demands>,
     ) -> Result<Step, RunError> {
         let (mut whole, mut done) = (Step::default(), 0.0);
         let (before, limit) = (self.progress.work.pieces, self.first.most_pieces());
         for _ in 0..MOST_SEGMENTS {
-            let time = self.progress.time;
             if self.progress.work.pieces - before > limit {
-                return Err(RunError::TooManyPieces { time, limit });
+                return Err(RunError::TooManyPieces { time: self.progress.time, limit });
             }
-            let (segment, remaining) = next(time, done);
+            let (segment, remaining) = next(self, demands.as_deref_mut(), done);
             if remaining <= 0.0 {
                 return Ok(whole);
             }
+            let time = self.progress.time;
             let moved = self.add_segment(&segment, demands.as_deref_mut(), &mut whole);
             moved.map_err(|source| RunError::Solver { time, source })?;
             done += segment.duration;
@@ -191,6 +234,26 @@ impl Simulation {
             }
         }
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
+    }
+
+    /// Passes the steps of a record that are calm, up to the last one before a time \[s\].
+    fn pass_calm_steps(&mut self, end: f64, motion: &Excitation, demands: &Demands) {
+        let time = self.progress.time;
+        let step = motion.bottom().step();
+        if end - time < FEWEST_CALM * step || self.progress.drift {
+            return;
+        }
+        let Some((first, accelerations)) = motion.samples_from(time) else { return };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "steps of a record")]
+        let count = (((end - time) / step) as usize).min(accelerations.len());
+        let samples = Samples { accelerations: &accelerations[..count], step };
+        let Progress { state, work, .. } = &mut self.progress;
+        let moves = state.phase == Phase::Moving;
+        let passed = self.first.pass_calm_steps(state, samples, &mut self.memo, demands);
+        work.pieces += if moves { passed as u64 } else { 0 };
+        if passed > 0 {
+            self.progress.time = (first + passed) as f64 * step;
+        }
     }
 
     /// Moves the wall through a segment, and adds what happens in it to `step`.

@@ -161,7 +161,7 @@ impl Unit {
             let (from, to) = (inputs.support(own.from, done), inputs.support(own.to, done + own.duration));
             (Segment { duration: own.duration, from, to }, remaining)
         };
-        self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
+        self.simulation.advance_through(next).map_err(|error| error.to_string().into())
     }
 
     /// Returns the length of the step up to just after overturning \[s\]; `None` where the wall does not

@@ -87,6 +87,20 @@ impl Excitation {
         stronger.unwrap_or(&self.bottom).warning()
     }
 
+    /// Returns the number of the sample at a time after the start \[s\], and the accelerations of both
+    /// supports from there on; `None` between samples, beyond the last, and for a motion that is not one
+    /// record, interpolated.
+    pub(crate) fn samples_from(&self, elapsed: f64) -> Option<(usize, &[f64])> {
+        if self.top.is_some() || self.drift.is_some() || self.held {
+            return None;
+        }
+        let Place { steps, before, .. } = Place::of(&self.bottom, elapsed);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 0 it is 0")]
+        let first = before as usize;
+        let samples = self.bottom.samples().get(first..)?;
+        ((steps - first as f64).abs() <= SAMPLE_ROUNDING && !samples.is_empty()).then_some((first, samples))
+    }
+
     fn records(&self) -> impl Iterator<Item = &GroundMotion> {
         [Some(&self.bottom), self.top.as_ref(), self.drift.as_ref()].into_iter().flatten()
     }
@@ -213,6 +227,27 @@ mod tests {
                 assert!((found - wanted).abs() <= 4e-15, "sample {index}: {found} for {wanted}");
             }
         }
+    }
+
+    /// The samples of one interpolated record are known from each of them on, with the rounding of a clock.
+    #[test]
+    fn samples_begin_at_samples() {
+        let record = GroundMotion::new(0.02, vec![0.3, 0.7, -0.5, 0.1]).unwrap();
+        let motion = Excitation::new(record.clone(), None);
+        assert_eq!(motion.samples_from(0.0), Some((0, record.samples())));
+        for rounded in [-1e-16, 0.0, 1e-16] {
+            assert_eq!(motion.samples_from(0.04 + rounded), Some((2, &record.samples()[2..])));
+        }
+        assert_eq!(motion.samples_from(0.06), Some((3, &record.samples()[3..])));
+        for between in [-0.02, 0.01, 0.039, 0.041, 0.08, 9.0] {
+            assert_eq!(motion.samples_from(between), None, "{between}");
+        }
+        let others = [
+            motion.clone().held(),
+            motion.clone().with_drift(record.clone()),
+            Excitation::new(record.clone(), Some(record)),
+        ];
+        assert!(others.iter().all(|other| other.samples_from(0.0).is_none()));
     }
 
     /// A reversed motion has all signs reversed, and lasts as long.

@@ -156,8 +156,13 @@ impl<'a> Series<'a> {
         tolerances: Tolerances,
     ) -> Self {
         let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
-        let (polynomial, horizon) = secant.series(now, ends, remaining, tolerances);
-        Self::of(polynomial, horizon, Some(Law { branch, forcing }))
+        let (polynomial, horizon, end) = secant.series(now, ends, remaining, tolerances);
+        let mut series = Self::of(polynomial, horizon, Some(Law { branch, forcing }));
+        // that of a calm step
+        if let Some([displacement, velocity]) = end {
+            series.end = KinematicState { displacement, velocity, ..series.end };
+        }
+        series
     }
 
     /// Makes the cubic motion with a constant d³u/dt³.

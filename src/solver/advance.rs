@@ -181,7 +181,7 @@ impl Motion {
         let corners = [branch.lower, branch.upper];
         let goes_on = match event::settle([start, end], duration, most, corners, peaks) {
             Shape::Quiet => true,
-            Shape::Monotone => (branch.lower..=branch.upper).contains(&end.displacement),
+            Shape::Monotone | Shape::Back => (branch.lower..=branch.upper).contains(&end.displacement),
             Shape::Turning | Shape::Split => false,
         };
         // if the motion has overflowed, a run reports where

@@ -4,8 +4,11 @@ use oscillator::KinematicState;
 
 use super::state::Peaks;
 
+mod root;
 #[cfg(test)]
 pub(super) mod tests;
+
+use root::{Node, Trial, parabola, root};
 
 /// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
@@ -63,14 +66,6 @@ pub(super) struct SearchExhausted;
 const DEEPEST: u32 = 48;
 /// Most intervals of one search.
 const MOST_INTERVALS: u32 = 1 << 20;
-/// Most Newton steps and bisections of one root. 64 bisections alone reach the resolution of a double.
-const ROOT_STEPS: u32 = 128;
-
-#[derive(Clone, Copy)]
-struct Node {
-    time: f64,
-    motion: KinematicState,
-}
 
 /// Follows a piece to its horizon, or to the first time u passes `bounds` = \[lower, upper\]. Raises `peaks`
 /// to the extremes of u on the way.
@@ -126,6 +121,8 @@ pub(super) enum Shape {
     Monotone,
     /// u̇ changes its sign once.
     Turning,
+    /// As `Turning`, where the turn is no new peak and the bound ahead of it is not reached.
+    Back,
     /// Too long to decide.
     Split,
 }
@@ -156,6 +153,8 @@ pub(super) fn settle(
     let (a0, a1) = (from.acceleration, to.acceleration);
     let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
     match (steady, apart) {
+        (true, true) if v0 > 0.0 && highest <= upper.min(peaks.positive) => Shape::Back,
+        (true, true) if v0 < 0.0 && lowest >= lower.max(-peaks.negative) => Shape::Back,
         (true, true) => Shape::Turning,
         (true, false) => Shape::Monotone,
         (false, _) => Shape::Split,
@@ -216,7 +215,12 @@ impl<P: Piece> Search<'_, P> {
                     return Some(Ending::Exit(exit));
                 }
             }
-            Shape::Turning => {
+            Shape::Back if self.outwards == 0.0 => {
+                if let Some(exit) = self.after_turn(left, right) {
+                    return Some(Ending::Exit(exit));
+                }
+            }
+            Shape::Turning | Shape::Back => {
                 let turn = self.turning_point(left, right);
                 if let Some(exit) = self.monotone(left, turn) {
                     return Some(Ending::Exit(exit));
@@ -270,22 +274,40 @@ impl<P: Piece> Search<'_, P> {
 
     /// Returns the exit in an interval over which u is monotone.
     fn monotone(&self, left: Node, right: Node) -> Option<Exit> {
-        let [lower, upper] = self.bounds;
         let upwards = left.motion.velocity + right.motion.velocity > 0.0;
-        let bound = if upwards { upper } else { lower };
-        let end = right.motion.displacement;
-        let leaves = if upwards { end > upper } else { end < lower };
-        if !leaves {
-            return None;
-        }
-        if left.motion.displacement == bound {
-            return Some(Exit { time: left.time, velocity: left.motion.velocity, upwards });
-        }
+        let bound = self.passed(right, upwards)?;
         let KinematicState { displacement, velocity, acceleration } = left.motion;
+        if displacement == bound {
+            return Some(Exit { time: left.time, velocity, upwards });
+        }
         // by constant ü; at a turning point rounding may give u̇ the wrong sign, but the root is ahead
-        let guess = left.time + parabola([displacement - bound, velocity, acceleration]).abs();
+        let guess = parabola([displacement - bound, velocity, acceleration]).abs();
+        Some(self.exit([left, right], guess, upwards))
+    }
+
+    /// Returns the exit in an interval in which u turns once before.
+    fn after_turn(&self, left: Node, right: Node) -> Option<Exit> {
+        let upwards = right.motion.velocity > 0.0;
+        let bound = self.passed(right, upwards)?;
+        let KinematicState { displacement, velocity, acceleration } = left.motion;
+        // by constant ü the later root, whose terms have one sign
+        let square = velocity * velocity - 2.0 * acceleration * (displacement - bound);
+        let guess = (velocity.abs() + square.max(0.0).sqrt()) / acceleration.abs();
+        Some(self.exit([left, right], guess, upwards))
+    }
+
+    /// Returns the bound in a direction, if u is beyond it.
+    fn passed(&self, node: Node, upwards: bool) -> Option<f64> {
+        let [lower, upper] = self.bounds;
+        let u = node.motion.displacement;
+        if upwards { (u > upper).then_some(upper) } else { (u < lower).then_some(lower) }
+    }
+
+    /// Finds the one exit in an interval, from a guess of the time after its start.
+    fn exit(&self, [left, right]: [Node; 2], guess: f64, upwards: bool) -> Exit {
+        let bound = self.bounds[usize::from(upwards)];
         let jerk = self.piece.bounds(left.motion, right.time - left.time).1;
-        let exit = root([left.time, right.time], guess, upwards, |time| {
+        let exit = root([left.time, right.time], left.time + guess, upwards, |time| {
             let motion = self.piece.at(time);
             let KinematicState { displacement, velocity, acceleration } = motion;
             let value = displacement - bound;
@@ -296,82 +318,12 @@ impl<P: Piece> Search<'_, P> {
             let settled = 0.5 * jerk * step * step <= 0.25 * f64::EPSILON * velocity.abs();
             Trial { value, step, settled, node: Node { time, motion } }
         });
-        Some(Exit { time: exit.time, velocity: exit.motion.velocity, upwards })
+        Exit { time: exit.time, velocity: exit.motion.velocity, upwards }
     }
-}
-
-/// The result of one evaluation in the search for a root.
-struct Trial {
-    value: f64,
-    /// Step to the root.
-    step: f64,
-    /// The error after that step is small enough for it to be the last.
-    settled: bool,
-    node: Node,
-}
-
-/// Returns the step to the zero of a parabola with `[value, slope, curvature]`, in the direction of Newton's
-/// step.
-fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
-    let discriminant = slope * slope - 2.0 * curvature * value;
-    if discriminant >= 0.0 {
-        // of the two forms of the root, take the one without cancellation
-        -2.0 * value / (slope + slope.signum() * discriminant.sqrt())
-    } else {
-        -value / slope
-    }
-}
-
-/// Finds a root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection.
-/// `rising` says that the value is negative at the low end. The last step is made along the motion, by
-/// constant ü, without another evaluation.
-fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Trial) -> Node {
-    let [mut low, mut high] = bracket;
-    let mut last_step = high - low;
-    let time = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
-    let mut now = trial(time);
-    for _ in 0..ROOT_STEPS {
-        let time = now.node.time;
-        if now.value == 0.0 {
-            break;
-        }
-        if (now.value < 0.0) == rising {
-            low = time;
-        } else {
-            high = time;
-        }
-        let ahead = time + now.step;
-        let inside = ahead >= low && ahead <= high;
-        if now.settled && inside {
-            return now.node.shifted(now.step);
-        }
-        if high - low <= f64::EPSILON * high {
-            break;
-        }
-        // bisect where a step leaves the bracket or does not shrink
-        let next = if inside && now.step.abs() < 0.75 * last_step.abs() { ahead } else { 0.5 * (low + high) };
-        last_step = next - time;
-        if next == time {
-            break;
-        }
-        now = trial(next);
-    }
-    now.node
 }
 
 impl Node {
     fn turn(self, velocity: f64) -> Ending {
         Ending::Turn { time: self.time, displacement: self.motion.displacement, velocity }
-    }
-
-    /// Returns the motion a small step later, by constant ü.
-    fn shifted(self, step: f64) -> Self {
-        let KinematicState { displacement, velocity, acceleration } = self.motion;
-        let motion = KinematicState {
-            displacement: displacement + step * (velocity + 0.5 * step * acceleration),
-            velocity: velocity + step * acceleration,
-            acceleration,
-        };
-        Self { time: self.time + step, motion }
     }
 }

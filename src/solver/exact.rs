@@ -87,10 +87,6 @@ impl Piece for ClosedForm<'_> {
     fn at(&self, time: f64) -> KinematicState {
         match self.end {
             Some(end) if time == self.horizon => end,
-            _ if time == self.horizon => self
-                .oscillator
-                .series_at(self.start, self.forcing_rate, time)
-                .unwrap_or_else(|| self.oscillator.propagate(self.start, self.forcing_rate, time)),
             _ => match self.series() {
                 Some(series) => series.at(time),
                 None => self.oscillator.propagate(self.start, self.forcing_rate, time),

@@ -6,6 +6,7 @@
 
 mod adaptive;
 mod advance;
+mod calm;
 mod demand;
 mod event;
 mod exact;
@@ -21,6 +22,7 @@ mod transition;
 mod trigonometric;
 mod watch;
 
+pub(crate) use calm::Samples;
 pub use demand::{Crossing, Demands, Extremes, Instant, TieDemands, Yielding};
 pub use indicators::INDICATORS;
 pub use memo::Memo;

@@ -120,51 +120,105 @@ impl Secant {
         branch
     }
 
-    /// Returns the motion from u and u̇ on, under a forcing from p₀ to p₁ over a length, and the time up to
-    /// which it is within the tolerances.
+    /// Returns the motion from u and u̇ on, under a forcing from p₀ to p₁ over a length, the time up to which
+    /// it is within the tolerances, and u and u̇ at the end of the length if that is all of it.
     pub(super) fn series(
         &self,
         now: [f64; 2],
         p: [f64; 2],
         length: f64,
         tolerances: Tolerances,
-    ) -> (Polynomial, f64) {
+    ) -> (Polynomial, f64, Option<[f64; 2]>) {
+        let reach = self.reach(now, p, length, tolerances);
+        (reach.polynomial(now, length), reach.horizon, reach.end(now, length))
+    }
+
+    /// Returns u and u̇ at the end of the length; `None` where the series does not reach it.
+    pub(super) fn end(
+        &self,
+        now: [f64; 2],
+        p: [f64; 2],
+        length: f64,
+        tolerances: Tolerances,
+    ) -> Option<[f64; 2]> {
+        self.reach(now, p, length, tolerances).end(now, length)
+    }
+
+    #[inline(always)]
+    fn reach(&self, now: [f64; 2], p: [f64; 2], length: f64, tolerances: Tolerances) -> Reach {
         match self {
-            Self::Ratio(branch) => series::<ByRatio>(branch, now, p, length, tolerances),
-            Self::Stiffness(branch) => series::<ByStiffness>(branch, now, p, length, tolerances),
+            Self::Ratio(branch) => Reach::new::<ByRatio>(branch, now, p, length, tolerances),
+            Self::Stiffness(branch) => Reach::new::<ByStiffness>(branch, now, p, length, tolerances),
         }
     }
 }
 
-fn series<L: SecantLaw>(
-    branch: &SecantBranch<f64>,
-    now: [f64; 2],
-    p: [f64; 2],
-    length: f64,
-    tolerances: Tolerances,
-) -> (Polynomial, f64) {
-    let (start, inverse) = branch.start::<L>(now, [p[0], p[1] - p[0]], length);
-    let mut series = Scaled::new(start);
-    let most = tolerances.over(inverse, length);
-    let (mut order, mut horizon) = (8, length);
-    series.extend_to_8::<L>();
-    if excess::<f64, 8>(series.last::<8>(), most) > 0.0 {
-        order = ORDER;
-        series.extend_to_10::<L>();
-        series.extend_to_12::<L>();
-        series.extend_to_16::<L>();
-        if excess::<f64, ORDER>(series.last::<ORDER>(), most) > 0.0 {
-            horizon = length * longest(series.last::<ORDER>(), most);
+/// A series with as many terms as it takes, and the time up to which it is within the tolerances \[s\].
+struct Reach {
+    series: Scaled<f64>,
+    order: usize,
+    horizon: f64,
+}
+
+impl Reach {
+    #[inline(always)]
+    fn new<L: SecantLaw>(
+        branch: &SecantBranch<f64>,
+        now: [f64; 2],
+        p: [f64; 2],
+        length: f64,
+        tolerances: Tolerances,
+    ) -> Self {
+        let (start, inverse) = branch.start::<L>(now, [p[0], p[1] - p[0]], length);
+        let (mut series, most) = (Scaled::new(start), tolerances.over(inverse, length));
+        let (order, horizon) = extend::<L>(&mut series, length, most);
+        Self { series, order, horizon }
+    }
+
+    #[inline(always)]
+    fn polynomial(&self, now: [f64; 2], length: f64) -> Polynomial {
+        let mut coefficients = [0.0; HIGHEST_ORDER + 1];
+        let (mut scale, rate) = (now[0], 1.0 / length);
+        for (coefficient, x) in coefficients.iter_mut().zip(&self.series.x[..=self.order]) {
+            *coefficient = scale * x;
+            scale *= rate;
         }
+        coefficients[1] = now[1];
+        Polynomial { coefficients, order: self.order }
     }
-    let mut coefficients = [0.0; HIGHEST_ORDER + 1];
-    let (mut scale, rate) = (now[0], 1.0 / length);
-    for (coefficient, x) in coefficients.iter_mut().zip(&series.x[..=order]) {
-        *coefficient = scale * x;
-        scale *= rate;
+
+    #[inline(always)]
+    fn end(&self, [u, _]: [f64; 2], length: f64) -> Option<[f64; 2]> {
+        let [rise, velocity] = match self.order {
+            8 => self.series.end::<8>(),
+            10 => self.series.end::<10>(),
+            12 => self.series.end::<12>(),
+            _ => self.series.end::<ORDER>(),
+        };
+        (self.horizon == length).then(|| [u + u * rise, u / length * velocity])
     }
-    coefficients[1] = now[1];
-    (Polynomial { coefficients, order }, horizon)
+}
+
+/// Adds terms until a series leaves out no more than `most` of u/u₀ and of L u̇/u₀ over its length. Returns
+/// the order, and the time up to which it may go where the highest does not reach \[s\].
+#[inline(always)]
+fn extend<L: SecantLaw>(series: &mut Scaled<f64>, length: f64, most: f64) -> (usize, f64) {
+    series.extend_to_8::<L>();
+    if excess::<f64, 8>(series.last::<8>(), most) <= 0.0 {
+        return (8, length);
+    }
+    series.extend_to_10::<L>();
+    if excess::<f64, 10>(series.last::<10>(), most) <= 0.0 {
+        return (10, length);
+    }
+    series.extend_to_12::<L>();
+    if excess::<f64, 12>(series.last::<12>(), most) <= 0.0 {
+        return (12, length);
+    }
+    series.extend_to_16::<L>();
+    let last = series.last::<ORDER>();
+    let is_whole = excess::<f64, ORDER>(last, most) <= 0.0;
+    (ORDER, if is_whole { length } else { length * longest(last, most) })
 }
 
 #[cfg(test)]
@@ -187,7 +241,7 @@ mod tests {
             let mut time = 0.0;
             while time < length {
                 let ends = [forcing(time), forcing(length)];
-                let (polynomial, horizon) = branch.series(now, ends, length - time, most);
+                let (polynomial, horizon, _) = branch.series(now, ends, length - time, most);
                 assert!(horizon > 0.0 && horizon <= length - time, "{horizon} of {}", length - time);
                 count += 1;
                 let there = polynomial.at(horizon);

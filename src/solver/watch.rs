@@ -68,8 +68,7 @@ impl Watch<'_> {
             return true;
         }
         let length = self.segment.duration;
-        let (share, times) = (0.125 * length * length, [self.time, self.time + length]);
-        let sag = share * most_acceleration;
+        let sag = 0.125 * length * length * most_acceleration;
         // no half cycle begins or ends
         let is_counted = match (self.demands.excursion, branch.is_elastic()) {
             (None, is_elastic) => is_elastic,
@@ -81,14 +80,31 @@ impl Watch<'_> {
         if !is_counted || self.reaches(to.displacement) {
             return false;
         }
+        let supports = [self.segment.from, self.segment.to];
+        self.include_extremes([from, to], supports, [0.0, length], (most_acceleration, most_jerk), most_snap)
+    }
+
+    /// Includes the extremes of a motion by its ends, which it reaches `from` after the start of the segment
+    /// and a length of time later \[s\]. Returns `false` where some have to be searched; others may have been
+    /// included by then.
+    #[inline]
+    fn include_extremes(
+        &mut self,
+        [start, end]: [KinematicState; 2],
+        supports: [Support; 2],
+        [from, length]: [f64; 2],
+        (most_acceleration, most_jerk): (f64, f64),
+        most_snap: f64,
+    ) -> bool {
+        let (share, times) = (0.125 * length * length, [self.time + from, self.time + (from + length)]);
         let [by_a, by_u] = self.slopes();
-        let reactions = [self.reactions(self.segment.from, &from), self.reactions(self.segment.to, &to)];
+        let reactions = [self.reactions(supports[0], &start), self.reactions(supports[1], &end)];
         let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_snap);
         let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
             &mut *self.demands;
-        displacement.include_ends([from.displacement, to.displacement], sag, times)
-            && velocity.include_ends([from.velocity, to.velocity], share * most_jerk, times)
-            && acceleration.include_ends([from.acceleration, to.acceleration], share * most_snap, times)
+        displacement.include_ends([start.displacement, end.displacement], share * most_acceleration, times)
+            && velocity.include_ends([start.velocity, end.velocity], share * most_jerk, times)
+            && acceleration.include_ends([start.acceleration, end.acceleration], share * most_snap, times)
             && reaction_bottom.include_ends(
                 reactions.map(|ends| ends.bottom),
                 above(by_a.bottom, by_u.bottom),
@@ -133,6 +149,16 @@ impl Watch<'_> {
     pub(super) fn piece<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let &Followed { piece, length, from, .. } = followed;
         let search = ExtremeSearch::new(piece, length, [self.time, from]);
+        let supports = [from, from + length].map(|offset| self.segment.support(offset));
+        if !self.include_extremes(search.ends, supports, [from, length], search.bounds, search.snap) {
+            self.search(&search)?;
+        }
+        self.cross(followed)?;
+        self.count(followed)
+    }
+
+    /// Searches a piece for the extremes that its ends do not show.
+    fn search<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
         let (acceleration, jerk) = search.bounds;
         let demands = &mut *self.demands;
         let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
@@ -145,9 +171,7 @@ impl Watch<'_> {
             let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: || search.largest(pick) })?;
         }
-        self.forces(&search)?;
-        self.cross(followed)?;
-        self.count(followed)
+        self.forces(search)
     }
 
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.

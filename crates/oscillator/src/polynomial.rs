@@ -38,11 +38,16 @@ impl Polynomial {
     /// Evaluates the motion at a time \[s\].
     #[inline]
     pub fn at(&self, time: f64) -> KinematicState {
-        let (mut displacement, mut velocity, mut half_acceleration) = (0.0, 0.0, 0.0);
-        for &coefficient in self.used().iter().rev() {
-            half_acceleration = half_acceleration * time + velocity;
-            velocity = velocity * time + displacement;
-            displacement = displacement * time + coefficient;
+        // two terms at a time, p = q t² + c₁ t + c₀ and its derivatives: the chain of operations that wait
+        // for each other is half as long
+        let (pairs, last) = self.used().as_chunks::<2>();
+        let (square, double) = (time * time, 2.0 * time);
+        let (mut velocity, mut half_acceleration) = (0.0, 0.0);
+        let mut displacement = last.first().copied().unwrap_or(0.0);
+        for &[even, odd] in pairs.iter().rev() {
+            half_acceleration = half_acceleration * square + (double * velocity + displacement);
+            velocity = velocity * square + (double * displacement + odd);
+            displacement = displacement * square + (odd * time + even);
         }
         KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }

@@ -1,6 +1,7 @@
 //! The forcing of a run: samples of a record, in blocks that share a bound.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use crate::batch::Vectors;
 use crate::responses::Responses;
@@ -82,10 +83,11 @@ pub struct Blocks<'a> {
     pub(crate) forcing: Forcing<'a>,
     /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
     largest: Vec<f64>,
-    /// Sum of |p| from the start of each block to the end of the record \[m/s²\].
-    rest: Vec<f64>,
-    /// The last [`AHEAD`] samples, and after them zeros.
-    tail: Vec<f64>,
+    /// Sum of |p| from the start of each block to the end of the record \[m/s²\], for runs that may end at
+    /// their peaks.
+    rest: OnceLock<Vec<f64>>,
+    /// The last [`AHEAD`] samples, and after them zeros, for runs side by side.
+    tail: OnceLock<Vec<f64>>,
     /// The responses of a wall whose many runs go by them.
     pub(crate) responses: Option<Responses<'a>>,
 }
@@ -95,19 +97,8 @@ impl<'a> Blocks<'a> {
     pub fn new(forcing: Forcing<'a>) -> Self {
         let last = forcing.count().saturating_sub(1);
         let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + MOST_AT_ONCE - 1).min(last) + 1;
-        let largest: Vec<f64> = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
-        let (mut rest, mut sum, mut end) = (vec![0.0; largest.len()], 0.0, forcing.count());
-        for (block, rest) in rest.iter_mut().enumerate().rev() {
-            sum += forcing.sum(block * BLOCK..end);
-            (*rest, end) = (sum, block * BLOCK);
-        }
-        let Forcing::Samples(samples) = forcing else {
-            return Self { forcing, largest, rest, tail: Vec::new(), responses: None };
-        };
-        let mut tail = vec![0.0; 2 * AHEAD];
-        let known = samples.len().min(AHEAD);
-        tail[AHEAD - known..AHEAD].copy_from_slice(&samples[samples.len() - known..]);
-        Self { forcing, largest, rest, tail, responses: None }
+        let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
+        Self { forcing, largest, rest: OnceLock::new(), tail: OnceLock::new(), responses: None }
     }
 
     /// Prepares a forcing for many runs of one wall. The response of the wall's branches to the record is
@@ -132,7 +123,9 @@ impl<'a> Blocks<'a> {
     pub(crate) fn ahead(&self, index: usize) -> &[f64; AHEAD] {
         let (ahead, count) = (index + AHEAD, self.forcing.count());
         let samples = match self.forcing {
-            Forcing::Samples(_) if ahead > count => &self.tail[ahead - count..],
+            Forcing::Samples(samples) if ahead > count => {
+                &self.tail.get_or_init(|| tail(samples))[ahead - count..]
+            }
             Forcing::Samples(samples) => &samples[index..],
             Forcing::Still(_) => &STILL,
         };
@@ -152,8 +145,26 @@ impl<'a> Blocks<'a> {
     /// Returns the sum of |p| from the start of the block of a sample on \[m/s²\]. Times the step it bounds
     /// the integral of |p| from the sample on, since p is linear between samples.
     pub(crate) fn rest(&self, index: usize) -> f64 {
-        self.rest.get(index / BLOCK).copied().unwrap_or(0.0)
+        let rest = self.rest.get_or_init(|| sums_of_rests(self.forcing, self.largest.len()));
+        rest.get(index / BLOCK).copied().unwrap_or(0.0)
     }
+}
+
+/// Returns the sum of |p| from the start of each block to the end of a record \[m/s²\].
+fn sums_of_rests(forcing: Forcing<'_>, blocks: usize) -> Vec<f64> {
+    let (mut rests, mut sum, mut end) = (vec![0.0; blocks], 0.0, forcing.count());
+    for (block, rest) in rests.iter_mut().enumerate().rev() {
+        sum += forcing.sum(block * BLOCK..end);
+        (*rest, end) = (sum, block * BLOCK);
+    }
+    rests
+}
+
+/// Returns the last [`AHEAD`] samples of a record, or zeros before a shorter one, and zeros after them.
+fn tail(samples: &[f64]) -> Vec<f64> {
+    let (mut tail, known) = (vec![0.0; 2 * AHEAD], samples.len().min(AHEAD));
+    tail[AHEAD - known..AHEAD].copy_from_slice(&samples[samples.len() - known..]);
+    tail
 }
 
 #[cfg(test)]

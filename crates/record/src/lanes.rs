@@ -42,6 +42,7 @@ impl Block {
 }
 
 /// The data of a run, except its motion, which is in [`Rows`].
+#[allow(clippy::struct_excessive_bools, reason = "independent marks of one run")]
 pub(crate) struct Run {
     pub(crate) block: Block,
     /// The sample at which this pass through the record ends.
@@ -51,6 +52,8 @@ pub(crate) struct Run {
     pub(crate) departed: bool,
     pub(crate) peaks: Peaks,
     pub(crate) tie: TieMemory,
+    /// Whether a tie has changed, so that the prepared steps are those of another wall.
+    pub(crate) is_stretched: bool,
     /// Bound f̂ on the force per mass while |u| stays within the reach of the block \[m/s²\].
     pub(crate) force: f64,
     pub(crate) overturning: Option<f64>,

@@ -109,6 +109,7 @@ impl<O: Observer> Lanes<'_, O> {
             departed,
             peaks,
             tie,
+            is_stretched: tie != *self.given[number].solver.motion.wall().tie_memory(),
             force: 0.0,
             overturning: self.outcomes[number].overturning,
             searched: Work::default(),
@@ -167,13 +168,12 @@ impl<O: Observer> Lanes<'_, O> {
         false
     }
 
-    /// Returns how the run of a lane takes steps. Once a tie has changed, the prepared steps are those of
-    /// another wall.
+    /// Returns how the run of a lane takes steps.
     #[inline(always)]
     fn stepping(&self, lane: usize) -> Stepping {
         let run = &self.runs[lane];
         match run.phase {
-            Phase::Moving if run.tie != *self.solvers[lane].motion.wall().tie_memory() => Stepping::General,
+            Phase::Moving if run.is_stretched => Stepping::General,
             Phase::Moving => self.solvers[lane].table.steppings[index(self.rows.branch[lane])],
             Phase::Resting | Phase::Landed => Stepping::General,
         }
@@ -247,6 +247,7 @@ impl<O: Observer> Lanes<'_, O> {
         run.put_to_rest |= report.put_to_rest;
         (run.phase, run.overturned, run.departed) = (state.phase, state.overturned, state.departed);
         (run.peaks, run.tie) = (state.peaks, state.tie);
+        run.is_stretched = state.tie != *solver.motion.wall().tie_memory();
         if let (Some(offset), None) = (report.overturning, run.overturning) {
             run.overturning = Some((sample as f64 + share) * step + offset);
             if matches!(self.pass, Pass::Motion(end) if end != RunEnd::OfRecord) {

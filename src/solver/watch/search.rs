@@ -47,11 +47,11 @@ pub(super) struct ExtremeSearch<'a, P> {
     time: f64,
     pub(super) from: f64,
     length: f64,
-    ends: [KinematicState; 2],
+    pub(super) ends: [KinematicState; 2],
     seen: OnceCell<[(f64, KinematicState); FIRST]>,
     /// Bounds on |ü|, on the jerk, and on the second derivative of ü \[m/s², m/s³, m/s⁴\].
     pub(super) bounds: (f64, f64),
-    snap: f64,
+    pub(super) snap: f64,
 }
 
 #[derive(Clone, Copy)]

@@ -132,9 +132,7 @@ pub(super) fn steady_rocking() -> Comparisons {
         let mut simulation = Simulation::new(&start, None, 0.0, support)?;
         for cycles in [0.0, BEFORE] {
             let end = (cycles + 0.5) * half_cycle;
-            let next = |now: f64, _: f64| (segment_of(Some(&excitation), now, end - now), end - now);
-            simulation.advance_through(next, None).map_err(SceneError::from)?;
-            simulation.set_time(end);
+            simulation.advance_to(end, Some(&excitation), None).map_err(SceneError::from)?;
             let case = format!("a_p/a0 = {ratio}, e = {restitution}");
             let found = simulation.progress().state.displacement / INSTABILITY;
             rows.push((case, format!("u/u_ins after {cycles} impacts"), "-", found, middle));

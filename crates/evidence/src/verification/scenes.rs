@@ -70,9 +70,7 @@ pub(super) fn compare(
         let support = |time: f64| segment_of(motion, time, 0.0).from;
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support(0.0))?;
         for Reference { name: quantity, time, value, scale, bound } in references(name) {
-            let next = |now: f64, _: f64| (segment_of(motion, now, time - now), time - now);
-            simulation.advance_through(next, None).map_err(SceneError::from)?;
-            simulation.set_time(time);
+            simulation.advance_to(time, motion, None).map_err(SceneError::from)?;
             let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
             let unit = variable(quantity).map_or(Some("J"), |known| known.unit);
             let what = (name, format!("{quantity}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));

@@ -300,6 +300,8 @@ def scaled(
         raise TypeError(f"{name} = {factor!r} must be a finite number")
     if not np.isfinite(factor):
         raise ValueError(f"{name} = {factor} must be a finite number")
+    if factor == 1.0:
+        return motion
     try:
         return _native.scaled(motion, float(factor))
     except ValueError as error:
