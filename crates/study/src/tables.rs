@@ -169,6 +169,7 @@ pub(crate) fn collapses(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Tab
         .value("resurrections", |(_, curve)| curve.resurrections())
         .value(names.in_unit("last_collapse"), |(_, curve)| last(curve))
         .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
+        .value("sensitivity", |(_, curve)| curve.sensitivity())
         .done()
 }
 

@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
-use crate::ida::{Crossing, Curve, Exceedance};
+use crate::ida::{Crossing, Curve, Exceedance, MOST_SENSITIVITY};
 use crate::results::{Fitting, StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
@@ -114,6 +114,8 @@ struct Output<'a> {
     resurrected: usize,
     /// Runs that exceed `u_ins` and come back.
     come_back: usize,
+    /// Collapses with a sensitivity; of these the ones above [`MOST_SENSITIVITY`].
+    sensitive: [usize; 2],
     /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
     tied: [usize; 3],
 }
@@ -144,6 +146,7 @@ impl<'a> Output<'a> {
             over_first: [const { Vec::new() }; 2],
             resurrected: 0,
             come_back: 0,
+            sensitive: [0; 2],
             tied: [0; 3],
         })
     }
@@ -202,6 +205,10 @@ impl<'a> Output<'a> {
         }
         let runs = results.all_curves().iter().flat_map(Curve::runs);
         self.come_back += runs.filter(|run| run.comes_back()).count();
+        for sensitivity in results.all_curves().iter().filter_map(Curve::sensitivity) {
+            self.sensitive[0] += 1;
+            self.sensitive[1] += usize::from(sensitivity > MOST_SENSITIVITY);
+        }
         let stands_again =
             |curve: &&Curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0;
         self.resurrected += results.all_curves().iter().filter(stands_again).count();
@@ -237,7 +244,7 @@ impl<'a> Output<'a> {
             files.push(path);
         }
         let path = self.folder.path().join(PAGE);
-        file::to_file(&path, page::page(manifest, self.runs, &self.sections).as_bytes())?;
+        file::to_file(&path, page::page(manifest, self.runs, self.sensitive, &self.sections).as_bytes())?;
         files.push(path);
         Ok(Report { summary: summary + &about_risk, warning, files })
     }
@@ -267,6 +274,9 @@ impl<'a> Output<'a> {
         if self.come_back > 0 {
             let runs = counted(self.come_back, "run");
             let _ = writeln!(text, "{runs} exceed u_ins and come back, which is no collapse");
+        }
+        if self.sensitive[1] > 0 {
+            let _ = writeln!(text, "{}", page::sensitive_words(self.sensitive));
         }
         if self.resurrected > 0 {
             let _ = writeln!(
