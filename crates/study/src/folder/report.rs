@@ -1,22 +1,20 @@
 //! All results of a complete folder, made wall by wall: memory does not grow with the runs.
 
-use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
 use crate::ida::{Crossing, Curve, Exceedance, MOST_SENSITIVITY};
-use crate::results::{Fitting, StateResults, WallResults};
+use crate::results::{StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
 use report::table::{Cell, Table};
 use run::file::{self, Draft};
-use run::parallel;
 
 use super::comparison::Comparison;
 use super::contents::Manifest;
-use super::curves::{Curves, names};
+use super::curves::{each_wall, names};
 use super::error::FolderError;
 use super::legend;
 use super::page;
@@ -31,8 +29,6 @@ pub(crate) const MOST_WALLS: usize = 40;
 /// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
 /// in the parts only.
 const MOST_CASES: usize = 10_000;
-/// Walls that each thread fits before their rows are written.
-const WALLS_AT_ONCE: usize = 4;
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 
@@ -53,31 +49,16 @@ pub struct Report {
 /// # Errors
 /// [`FolderError`] if parts are missing, or a file cannot be written.
 pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result<Report, FolderError> {
-    let (manifest, contents) = (folder.manifest(), folder.contents());
     let runs = survey(folder)?;
     folder.sweep();
     file::remove(&folder.path().join(PAGE))?;
-    let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
-    let grid = contents.grid.clone();
-    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report)
-        .with_polarity(contents.polarity)
-        .with_cloud(contents.is_cloud);
-    let mut output = Output::new(folder, runs)?;
-    let mut curves = Curves::of(folder);
-    let of_wall = models.len() * contents.records.len();
-    for start in (0..contents.walls.len()).step_by(threads * WALLS_AT_ONCE) {
-        let end = (start + threads * WALLS_AT_ONCE).min(contents.walls.len());
-        let walls = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
-        let fitted = parallel::map(walls.len(), threads, |place| {
-            let results = fitting.results(walls[place].clone());
-            done();
-            Ok::<_, Infallible>(results)
-        });
-        let Ok(fitted) = fitted;
-        for (wall, results) in (start..end).zip(&fitted) {
-            output.add(wall, results)?;
-        }
-    }
+    let (fitting, mut output) = (folder.manifest().fitting(), Output::new(folder, runs)?);
+    let fitted = |_, curves: &[Curve]| {
+        let results = fitting.results(curves.to_vec());
+        done();
+        results
+    };
+    each_wall(folder, threads, fitted, |wall, results| output.add(wall, &results))?;
     output.finish()
 }
 
