@@ -59,4 +59,5 @@ pub use merge::merge;
 pub use part::{decode, encode};
 pub(crate) use report::MOST_WALLS;
 pub use report::{Report, finish};
+pub(crate) use rows::Rows;
 pub use store::Folder;

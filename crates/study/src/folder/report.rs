@@ -1,7 +1,6 @@
 //! All results of a complete folder, made wall by wall: memory does not grow with the runs.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
@@ -10,7 +9,7 @@ use crate::results::{StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
 use report::table::{Cell, Table};
-use run::file::{self, Draft};
+use run::file;
 
 use super::comparison::Comparison;
 use super::contents::Manifest;
@@ -21,6 +20,7 @@ use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
+use super::rows::Rows;
 use super::samples::Sampled;
 use super::store::{Folder, PAGE};
 
@@ -78,7 +78,7 @@ fn survey(folder: &Folder) -> Result<usize, FolderError> {
 struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
-    tables: Vec<(Kind, Draft)>,
+    tables: Vec<(Kind, Rows)>,
     names: Names<'a>,
     risk: Risk<'a>,
     sampled: Option<Sampled<'a>>,
@@ -103,9 +103,9 @@ struct Output<'a> {
 
 impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
-        let draft = |kind: Kind| {
+        let begun = |kind: Kind| {
             let path = folder.path().join(format!("{}.csv", kind.0));
-            Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
+            Ok::<_, FolderError>((kind, Rows::new(&path)?))
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
         let cloud = folder.contents().is_cloud.then_some(&CLOUD);
@@ -113,7 +113,7 @@ impl<'a> Output<'a> {
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().chain(ties).chain(cloud).copied().map(draft).collect::<Result<_, _>>()?,
+            tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.path(), folder.manifest())?,
@@ -135,10 +135,8 @@ impl<'a> Output<'a> {
     /// Adds the results of a wall.
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
-        for (kind, draft) in &mut self.tables {
-            let table = (kind.1)(&self.names, wall, results);
-            let text = if wall == 0 { table.csv() } else { table.csv_rows() };
-            draft.write(|file| file.write_all(text.as_bytes()))?;
+        for (kind, rows) in &mut self.tables {
+            rows.add(&(kind.1)(&self.names, wall, results))?;
         }
         self.risk.add(wall, results)?;
         self.sampled.iter_mut().for_each(|sampled| sampled.add(results));
@@ -211,8 +209,8 @@ impl<'a> Output<'a> {
             self.sections.insert_str(0, &section);
         }
         self.sections.insert_str(0, &rates);
-        for (_, draft) in self.tables {
-            files.push(draft.commit(true)?);
+        for (_, rows) in self.tables {
+            files.push(rows.commit()?);
         }
         let path = self.folder.path().join("fragilities.svg");
         if self.panels.is_empty() {

@@ -1,15 +1,14 @@
 //! All results of a complete folder: tables and page, made wall by wall.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 use report::counted;
-use run::file::{self, Draft};
+use run::file;
 use run::sample::fractile;
 
 use super::class::{Class, sorted};
 use super::{FILES, Reliability, page, table};
-use crate::folder::{Folder, FolderError, MOST_WALLS, Report, each_wall};
+use crate::folder::{Folder, FolderError, MOST_WALLS, Report, Rows, each_wall};
 use crate::ida::Curve;
 
 /// Most walls that a warning names.
@@ -30,8 +29,8 @@ pub fn finish(
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let hazard = manifest.report.hazard.as_ref().map(|hazard| &hazard.curve);
     let paths = FILES.map(|name| folder.path().join(name));
-    let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];
-    let (mut class, mut shown, mut is_begun) = (Class::default(), Vec::new(), false);
+    let (mut rows, mut rules) = (Rows::new(&paths[0])?, Rows::new(&paths[1])?);
+    let (mut class, mut shown) = (Class::default(), Vec::new());
     let fitting = manifest.fitting();
     let found = |place, curves: &[Curve]| {
         let found = reliability.of_wall(place, curves, &fitting);
@@ -43,12 +42,8 @@ pub fn finish(
         class.add(wall, &found);
         let Ok(found) = found else { return Ok(()) };
         let own = table::wall(&wall.name, &models, &found, hazard);
-        let turned = table::rules(&wall.name, &models, &found, reliability.target);
-        for (draft, table) in [(&mut rows, &own), (&mut rules, &turned)] {
-            let text = if is_begun { table.csv_rows() } else { table.csv() };
-            draft.write(|file| file.write_all(text.as_bytes()))?;
-        }
-        is_begun = true;
+        rows.add(&own)?;
+        rules.add(&table::rules(&wall.name, &models, &found, reliability.target))?;
         shown.extend((reliability.walls.len() <= MOST_WALLS).then_some(own));
         Ok(())
     })?;
@@ -56,8 +51,8 @@ pub fn finish(
     file::to_file(&paths[2], summary.csv().as_bytes())?;
     let html = page::page(manifest, reliability, &class, &shown);
     file::to_file(&paths[3], html.as_bytes())?;
-    rows.commit(true)?;
-    rules.commit(true)?;
+    rows.commit()?;
+    rules.commit()?;
     Ok(Report {
         summary: words(&class, &models, reliability.target) + &summary.text(),
         warning: warning(&class),
