@@ -1,5 +1,6 @@
 //! What noise in the records does to collapses and fragilities: the samples of every record of a study times
-//! 1 + ε r, with r at random and of variance 1, beside the study without noise.
+//! 1 + ε r, with r at random and of variance 1, beside the study without noise. The collapses that move are
+//! about as many as those with a sensitivity of at least 1/ε.
 //!
 //! ```text
 //! cargo run --release -p rocking-study --example record_noise studies/table_5.toml
@@ -14,23 +15,24 @@ use ground_motion::GroundMotion;
 use run::records::NamedRecord;
 use run::sample::Pcg;
 use study::fragility::{Lognormal, Sample, fit};
-use study::ida::{Crossing, Exceedance, Study};
+use study::ida::{Crossing, Curve, Exceedance, Study};
 use study::loaded::LoadedStudy;
 
 const THREADS: usize = 2;
 /// Collapse intensities that differ by more than the resolution of the hunt have moved.
 const MOVED: f64 = 0.01;
 
-/// Collapse of each curve, and the curve fitted to those of each wall and model.
-type Outcome = (Vec<f64>, Vec<Lognormal>);
+/// Collapse of each curve and, where it is known, its sensitivity; and the curve fitted to those of each wall
+/// and model.
+type Outcome = (Vec<f64>, Vec<f64>, Vec<Lognormal>);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "studies/table_5.toml".to_owned());
     let LoadedStudy { study, .. } = LoadedStudy::read(Path::new(&path))?;
-    let (collapses, fits) = outcome(&study)?;
-    println!("noise   collapses that move  most   theta: rms   most    beta: rms   most");
+    let (collapses, sensitivities, fits) = outcome(&study)?;
+    println!("noise   collapses that move  most  S >= 1/noise  theta: rms   most  beta: rms   most");
     for epsilon in [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3] {
-        let (noisy, noisy_fits) = outcome(&with_noise(&study, epsilon)?)?;
+        let (noisy, _, noisy_fits) = outcome(&with_noise(&study, epsilon)?)?;
         let moves: Vec<f64> = noisy.iter().zip(&collapses).map(|(a, b)| (a / b - 1.0).abs()).collect();
         let moved = moves.iter().filter(|part| **part > MOVED).count();
         let change = |of: fn(&Lognormal) -> f64| {
@@ -40,10 +42,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let ([theta, most_theta], [beta, most_beta]) = (change(|f| f.median), change(|f| f.dispersion));
         println!(
-            "{epsilon:<6e} {moved:>9} of {:<4} {:>9.0} % {theta:>9.2} % {most_theta:>5.1} % {beta:>9.1} % \
-             {most_beta:>4.0} %",
+            "{epsilon:<6e} {moved:>9} of {:<4} {:>9.0} % {:>13} {theta:>9.2} % {most_theta:>4.1} % \
+             {beta:>7.1} % {most_beta:>4.0} %",
             moves.len(),
-            100.0 * largest(&moves)
+            100.0 * largest(&moves),
+            sensitivities.iter().filter(|sensitivity| **sensitivity >= 1.0 / epsilon).count()
         );
     }
     Ok(())
@@ -59,8 +62,9 @@ fn outcome(study: &Study) -> Result<Outcome, Box<dyn Error>> {
     let intensity = |exceedance: Exceedance| exceedance.or_infinity();
     let collapses = curves.iter().map(|curve| intensity(curve.exceedance(1.0, Crossing::First, false)));
     let of_fit = |curves| fit(&Sample::of_curves(curves, 1.0, Crossing::First, None).observations());
+    let sensitivities = curves.iter().filter_map(Curve::sensitivity).collect();
     let fits = curves.chunks(study.records().len()).map(of_fit).collect::<Result<_, _>>()?;
-    Ok((collapses.collect(), fits))
+    Ok((collapses.collect(), sensitivities, fits))
 }
 
 /// Returns a study with noise in the samples of its records.

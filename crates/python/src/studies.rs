@@ -85,7 +85,7 @@ impl Study {
         }
         let bytes = py.detach(|| {
             let study = &self.loaded.study;
-            let groups = study.groups(contents.part(part)).map(|group| study.curves(group));
+            let groups = study.groups(contents.part(part), 1).map(|group| study.curves(group));
             let curves = groups.collect::<Result<Vec<_>, _>>().map_err(failed)?.concat();
             encode(contents, fingerprint, part, &curves).map_err(failed)
         })?;

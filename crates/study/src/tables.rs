@@ -169,6 +169,7 @@ pub(crate) fn collapses(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Tab
         .value("resurrections", |(_, curve)| curve.resurrections())
         .value(names.in_unit("last_collapse"), |(_, curve)| last(curve))
         .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
+        .value("sensitivity", |(_, curve)| curve.sensitivity())
         .done()
 }
 
@@ -185,20 +186,17 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
         .value("u_max_over_u_ins", |(_, fraction, _)| *fraction)
         .value("records", |(.., one)| one.summary.records)
         .value("censored", |(.., one)| one.summary.censored);
-    let intensities: [Estimate; 2] = [
-        ("median", names.unit.ending(), |one| &one.median),
-        ("theta", names.unit.ending(), |one| &one.theta),
-    ];
+    let intensities: [Estimate; 2] = [("median", |one| &one.median), ("theta", |one| &one.theta)];
     let ratios: [Estimate; 2] =
-        [("median_ratio", "", |one| &one.median_ratio), ("theta_ratio", "", |one| &one.theta_ratio)];
+        [("median_ratio", |one| &one.median_ratio), ("theta_ratio", |one| &one.theta_ratio)];
     for estimate in intensities {
-        table = with_interval(table, estimate, names.unit.size());
+        table = with_interval(table, estimate, (&names.unit.ending(), names.unit.size()));
     }
     table = table
         .value("beta", |(.., one)| beta(&one.summary.fitted))
         .value("beta_alone", |(.., one)| beta(&one.summary.alone));
     for estimate in ratios {
-        table = with_interval(table, estimate, 1.0);
+        table = with_interval(table, estimate, ("", 1.0));
     }
     let known = |value: f64| (!value.is_nan()).then_some(value);
     table = table
@@ -221,15 +219,15 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     table.done()
 }
 
-/// The name of an estimate, its unit as the end of a column's name, and what it is of a summary.
-type Estimate = (&'static str, &'static str, fn(&Summary) -> &Interval);
+/// The name of an estimate, and what it is of a summary.
+type Estimate = (&'static str, fn(&Summary) -> &Interval);
 
-/// Adds an estimate and the ends of its interval, in a unit.
-fn with_interval(
-    table: Growing<(usize, f64, &StateResults)>,
-    (name, ending, of): Estimate,
-    unit: f64,
-) -> Growing<(usize, f64, &StateResults)> {
+/// Adds an estimate and the ends of its interval, in a unit that ends the names of their columns.
+fn with_interval<'a>(
+    table: Growing<(usize, f64, &'a StateResults)>,
+    (name, of): Estimate,
+    (ending, unit): (&str, f64),
+) -> Growing<(usize, f64, &'a StateResults)> {
     ["", "_low", "_high"].into_iter().enumerate().fold(table, |table, (part, end)| {
         let bounds = |row: &(usize, f64, &StateResults)| Cell::Between(of(&row.2.summary).bounds(unit)[part]);
         table.value(format!("{name}{end}{ending}"), bounds)

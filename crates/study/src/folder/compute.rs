@@ -37,9 +37,11 @@ pub fn compute(
     threads: usize,
     done: impl Fn(Case, &Curve) -> ControlFlow<()> + Sync,
 ) -> Result<(), ComputeError> {
+    // a few parts are shared by all threads too
+    let of_part = threads.div_ceil(parts.len().max(1));
     let groups: Vec<_> = parts
         .iter()
-        .flat_map(|&part| study.groups(study.part(part)).map(move |group| (part, group)))
+        .flat_map(|&part| study.groups(study.part(part), of_part).map(move |group| (part, group)))
         .collect();
     let open: Mutex<BTreeMap<usize, Vec<(usize, Curve)>>> = Mutex::default();
     parallel::each(groups.len(), threads, |place| {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::document::ReportOptions;
 use crate::ida::{Case, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
+use crate::results::Fitting;
 use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
 use serde::{Deserialize, Serialize};
@@ -106,6 +107,15 @@ impl Manifest {
         let mut manifest = Self { title, report, contents, checksum: String::new() };
         manifest.checksum = manifest.fingerprint();
         manifest
+    }
+
+    /// Returns what makes the results of its walls.
+    pub(crate) fn fitting(&self) -> Fitting {
+        let Contents { models, records, grid, polarity, is_cloud, .. } = &self.contents;
+        let models: Vec<_> = models.iter().map(|model| model.name.as_str()).collect();
+        Fitting::new(records.len(), &models, grid.clone(), &self.report)
+            .with_polarity(*polarity)
+            .with_cloud(*is_cloud)
     }
 
     /// Returns the fingerprint of all fields except the checksum.

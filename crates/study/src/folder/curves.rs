@@ -1,17 +1,22 @@
 //! The curves of a complete folder, read part by part.
 
 use std::collections::VecDeque;
+use std::convert::Infallible;
 
 use crate::ida::Curve;
 use crate::tables::{Names, collapses, levels};
 use report::table::Table;
+use run::parallel;
 
 use super::contents::Contents;
 use super::error::FolderError;
 use super::store::Folder;
 
+/// Walls of which each thread makes something before it is taken.
+const WALLS_AT_ONCE: usize = 4;
+
 /// The curves of a folder in the order of their numbers.
-pub(crate) struct Curves<'a> {
+struct Curves<'a> {
     folder: &'a Folder,
     /// The next part to read.
     part: usize,
@@ -19,12 +24,14 @@ pub(crate) struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    pub(crate) fn of(folder: &'a Folder) -> Self {
+    fn of(folder: &'a Folder) -> Self {
         Self { folder, part: 0, read: VecDeque::new() }
     }
 
-    /// Returns the next `count` curves, and reads as many parts as this takes.
-    pub(crate) fn next_curves(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
+    /// Returns the curves of the next wall, and reads as many parts as this takes.
+    fn next_wall(&mut self) -> Result<Vec<Curve>, FolderError> {
+        let Contents { models, records, .. } = self.folder.contents();
+        let count = models.len() * records.len();
         while self.read.len() < count {
             let curves = self.folder.part(self.part);
             // it was found complete when the report began, and has been removed or damaged since
@@ -33,6 +40,30 @@ impl<'a> Curves<'a> {
         }
         Ok(self.read.drain(..count).collect())
     }
+}
+
+/// Makes something of the curves of each wall of a complete folder, on some threads, and takes it wall by
+/// wall: memory does not grow with the walls.
+///
+/// # Errors
+/// [`FolderError`] if parts are missing, or that of `take`.
+pub(crate) fn each_wall<T: Send>(
+    folder: &Folder,
+    threads: usize,
+    make: impl Fn(usize, &[Curve]) -> T + Sync,
+    mut take: impl FnMut(usize, T) -> Result<(), FolderError>,
+) -> Result<(), FolderError> {
+    let (mut curves, walls) = (Curves::of(folder), folder.contents().walls.len());
+    for start in (0..walls).step_by(threads * WALLS_AT_ONCE) {
+        let end = (start + threads * WALLS_AT_ONCE).min(walls);
+        let read = (start..end).map(|_| curves.next_wall()).collect::<Result<Vec<_>, _>>()?;
+        let made = |place: usize| Ok::<_, Infallible>(make(start + place, &read[place]));
+        let Ok(made) = parallel::map(read.len(), threads, made);
+        for (wall, made) in (start..end).zip(made) {
+            take(wall, made)?;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the tables of all runs and of the collapses of a complete folder, of any size.
@@ -44,7 +75,7 @@ pub fn curve_tables(folder: &Folder) -> Result<[Table; 2], FolderError> {
     let (names, mut curves) = (names(folder), Curves::of(folder));
     let mut all = [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2];
     for wall in 0..contents.walls.len() {
-        let own = curves.next_curves(contents.models.len() * contents.records.len())?;
+        let own = curves.next_wall()?;
         for (all, table) in all.iter_mut().zip([levels, collapses]) {
             let Table { columns, rows } = table(&names, wall, &own);
             all.columns = columns;

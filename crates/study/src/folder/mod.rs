@@ -52,11 +52,12 @@ mod store;
 
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
-pub(crate) use curves::Curves;
 pub use curves::curve_tables;
+pub(crate) use curves::each_wall;
 pub use error::FolderError;
 pub use merge::merge;
 pub use part::{decode, encode};
 pub(crate) use report::MOST_WALLS;
 pub use report::{Report, finish};
+pub(crate) use rows::Rows;
 pub use store::Folder;

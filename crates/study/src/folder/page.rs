@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Collapse, Crossing, Exceedance, Polarity};
+use crate::ida::{Collapse, Crossing, Exceedance, MOST_SENSITIVITY, Polarity};
 use crate::results::{StateResults, WallResults};
 use crate::tables::{OF_INTENSITY, OF_RATIO};
 use report::counted;
@@ -23,10 +23,11 @@ const MOST_POINTS: usize = 100_000;
 const MOST_LISTED: usize = 200;
 
 /// Makes the page of a study with a number of runs from the sections of its walls, or of all together.
-pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
+/// `sensitive` counts the collapses with a sensitivity, and those above [`MOST_SENSITIVITY`].
+pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{}, {}, {}: {}. Intensity: {}. {}{}{}.",
+        "{}, {}, {}: {}. Intensity: {}. {}{}{}.{}",
         counted(contents.walls.len(), "wall"),
         counted(contents.records.len(), "record"),
         counted(contents.models.len(), "damping model"),
@@ -44,6 +45,7 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
         },
         if contents.is_cloud { "" } else { "; the lowest level at which it does is the collapse" },
+        if sensitive[0] > 0 { format!(" {}.", sensitive_words(sensitive)) } else { String::new() },
     );
     template::page(
         include_str!("page.html"),
@@ -57,6 +59,15 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
             ("program", &escaped(&contents.program)),
             ("sections", sections),
         ],
+    )
+}
+
+/// Says how many collapses are sensitive, and what that means.
+pub(crate) fn sensitive_words([collapses, above]: [usize; 2]) -> String {
+    format!(
+        "Sensitivity above {MOST_SENSITIVITY:e}: {above} of {}; the level at which such a wall falls is not \
+         a property of the wall and the record, since it depends on digits that no record has",
+        counted(collapses, "collapse")
     )
 }
 

@@ -24,8 +24,8 @@ use super::error::FolderError;
 /// The column of intensities; its name ends with their SI unit.
 const INTENSITY: &str = "intensity";
 /// Columns with their types. The intensity has the SI unit of the study, so that it is read back to the last
-/// bit. A wall that did not overturn has no time of overturning.
-const COLUMNS: [(&str, Physical); 8] = [
+/// bit. A wall that did not overturn has no time of overturning, and only a collapse has a sensitivity.
+const COLUMNS: [(&str, Physical); 9] = [
     ("case", Physical::INT64),
     ("wall", Physical::BYTE_ARRAY),
     ("model", Physical::BYTE_ARRAY),
@@ -34,6 +34,7 @@ const COLUMNS: [(&str, Physical); 8] = [
     ("u_max_over_u_ins", Physical::DOUBLE),
     ("overturned", Physical::BOOLEAN),
     ("overturn_time_s", Physical::DOUBLE),
+    ("sensitivity", Physical::DOUBLE),
 ];
 /// Further columns of a study with ties that may yield. Runs of its other walls have no values there.
 const TIE_COLUMNS: [(&str, Physical); 3] = [
@@ -99,7 +100,7 @@ fn head(study: &str, part: usize) -> String {
 fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Result<Vec<u8>, ParquetError> {
     let column = |&(name, physical): &(&str, Physical)| {
         let text = (physical == Physical::BYTE_ARRAY).then_some(LogicalType::String);
-        let is_optional = name == "overturn_time_s" || name.starts_with("tie_");
+        let is_optional = ["overturn_time_s", "sensitivity"].contains(&name) || name.starts_with("tie_");
         let repetition = if is_optional { Repetition::OPTIONAL } else { Repetition::REQUIRED };
         let builder = Type::primitive_type_builder(name, physical);
         Ok(Arc::new(builder.with_repetition(repetition).with_logical_type(text).build()?))
@@ -162,9 +163,11 @@ fn rows(
     column::<DoubleType>(group, &numbers(|run| run.demand), None)?;
     let overturned: Vec<bool> = runs.iter().map(|(_, run)| run.overturning.is_some()).collect();
     column::<BoolType>(group, &overturned, None)?;
-    let times: Vec<f64> = runs.iter().filter_map(|(_, run)| run.overturning).collect();
-    let present: Vec<i16> = overturned.iter().map(|&there| i16::from(there)).collect();
-    column::<DoubleType>(group, &times, Some(&present))?;
+    for number in [|run: &Run| run.overturning, |run: &Run| run.sensitivity] {
+        let numbers: Vec<Option<f64>> = runs.iter().map(|(_, run)| number(run)).collect();
+        let present: Vec<i16> = numbers.iter().map(|number| i16::from(number.is_some())).collect();
+        column::<DoubleType>(group, &numbers.into_iter().flatten().collect::<Vec<_>>(), Some(&present))?;
+    }
     if !contents.has_yielding_ties() {
         return Ok(());
     }
@@ -199,15 +202,14 @@ fn read(
     let (cases, _) = values::<Int64Type>(&*group, 0)?;
     let (intensities, _) = values::<DoubleType>(&*group, 4)?;
     let (demands, _) = values::<DoubleType>(&*group, 5)?;
-    let (times, present) = values::<DoubleType>(&*group, 7)?;
-    let mut times = times.into_iter();
+    let times = optional::<DoubleType>(&*group, 7)?;
+    let sensitivities = optional::<DoubleType>(&*group, 8)?;
     let mut ties = if contents.has_yielding_ties() { ties(&*group)? } else { Vec::new() }.into_iter();
     let range = contents.part(part);
     let mut runs: Vec<Vec<Run>> = vec![Vec::new(); range.len()];
-    let rows = cases.into_iter().zip(intensities).zip(demands).zip(present);
-    for (((case, intensity), demand), present) in rows {
-        let overturning = if present > 0 { times.next() } else { None };
-        let run = Run { intensity, demand, overturning, tie: ties.next().flatten() };
+    let rows = cases.into_iter().zip(intensities).zip(demands).zip(times).zip(sensitivities);
+    for ((((case, intensity), demand), overturning), sensitivity) in rows {
+        let run = Run { intensity, demand, overturning, tie: ties.next().flatten(), sensitivity };
         let place = usize::try_from(case).ok().and_then(|case| case.checked_sub(range.start));
         let Some(runs) = place.and_then(|place| runs.get_mut(place)).filter(|_| is_possible(&run)) else {
             return Ok(None);
@@ -220,12 +222,24 @@ fn read(
 
 /// Reads the demands on ties, row by row.
 fn ties(group: &dyn RowGroupReader) -> Result<Vec<Option<TieDemand>>, ParquetError> {
-    let (forces, present) = values::<DoubleType>(group, COLUMNS.len())?;
-    let (elongations, _) = values::<DoubleType>(group, COLUMNS.len() + 1)?;
-    let (broken, _) = values::<BoolType>(group, COLUMNS.len() + 2)?;
+    let forces = optional::<DoubleType>(group, COLUMNS.len())?;
+    let elongations = optional::<DoubleType>(group, COLUMNS.len() + 1)?;
+    let broken = optional::<BoolType>(group, COLUMNS.len() + 2)?;
     let demands = forces.into_iter().zip(elongations).zip(broken);
-    let mut demands = demands.map(|((force, elongation), broken)| TieDemand { force, elongation, broken });
-    Ok(present.into_iter().map(|present| if present > 0 { demands.next() } else { None }).collect())
+    let demand = |((force, elongation), broken): ((Option<f64>, Option<f64>), Option<bool>)| {
+        Some(TieDemand { force: force?, elongation: elongation?, broken: broken? })
+    };
+    Ok(demands.map(demand).collect())
+}
+
+/// Reads a column in which rows may have no value.
+fn optional<T: DataType>(
+    group: &dyn RowGroupReader,
+    column: usize,
+) -> Result<Vec<Option<T::T>>, ParquetError> {
+    let (values, present) = values::<T>(group, column)?;
+    let mut values = values.into_iter();
+    Ok(present.into_iter().map(|present| if present > 0 { values.next() } else { None }).collect())
 }
 
 /// Reads a column: its values, and which rows have one.
@@ -243,6 +257,7 @@ fn values<T: DataType>(
 fn is_possible(run: &Run) -> bool {
     let is_measure = |number: f64| number.is_finite() && number >= 0.0;
     let tie = run.tie.iter().flat_map(|tie| [tie.force, tie.elongation]);
-    let measures = [run.intensity, run.demand].into_iter().chain(run.overturning).chain(tie);
+    let measures =
+        [run.intensity, run.demand].into_iter().chain(run.overturning).chain(run.sensitivity).chain(tie);
     run.intensity > 0.0 && measures.into_iter().all(is_measure)
 }

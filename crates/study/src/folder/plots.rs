@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn fractiles_of_curves_that_weave_do_not_fold_back() {
-        let run = |(intensity, demand)| Run { intensity, demand, overturning: None, tie: None };
+        let run = |(intensity, demand)| Run { intensity, demand, overturning: None, ..Run::default() };
         let demands = [[0.5, 0.1, 0.9], [0.2, 0.6, 0.3], [0.4, 0.2, 1.0]];
         let curves =
             demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));

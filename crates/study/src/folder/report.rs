@@ -1,28 +1,26 @@
 //! All results of a complete folder, made wall by wall: memory does not grow with the runs.
 
-use std::convert::Infallible;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
-use crate::ida::{Crossing, Curve, Exceedance};
-use crate::results::{Fitting, StateResults, WallResults};
+use crate::ida::{Crossing, Curve, Exceedance, MOST_SENSITIVITY};
+use crate::results::{StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
 use report::table::{Cell, Table};
-use run::file::{self, Draft};
-use run::parallel;
+use run::file;
 
 use super::comparison::Comparison;
 use super::contents::Manifest;
-use super::curves::{Curves, names};
+use super::curves::{each_wall, names};
 use super::error::FolderError;
 use super::legend;
 use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
 use super::risk::Risk;
+use super::rows::Rows;
 use super::samples::Sampled;
 use super::store::{Folder, PAGE};
 
@@ -31,8 +29,6 @@ pub(crate) const MOST_WALLS: usize = 40;
 /// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
 /// in the parts only.
 const MOST_CASES: usize = 10_000;
-/// Walls that each thread fits before their rows are written.
-const WALLS_AT_ONCE: usize = 4;
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 
@@ -53,31 +49,16 @@ pub struct Report {
 /// # Errors
 /// [`FolderError`] if parts are missing, or a file cannot be written.
 pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result<Report, FolderError> {
-    let (manifest, contents) = (folder.manifest(), folder.contents());
     let runs = survey(folder)?;
     folder.sweep();
     file::remove(&folder.path().join(PAGE))?;
-    let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
-    let grid = contents.grid.clone();
-    let fitting = Fitting::new(contents.records.len(), &models, grid, &manifest.report)
-        .with_polarity(contents.polarity)
-        .with_cloud(contents.is_cloud);
-    let mut output = Output::new(folder, runs)?;
-    let mut curves = Curves::of(folder);
-    let of_wall = models.len() * contents.records.len();
-    for start in (0..contents.walls.len()).step_by(threads * WALLS_AT_ONCE) {
-        let end = (start + threads * WALLS_AT_ONCE).min(contents.walls.len());
-        let walls = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
-        let fitted = parallel::map(walls.len(), threads, |place| {
-            let results = fitting.results(walls[place].clone());
-            done();
-            Ok::<_, Infallible>(results)
-        });
-        let Ok(fitted) = fitted;
-        for (wall, results) in (start..end).zip(&fitted) {
-            output.add(wall, results)?;
-        }
-    }
+    let (fitting, mut output) = (folder.manifest().fitting(), Output::new(folder, runs)?);
+    let fitted = |_, curves: &[Curve]| {
+        let results = fitting.results(curves.to_vec());
+        done();
+        results
+    };
+    each_wall(folder, threads, fitted, |wall, results| output.add(wall, &results))?;
     output.finish()
 }
 
@@ -97,7 +78,7 @@ fn survey(folder: &Folder) -> Result<usize, FolderError> {
 struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
-    tables: Vec<(Kind, Draft)>,
+    tables: Vec<(Kind, Rows)>,
     names: Names<'a>,
     risk: Risk<'a>,
     sampled: Option<Sampled<'a>>,
@@ -114,15 +95,17 @@ struct Output<'a> {
     resurrected: usize,
     /// Runs that exceed `u_ins` and come back.
     come_back: usize,
+    /// Collapses with a sensitivity; of these the ones above [`MOST_SENSITIVITY`].
+    sensitive: [usize; 2],
     /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
     tied: [usize; 3],
 }
 
 impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
-        let draft = |kind: Kind| {
+        let begun = |kind: Kind| {
             let path = folder.path().join(format!("{}.csv", kind.0));
-            Ok::<_, FolderError>((kind, Draft::new(&path, b"")?))
+            Ok::<_, FolderError>((kind, Rows::new(&path)?))
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
         let cloud = folder.contents().is_cloud.then_some(&CLOUD);
@@ -130,7 +113,7 @@ impl<'a> Output<'a> {
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().chain(ties).chain(cloud).copied().map(draft).collect::<Result<_, _>>()?,
+            tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.path(), folder.manifest())?,
@@ -144,6 +127,7 @@ impl<'a> Output<'a> {
             over_first: [const { Vec::new() }; 2],
             resurrected: 0,
             come_back: 0,
+            sensitive: [0; 2],
             tied: [0; 3],
         })
     }
@@ -151,10 +135,8 @@ impl<'a> Output<'a> {
     /// Adds the results of a wall.
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
-        for (kind, draft) in &mut self.tables {
-            let table = (kind.1)(&self.names, wall, results);
-            let text = if wall == 0 { table.csv() } else { table.csv_rows() };
-            draft.write(|file| file.write_all(text.as_bytes()))?;
+        for (kind, rows) in &mut self.tables {
+            rows.add(&(kind.1)(&self.names, wall, results))?;
         }
         self.risk.add(wall, results)?;
         self.sampled.iter_mut().for_each(|sampled| sampled.add(results));
@@ -202,6 +184,10 @@ impl<'a> Output<'a> {
         }
         let runs = results.all_curves().iter().flat_map(Curve::runs);
         self.come_back += runs.filter(|run| run.comes_back()).count();
+        for sensitivity in results.all_curves().iter().filter_map(Curve::sensitivity) {
+            self.sensitive[0] += 1;
+            self.sensitive[1] += usize::from(sensitivity > MOST_SENSITIVITY);
+        }
         let stands_again =
             |curve: &&Curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0;
         self.resurrected += results.all_curves().iter().filter(stands_again).count();
@@ -223,8 +209,8 @@ impl<'a> Output<'a> {
             self.sections.insert_str(0, &section);
         }
         self.sections.insert_str(0, &rates);
-        for (_, draft) in self.tables {
-            files.push(draft.commit(true)?);
+        for (_, rows) in self.tables {
+            files.push(rows.commit()?);
         }
         let path = self.folder.path().join("fragilities.svg");
         if self.panels.is_empty() {
@@ -237,7 +223,7 @@ impl<'a> Output<'a> {
             files.push(path);
         }
         let path = self.folder.path().join(PAGE);
-        file::to_file(&path, page::page(manifest, self.runs, &self.sections).as_bytes())?;
+        file::to_file(&path, page::page(manifest, self.runs, self.sensitive, &self.sections).as_bytes())?;
         files.push(path);
         Ok(Report { summary: summary + &about_risk, warning, files })
     }
@@ -267,6 +253,9 @@ impl<'a> Output<'a> {
         if self.come_back > 0 {
             let runs = counted(self.come_back, "run");
             let _ = writeln!(text, "{runs} exceed u_ins and come back, which is no collapse");
+        }
+        if self.sensitive[1] > 0 {
+            let _ = writeln!(text, "{}", page::sensitive_words(self.sensitive));
         }
         if self.resurrected > 0 {
             let _ = writeln!(

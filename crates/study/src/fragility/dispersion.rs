@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::{FitError, Lognormal, fit_from};
+use super::fit::{FitError, Lognormal, fit_from, fit_one};
 use super::term::{Likelihood, Term};
 
 /// How the dispersions of the limit states of a wall are fitted.
@@ -61,14 +61,12 @@ impl Estimator {
         states: &[Vec<Term>],
         near: &[Result<Lognormal, FitError>],
     ) -> Vec<Result<Lognormal, FitError>> {
-        let all: Vec<_> = states.iter().map(|terms| Ok(terms.as_slice())).collect();
         if self.dispersion == Dispersion::Common {
+            let all: Vec<_> = states.iter().map(|terms| Ok(terms.as_slice())).collect();
             return fit_from(&all, near);
         }
-        let own =
-            |(state, near): (usize, &[Result<Lognormal, FitError>])| fit_from(&all[state..=state], near);
-        let one = (0..all.len()).map(|state| near.get(state..=state).unwrap_or(&[]));
-        let mut fitted: Vec<_> = one.enumerate().flat_map(own).collect();
+        let own = |(state, terms): (usize, &Vec<Term>)| fit_one(terms, near.get(state));
+        let mut fitted: Vec<_> = states.iter().enumerate().map(own).collect();
         if self.dispersion == Dispersion::Ordered && self.crossings(&fitted).iter().any(Option::is_some) {
             let known = |&state: &usize| fitted[state].ok().map(|curve| (state, curve));
             let known: Vec<_> = self.rising.iter().filter_map(known).collect();

@@ -132,12 +132,18 @@ pub(super) fn fit_from(
     let mut states: Vec<Result<State<'_>, FitError>> =
         states.iter().map(|terms| State::new((*terms)?)).collect();
     let a = maximum(&mut states, near);
-    let curve = |state: &Result<State<'_>, FitError>| {
-        let State { centre, c, .. } = state.as_ref().map_err(|error| *error)?;
-        let a = a?;
-        Ok(Lognormal { median: libm::exp(centre - c / a), dispersion: 1.0 / a })
-    };
-    states.iter().map(curve).collect()
+    states.into_iter().map(|state| Ok(state?.curve(a?))).collect()
+}
+
+/// Fits one limit state, starting from its curve of similar observations if there is one.
+pub(super) fn fit_one(
+    terms: &[Term],
+    near: Option<&Result<Lognormal, FitError>>,
+) -> Result<Lognormal, FitError> {
+    let mut state = [State::new(terms)];
+    let a = maximum(&mut state, near.map_or(&[], std::slice::from_ref));
+    let [state] = state;
+    Ok(state?.curve(a?))
 }
 
 /// Returns a = 1/β of the maximum, and stores c in each limit state.
@@ -251,6 +257,11 @@ impl<'a> State<'a> {
         let squares = terms.iter().map(square).sum();
         let (c, step, likelihood) = (0.0, 0.0, Likelihood::default());
         Ok(Self { terms, centre, squares, weight, scatters, c, step, likelihood })
+    }
+
+    /// Returns its curve with a.
+    fn curve(&self, a: f64) -> Lognormal {
+        Lognormal { median: libm::exp(self.centre - self.c / a), dispersion: 1.0 / a }
     }
 }
 

@@ -6,7 +6,7 @@ use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};
 
 /// A run: one wall through one record scaled to one level.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Run {
     /// Level: the intensity to which the record was scaled, in SI units.
     pub intensity: f64,
@@ -17,14 +17,36 @@ pub struct Run {
     pub overturning: Option<f64>,
     /// Demand on ties that may yield; `None` where there are none.
     pub tie: Option<TieDemand>,
+    /// Sensitivity \[-\] of a collapse: the change of u/`u_ins` over the relative change of the record that
+    /// causes it, of the run at the collapse where the wall overturns, or of the largest |u| at the level
+    /// below; the larger of the two. It is measured up to 1e12. `None` of other runs, and of a collapse
+    /// without a level below it at which the wall stands.
+    pub sensitivity: Option<f64>,
 }
+
+/// Sensitivity above which the level of a collapse is not a property of the wall and the record: a change of
+/// 1e-10 of the record, far below what a recorder of 16 bits resolves, changes u by as much as `u_ins`.
+pub const MOST_SENSITIVITY: f64 = 1e10;
 
 impl Run {
     /// Returns the run at a level whose outcome is known.
     pub(super) fn of(motion: &Motion, intensity: f64, outcome: &Outcome) -> Self {
         let (wall, Outcome { state, overturning, .. }) = (motion.wall(), outcome);
         let demand = state.reported_peak(wall.body().instability, overturning.is_some())[1];
-        Self { intensity, demand, overturning: *overturning, tie: TieDemand::of(wall, state) }
+        let tie = TieDemand::of(wall, state);
+        Self { intensity, demand, overturning: *overturning, tie, sensitivity: None }
+    }
+
+    /// Returns |Δu|/`u_ins` between this run and a run beside it: where both overturn u̇ times the time
+    /// between, else the difference of their demands.
+    pub(super) fn change(&self, motion: &Motion, other: &Outcome) -> f64 {
+        match (self.overturning, other.overturning) {
+            (Some(time), Some(later)) => {
+                let (u, v) = (other.state.displacement, other.state.velocity);
+                (v * (later - time) / motion.wall().body().instability.of(u)).abs()
+            }
+            _ => (self.demand - Self::of(motion, self.intensity, other).demand).abs(),
+        }
     }
 }
 
@@ -175,6 +197,11 @@ impl Curve {
             Some(run) => Exceedance::At(run.intensity),
             None => Exceedance::Above(self.top()),
         }
+    }
+
+    /// Returns the sensitivity of the collapse, see [`Run::sensitivity`].
+    pub fn sensitivity(&self) -> Option<f64> {
+        self.runs.get(self.below_collapse)?.sensitivity
     }
 
     /// Returns the highest level below the collapse, or 0. The collapse lies between the two.

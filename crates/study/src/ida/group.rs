@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use record::{LANES, Outcome, RecordSolver};
+use record::{LANES, Outcome, RecordSolver, RunEnd};
 use rocking_wall::solver::{Motion, SolverError};
 use run::shaking::{Shaken, Shaking, together};
 
@@ -10,16 +10,20 @@ use super::levels::Trace;
 use super::polarity::worse;
 use super::{Case, Curve, IdaError, Levels, Run, Study};
 
-/// Most curves of many levels that advance together: enough to fill the lanes of most rounds, and few enough
-/// that threads share a study of few walls.
-const MOST_CURVES: usize = 2 * LANES;
+/// Most curves of many levels that advance together: enough to fill the lanes of nearly all rounds. The
+/// records of each are in memory, prepared for its wall.
+const MOST_CURVES: usize = 4 * LANES;
+/// Relative change of the record by which the sensitivity of a collapse is measured: well above the roundings
+/// of a run, and small enough to tell a sensitivity of 1e11 from a larger one.
+const PROBE: f64 = 1e-12;
 
 impl Study {
     /// Splits some combinations into those that [`curves`](Self::curves) takes together: some records of one
-    /// wall and model, at few levels all of them.
-    pub fn groups(&self, cases: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    /// wall and model, at few levels all of them. There is work for each of some threads.
+    pub fn groups(&self, cases: Range<usize>, threads: usize) -> impl Iterator<Item = Range<usize>> {
         let records = self.records.len();
-        let size = if self.levels.are_few() { records } else { MOST_CURVES };
+        let most = if self.levels.are_few() { records } else { MOST_CURVES };
+        let size = most.min(cases.len().div_ceil(threads.max(1))).max(1);
         let Range { start: mut first, end } = cases;
         std::iter::from_fn(move || {
             let place = first % records;
@@ -54,52 +58,100 @@ impl Study {
                 shaking.prepare();
             }
         }
+        let signs: &[f64] = if self.takes_the_worse(&motion) { &[1.0, -1.0] } else { &[1.0] };
+        let group = Group { motion: &motion, cases: &cases, shakings: &shakings, signs };
         let trace = |case: &Case| Trace::new(&self.levels, self.own_level(case.record));
         let mut traces: Vec<Result<Trace<'_>, IdaError>> = cases.iter().map(|case| Ok(trace(case))).collect();
-        while self.advance(&motion, &cases, &shakings, &mut traces) {}
-        traces.into_iter().map(|trace| Ok(Curve::new(trace?.finish()))).collect()
+        while self.advance(&group, &mut traces) {}
+        let curves = traces.into_iter().map(|trace| Ok(trace?.finish()));
+        let mut curves = curves.collect::<Result<Vec<_>, IdaError>>()?;
+        self.probe(&group, &mut curves)?;
+        Ok(curves.into_iter().map(Curve::new).collect())
     }
 
     /// Runs the levels that curves want next, all together; returns whether there were any. A curve whose run
     /// fails wants no more.
-    fn advance(
-        &self,
-        motion: &Motion,
-        cases: &[Case],
-        shakings: &[Shaking<'_>],
-        traces: &mut [Result<Trace<'_>, IdaError>],
-    ) -> bool {
-        // each level once, or with both signs
-        let signs: &[f64] = if self.takes_the_worse(motion) { &[1.0, -1.0] } else { &[1.0] };
-        let (mut wanted, mut shaken) = (Vec::new(), Vec::new());
-        for ((case, shaking), trace) in cases.iter().zip(shakings).zip(traces.iter_mut()) {
+    fn advance(&self, group: &Group<'_>, traces: &mut [Result<Trace<'_>, IdaError>]) -> bool {
+        let mut wanted = Vec::new();
+        for (place, trace) in traces.iter_mut().enumerate() {
             let levels = trace.as_mut().map_or_else(|_| Vec::new(), Trace::wanted);
-            for level in &levels {
-                let factor = self.factor(*case, *level);
-                let with = |sign| Shaken { shaking, start: [0.0, 0.0], factor: sign * factor };
-                shaken.extend(signs.iter().map(with));
-            }
-            wanted.push(levels);
+            wanted.extend(levels.into_iter().map(|level| (place, level)));
         }
-        let outcomes = together(&shaken, self.collapse.end());
-        let mut of_levels = outcomes.chunks(signs.len());
-        for ((case, levels), trace) in cases.iter().zip(wanted).zip(traces) {
-            let run = |(level, outcomes): (f64, &[Result<Outcome, SolverError>])| {
-                let run = |outcome: &Result<Outcome, SolverError>| match outcome {
-                    Ok(outcome) => Ok(Run::of(motion, level, outcome)),
-                    Err(source) => Err(self.failed(*case, level, *source)),
-                };
-                let first = run(&outcomes[0])?;
-                outcomes[1..].iter().try_fold(first, |one, other| Ok(worse(one, run(other)?)))
+        let factors = wanted.iter().map(|&(place, level)| (place, self.factor(group.cases[place], level)));
+        let outcomes = group.outcomes(factors, self.collapse.end());
+        for (&(place, level), outcomes) in wanted.iter().zip(outcomes.chunks(group.signs.len())) {
+            let run = |outcome: &Result<Outcome, SolverError>| match outcome {
+                Ok(outcome) => Ok(Run::of(group.motion, level, outcome)),
+                Err(source) => Err(self.failed(group.cases[place], level, *source)),
             };
-            let runs: Vec<_> = levels.into_iter().zip(of_levels.by_ref()).map(run).collect();
-            match (runs.into_iter().collect::<Result<Vec<_>, _>>(), &mut *trace) {
-                (Ok(runs), Ok(trace)) => trace.add(runs),
-                (Err(error), _) => *trace = Err(error),
-                (Ok(_), Err(_)) => {}
+            let run = outcomes.iter().map(run).reduce(|one, other| Ok(worse(one?, other?)));
+            match (run, &mut traces[place]) {
+                (Some(Ok(run)), Ok(trace)) => trace.add(run),
+                (Some(Err(error)), trace @ Ok(_)) => *trace = Err(error),
+                // a run before this one failed
+                (_, Err(_)) | (None, _) => {}
             }
         }
-        !shaken.is_empty()
+        !wanted.is_empty()
+    }
+
+    /// Finds the sensitivity of each collapse above a level at which the wall stands: runs both levels again,
+    /// with the record changed. `curves` are the runs of each case, by their levels.
+    fn probe(&self, group: &Group<'_>, curves: &mut [Vec<Run>]) -> Result<(), IdaError> {
+        let collapse = |(place, runs): (usize, &Vec<Run>)| {
+            let first = runs.iter().position(|run| run.overturning.is_some()).filter(|first| *first > 0)?;
+            Some((place, first))
+        };
+        let collapses: Vec<(usize, usize)> = curves.iter().enumerate().filter_map(collapse).collect();
+        // u̇ at overturning is known of runs that end there
+        for (below, end) in [(1, self.collapse.end()), (0, RunEnd::AtPeaks)] {
+            let changed = |&(place, first): &(usize, usize)| {
+                (
+                    place,
+                    (1.0 + PROBE) * self.factor(group.cases[place], curves[place][first - below].intensity),
+                )
+            };
+            let outcomes = group.outcomes(collapses.iter().map(changed), end);
+            for (&(place, first), outcomes) in collapses.iter().zip(outcomes.chunks(group.signs.len())) {
+                let run = curves[place][first - below];
+                // of both signs the one that the run has is nearer
+                let mut change = 1.0;
+                for outcome in outcomes {
+                    let outcome = outcome
+                        .as_ref()
+                        .map_err(|source| self.failed(group.cases[place], run.intensity, *source))?;
+                    change = f64::min(change, run.change(group.motion, outcome));
+                }
+                let known = &mut curves[place][first].sensitivity;
+                *known = Some(f64::max(known.unwrap_or(0.0), change / PROBE));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The curves of a group while they are run.
+struct Group<'a> {
+    motion: &'a Motion,
+    cases: &'a [Case],
+    shakings: &'a [Shaking<'a>],
+    /// Signs with which each level is run.
+    signs: &'a [f64],
+}
+
+impl Group<'_> {
+    /// Runs some curves, given by their places, with a factor on the record each, all together: each factor
+    /// with every sign.
+    fn outcomes(
+        &self,
+        factors: impl Iterator<Item = (usize, f64)>,
+        end: RunEnd,
+    ) -> Vec<Result<Outcome, SolverError>> {
+        let with_signs = |(place, factor): (usize, f64)| {
+            let shaking = &self.shakings[place];
+            self.signs.iter().map(move |sign| Shaken { shaking, start: [0.0, 0.0], factor: sign * factor })
+        };
+        together(&factors.flat_map(with_signs).collect::<Vec<_>>(), end)
     }
 }
 

@@ -205,10 +205,10 @@ impl<'a> Trace<'a> {
         levels.skip(self.runs.len()).take(more).collect()
     }
 
-    /// Adds the runs at the levels that were wanted.
-    pub(super) fn add(&mut self, runs: impl IntoIterator<Item = Run>) {
-        self.runs.extend(runs);
-        self.runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
+    /// Adds the run at a level that was wanted.
+    pub(super) fn add(&mut self, run: Run) {
+        let place = self.runs.partition_point(|other| other.intensity <= run.intensity);
+        self.runs.insert(place, run);
     }
 
     /// Returns the runs of the complete curve.

@@ -33,7 +33,6 @@ mod polarity;
 mod unit;
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use ground_motion::{GroundMotion, Warning};
 pub use rocking_wall::scene::DEFAULT_TAIL;
@@ -45,7 +44,7 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
 
-pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, TieDemand};
+pub use curve::{Collapse, Crossing, Curve, Exceedance, MOST_SENSITIVITY, Run, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::{IntensityMeasure, Misfit};
@@ -291,13 +290,7 @@ impl Study {
     /// # Errors
     /// The error of the first combination, in their order, whose run fails.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
-        // groups small enough for all threads
-        let most = self.count().div_ceil(threads.max(1)).max(1);
-        let split = |group: Range<usize>| {
-            let end = group.end;
-            group.step_by(most).map(move |first| first..end.min(first + most))
-        };
-        let groups: Vec<_> = self.groups(0..self.count()).flat_map(split).collect();
+        let groups: Vec<_> = self.groups(0..self.count(), threads).collect();
         let curves = parallel::map(groups.len(), threads, |group| self.curves(groups[group].clone()))?;
         Ok(curves.into_iter().flatten().collect())
     }

@@ -40,14 +40,8 @@ impl IntensityUnit {
     }
 
     /// Returns the end of the names of columns in this unit: `theta` and `_cm_s` are `theta_cm_s`.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Gravity => "_g",
-            Self::CentimetrePerSecond => "_cm_s",
-            Self::Centimetre => "_cm",
-            Self::MetrePerSecond => "_m_s",
-            Self::GravitySecond => "_g_s",
-        }
+    pub fn ending(self) -> String {
+        format!("_{}", self.name().replace(['/', ' '], "_"))
     }
 
     /// Returns the name of the SI unit of the same quantity: `m/s²`, `m/s`, `m`.
@@ -60,12 +54,8 @@ impl IntensityUnit {
     }
 
     /// Returns the end of the names of columns in that SI unit.
-    pub fn si_ending(self) -> &'static str {
-        match self {
-            Self::Gravity => "_m_s2",
-            Self::CentimetrePerSecond | Self::MetrePerSecond | Self::GravitySecond => "_m_s",
-            Self::Centimetre => "_m",
-        }
+    pub fn si_ending(self) -> String {
+        format!("_{}", self.si().replace('/', "_").replace('²', "2"))
     }
 
     /// Returns the unit in SI units.
@@ -184,8 +174,8 @@ mod tests {
             (IntensityMeasure::Cav, "g s", "_g_s", "m/s", "_m_s", "0.5 m/s (0.0509858 g s)"),
         ] {
             let unit = measure.unit();
-            assert_eq!((unit.name(), unit.ending()), (name, ending));
-            assert_eq!((unit.si(), unit.si_ending()), (si, si_ending));
+            assert_eq!((unit.name(), unit.ending().as_str()), (name, ending));
+            assert_eq!((unit.si(), unit.si_ending().as_str()), (si, si_ending));
             assert_eq!(unit.shown(0.5), shown);
             assert_eq!(unit.of(0.5) * unit.size(), 0.5);
         }

@@ -1,21 +1,16 @@
 //! All results of a complete folder: tables and page, made wall by wall.
 
-use std::convert::Infallible;
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 use report::counted;
-use run::file::{self, Draft};
-use run::parallel;
+use run::file;
 use run::sample::fractile;
 
 use super::class::{Class, sorted};
 use super::{FILES, Reliability, page, table};
-use crate::folder::{Curves, Folder, FolderError, MOST_WALLS, Report};
-use crate::results::Fitting;
+use crate::folder::{Folder, FolderError, MOST_WALLS, Report, Rows, each_wall};
+use crate::ida::Curve;
 
-/// Walls that each thread takes before their rows are written.
-const WALLS_AT_ONCE: usize = 4;
 /// Most walls that a warning names.
 const NAMED: usize = 3;
 
@@ -32,44 +27,32 @@ pub fn finish(
 ) -> Result<Report, FolderError> {
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
-    let fitting = Fitting::new(contents.records.len(), &models, contents.grid.clone(), &manifest.report)
-        .with_polarity(contents.polarity)
-        .with_cloud(contents.is_cloud);
     let hazard = manifest.report.hazard.as_ref().map(|hazard| &hazard.curve);
     let paths = FILES.map(|name| folder.path().join(name));
-    let [mut rows, mut rules] = [Draft::new(&paths[0], b"")?, Draft::new(&paths[1], b"")?];
-    let (mut class, mut shown, mut is_begun) = (Class::default(), Vec::new(), false);
-    let mut curves = Curves::of(folder);
-    let of_wall = models.len() * contents.records.len();
-    let count = reliability.walls.len();
-    for start in (0..count).step_by(threads * WALLS_AT_ONCE) {
-        let end = (start + threads * WALLS_AT_ONCE).min(count);
-        let taken = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
-        let found = parallel::map(taken.len(), threads, |place| {
-            let found = reliability.of_wall(start + place, &taken[place], &fitting);
-            done();
-            Ok::<_, Infallible>(found)
-        });
-        let Ok(found) = found;
-        for (wall, found) in reliability.walls[start..end].iter().zip(&found) {
-            class.add(wall, found);
-            let Ok(found) = found else { continue };
-            let own = table::wall(&wall.name, &models, found, hazard);
-            let turned = table::rules(&wall.name, &models, found, reliability.target);
-            for (draft, table) in [(&mut rows, &own), (&mut rules, &turned)] {
-                let text = if is_begun { table.csv_rows() } else { table.csv() };
-                draft.write(|file| file.write_all(text.as_bytes()))?;
-            }
-            is_begun = true;
-            shown.extend((count <= MOST_WALLS).then_some(own));
-        }
-    }
+    let (mut rows, mut rules) = (Rows::new(&paths[0])?, Rows::new(&paths[1])?);
+    let (mut class, mut shown) = (Class::default(), Vec::new());
+    let fitting = manifest.fitting();
+    let found = |place, curves: &[Curve]| {
+        let found = reliability.of_wall(place, curves, &fitting);
+        done();
+        found
+    };
+    each_wall(folder, threads, found, |place, found| {
+        let wall = &reliability.walls[place];
+        class.add(wall, &found);
+        let Ok(found) = found else { return Ok(()) };
+        let own = table::wall(&wall.name, &models, &found, hazard);
+        rows.add(&own)?;
+        rules.add(&table::rules(&wall.name, &models, &found, reliability.target))?;
+        shown.extend((reliability.walls.len() <= MOST_WALLS).then_some(own));
+        Ok(())
+    })?;
     let summary = table::summary(&class, &models, reliability.target);
     file::to_file(&paths[2], summary.csv().as_bytes())?;
     let html = page::page(manifest, reliability, &class, &shown);
     file::to_file(&paths[3], html.as_bytes())?;
-    rows.commit(true)?;
-    rules.commit(true)?;
+    rows.commit()?;
+    rules.commit()?;
     Ok(Report {
         summary: words(&class, &models, reliability.target) + &summary.text(),
         warning: warning(&class),

@@ -73,9 +73,9 @@ impl Reliability {
         }
         if matches!(loaded.study.levels(), Levels::Cloud { .. }) {
             return refused(
-                "a study of reliability needs levels, and a cloud runs each record once; give levels of \
-                 another method, such as levels = { method = \"hunt\", first = 0.05, increase = 0.05, top = \
-                 5 }, in g"
+                "method = \"cloud\" of [levels]: a study of reliability needs several levels, and a cloud \
+                 runs each record once; give levels of another method, such as levels = { method = \
+                 \"hunt\", first = 0.05, increase = 0.05, top = 5 }, in g"
                     .into(),
             );
         }

@@ -13,7 +13,7 @@ use study::ida::{Curve, IntensityMeasure, Levels, Run, Study};
 /// A run of a record at an intensity, with its demand; the wall overturns at 1.
 fn curve(intensity: f64, demand: f64) -> Curve {
     let overturning = (demand >= 1.0).then_some(3.0);
-    Curve::new(vec![Run { intensity, demand: demand.min(1.0), overturning, tie: None }])
+    Curve::new(vec![Run { intensity, demand: demand.min(1.0), overturning, ..Run::default() }])
 }
 
 /// Runs about ln D = a + b ln IM with the standard deviation σ, a part of them above 1.

@@ -65,7 +65,7 @@ fn curves(levels: &[f64]) -> Vec<Curve> {
             let stands_again = again < 0.4 && (1.1 * falls..1.3 * falls).contains(&intensity);
             let falls_here = intensity > falls && !stands_again;
             let demand = if falls_here { 1.0 } else { (0.8 * intensity / falls).min(0.99) };
-            Run { intensity, demand, overturning: falls_here.then_some(2.0), tie: None }
+            Run { intensity, demand, overturning: falls_here.then_some(2.0), ..Run::default() }
         };
         Curve::new(levels.iter().map(run).collect())
     };
@@ -146,7 +146,12 @@ fn ordered_curves_are_the_likeliest_that_do_not_cross() {
         let curve = |record: u32| {
             let run = |observation: &Observation| {
                 let Observation::Stripe { intensity, exceeded, .. } = *observation else { unreachable!() };
-                Run { intensity, demand: 1.0, overturning: (record < exceeded).then_some(1.0), tie: None }
+                Run {
+                    intensity,
+                    demand: 1.0,
+                    overturning: (record < exceeded).then_some(1.0),
+                    ..Run::default()
+                }
             };
             Curve::new(counts.iter().map(run).collect())
         };

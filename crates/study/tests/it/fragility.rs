@@ -345,7 +345,7 @@ fn one_stripe_gives_a_bound() {
             intensity: 3.0,
             demand: 1.0,
             overturning: (record < fallen).then_some(1.0),
-            tie: None,
+            ..Run::default()
         };
         let curves: Vec<_> = (0..10).map(|record| Curve::new(vec![run(record)])).collect();
         let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&[3.0]));

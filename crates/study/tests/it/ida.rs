@@ -145,7 +145,7 @@ fn curves_together_are_those_by_themselves() {
             overturned += alone.iter().flat_map(Curve::runs).filter(|run| run.overturning.is_some()).count();
             assert!(study.run(2).unwrap() == alone);
             // groups are of one wall and model, or of the rest of one
-            let groups: Vec<_> = study.groups(3..study.count() - 2).collect();
+            let groups: Vec<_> = study.groups(3..study.count() - 2, 1).collect();
             assert!(groups[0] == (3..10) && groups[1] == (10..20) && groups.len() == 3 * 5);
             for group in groups {
                 assert!(study.curves(group.clone()).unwrap() == alone[group]);
@@ -155,13 +155,16 @@ fn curves_together_are_those_by_themselves() {
     assert!(overturned > 100, "{overturned}");
 }
 
-/// Curves of many levels go together by sixteen at most, of one wall and model, from wherever a part starts.
+/// Curves of many levels go together by 32 at most, of one wall and model, from wherever a part starts; by
+/// fewer where threads would have nothing to do.
 #[test]
 fn groups_of_hunts_are_small() {
-    let study = Study::new(walls(), records(20), Model::figure_15(), IntensityMeasure::Pga, HUNT).unwrap();
-    let groups: Vec<_> = study.groups(5..45).collect();
-    assert_eq!(groups, [5..16, 16..20, 20..36, 36..40, 40..45]);
-    assert_eq!(study.groups(7..7).count(), 0);
+    let study = Study::new(walls(), records(40), Model::figure_15(), IntensityMeasure::Pga, HUNT).unwrap();
+    let groups = |cases, threads| study.groups(cases, threads).collect::<Vec<_>>();
+    assert_eq!(groups(35..85, 1), [35..40, 40..72, 72..80, 80..85]);
+    assert_eq!(groups(35..85, 5), [35..40, 40..50, 50..60, 60..70, 70..80, 80..85]);
+    assert_eq!(groups(0..4, 9), [0..1, 1..2, 2..3, 3..4]);
+    assert!(groups(7..7, 2).is_empty());
 }
 
 /// Hunt and fill finds the same collapse as a grid of its resolution, except for windows of collapse below.
@@ -265,7 +268,7 @@ fn the_free_vibration_after_a_record_counts() {
 }
 
 fn level(intensity: f64, demand: f64, overturned: bool) -> Run {
-    Run { intensity, demand, overturning: overturned.then_some(3.0), tie: None }
+    Run { intensity, demand, overturning: overturned.then_some(3.0), ..Run::default() }
 }
 
 #[test]

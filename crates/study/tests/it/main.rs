@@ -19,6 +19,7 @@ mod record_files;
 mod reliability;
 mod reliability_tables;
 mod rocking_spectrum;
+mod sensitivity;
 mod storeys;
 mod ties;
 mod uncertain;

@@ -249,7 +249,11 @@ fn what_cannot_be_answered_is_refused() {
         (
             "cloud",
             own(["{ method = \"hunt\", first = 0.05, increase = 0.05, top = 5 }", "{ method = \"cloud\" }"]),
-            &["a cloud runs each record once", "such as levels = { method = \"hunt\", first = 0.05"],
+            &[
+                "method = \"cloud\"",
+                "a cloud runs each record once",
+                "such as levels = { method = \"hunt\", first = 0.05",
+            ],
         ),
         ("all", own(["thickness", "width"]), &["no wall can be checked; wall \"low\"", "thickness"]),
         (
