@@ -74,8 +74,16 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-/// Margin and probability of the fall of a wall.
-type Fall = [f64; 2];
+/// The fall of a wall.
+#[derive(Clone, Copy)]
+struct Fall {
+    margin: f64,
+    probability: f64,
+    /// a_g at which the check has ζ = 1 \[g\].
+    ag_code: f64,
+    /// Median a_g of the fall \[g\].
+    theta: f64,
+}
 
 fn tables(motions: &str, records: &str) -> Result<String> {
     let folder = root().join(FOLDER).join(motions);
@@ -95,69 +103,91 @@ fn tables(motions: &str, records: &str) -> Result<String> {
                 wall(&["study", "reliability", &file, "-o", &results])?;
                 for ((check, model), falls) in falls(&Path::new(&results).join("reliability.csv"))? {
                     if model == "CR" && check != "SLV with q" {
-                        by_soil.entry((order, place, check.clone(), soil)).or_default().extend(&falls);
+                        by_soil.insert((order, place, check.clone(), soil), falls.clone());
                     }
                     all.entry((order, place, check, model)).or_default().extend(falls);
                 }
             }
         }
     }
-    let mut text = head("model");
+    let mut text = head("model", &[]);
     for ((kind, place, check, model), falls) in &all {
         // writing to a String cannot fail
         let _ = writeln!(text, "| {} | {place} | {check} | {model} | {} |", KINDS[*kind].name, shown(falls));
     }
-    let _ = writeln!(text, "\nWith CR, soil by soil:\n{}", head("soil").trim_end());
+    let head = head("soil", &["a_g,code / ground", "θ / ground"]);
+    let _ = writeln!(
+        text,
+        "\nWith CR, soil by soil. The last columns are medians, over the same walls on the ground:"
+    );
+    let _ = writeln!(text, "{}", head.trim_end());
     for ((kind, place, check, soil), falls) in &by_soil {
-        let _ = writeln!(text, "| {} | {place} | {check} | {soil} | {} |", KINDS[*kind].name, shown(falls));
+        let ground = &by_soil[&(*kind, "ground", check.clone(), *soil)];
+        if ground.len() != falls.len() {
+            return Err(
+                format!("{} on soil {soil}: a wall falls at one place only", KINDS[*kind].name).into()
+            );
+        }
+        let beside = |of: fn(&Fall) -> f64| {
+            fractile(falls.iter().zip(ground).map(|(fall, ground)| of(fall) / of(ground)), 50)
+        };
+        let [asked, falling] = [beside(|fall| fall.ag_code), beside(|fall| fall.theta)];
+        let _ = writeln!(
+            text,
+            "| {} | {place} | {check} | {soil} | {} | {asked:.2} | {falling:.2} |",
+            KINDS[*kind].name,
+            shown(falls)
+        );
     }
     Ok(text + "\n")
 }
 
-/// The first lines of a table whose fourth column is `varied`.
-fn head(varied: &str) -> String {
-    let columns = ["walls", "place", "check", varied, "θ/a_g,code: 5 %", "50 %", "95 %", "P(fall): 50 %"];
-    format!("\n| {} | 95 % | P > {LIMIT} |\n|{}\n", columns.join(" | "), "---|".repeat(10))
+/// The first lines of a table whose fourth column is `varied`, with further columns at the end.
+fn head(varied: &str, further: &[&str]) -> String {
+    let limit = format!("P > {LIMIT}");
+    let shown = ["θ/a_g,code: 5 %", "50 %", "95 %", "P(fall): 50 %", "95 %", &limit];
+    let columns = [&["walls", "place", "check", varied], &shown[..], further].concat();
+    format!("\n| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()))
+}
+
+/// The value that some per cent of the values do not exceed.
+fn fractile(values: impl Iterator<Item = f64>, percent: usize) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[(percent * values.len()).div_ceil(100).max(1) - 1]
 }
 
 /// Fractiles of margins and probabilities, and the share of walls above the limit.
 fn shown(falls: &[Fall]) -> String {
-    let sorted = |of: usize| {
-        let mut values: Vec<f64> = falls.iter().map(|fall| fall[of]).collect();
-        values.sort_by(f64::total_cmp);
-        values
-    };
-    let [margins, probabilities] = [sorted(0), sorted(1)];
-    // the values that 5, 50 and 95 % of the walls do not exceed
-    let at = |values: &[f64], percent: usize| values[(percent * values.len()).div_ceil(100).max(1) - 1];
-    let above = probabilities.iter().filter(|probability| **probability > LIMIT).count();
-    let margins: Vec<_> = [5, 50, 95].map(|percent| format!("{:.2}", at(&margins, percent))).into();
+    let margin = |percent| fractile(falls.iter().map(|fall| fall.margin), percent);
+    let probability = |percent| fractile(falls.iter().map(|fall| fall.probability), percent);
+    let above = falls.iter().filter(|fall| fall.probability > LIMIT).count();
     format!(
-        "{} | {:.3} | {:.3} | {:.0} %",
-        margins.join(" | "),
-        at(&probabilities, 50),
-        at(&probabilities, 95),
-        100.0 * above as f64 / probabilities.len() as f64
+        "{:.2} | {:.2} | {:.2} | {:.3} | {:.3} | {:.0} %",
+        margin(5),
+        margin(50),
+        margin(95),
+        probability(50),
+        probability(95),
+        100.0 * above as f64 / falls.len() as f64
     )
 }
 
-/// Returns margin and probability of the fall of each wall, by check and model.
+/// Returns the falls of the walls, in their order, by check and model.
 fn falls(path: &Path) -> Result<BTreeMap<(String, String), Vec<Fall>>> {
     let text = read(path)?;
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let place = |name: &str| names.iter().position(|own| *own == name).unwrap_or(usize::MAX);
-    let [check, model, event, margin, probability] =
-        ["check", "model", "event", "margin", "probability"].map(place);
     let mut found = BTreeMap::<_, Vec<Fall>>::new();
     for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let number = |place: usize| cells.get(place).and_then(|cell| cell.parse::<f64>().ok());
-        if cells.get(event) == Some(&"fall")
-            && let Some((margin, probability)) = number(margin).zip(number(probability))
+        let cells: BTreeMap<&str, &str> = names.iter().copied().zip(line.split(',')).collect();
+        let number = |name: &str| cells.get(name).and_then(|cell| cell.parse::<f64>().ok());
+        if cells.get("event") == Some(&"fall")
+            && let [Some(margin), Some(probability), Some(ag_code), Some(theta)] =
+                ["margin", "probability", "ag_code_g", "theta_g"].map(number)
         {
-            let key = (cells[check].to_owned(), cells[model].to_owned());
-            found.entry(key).or_default().push([margin, probability]);
+            let key = (cells["check"].to_owned(), cells["model"].to_owned());
+            found.entry(key).or_default().push(Fall { margin, probability, ag_code, theta });
         }
     }
     Ok(found)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
-use crate::ida::{Crossing, Curve, Exceedance, MOST_SENSITIVITY};
+use crate::ida::{Crossing, Curve, Exceedance, MOST_LISTED, MOST_SENSITIVITY};
 use crate::results::{StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
@@ -26,9 +26,6 @@ use super::store::{Folder, PAGE};
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
-/// Most combinations of a study whose runs and collapses are written as CSV too. Those of larger studies are
-/// in the parts only.
-const MOST_CASES: usize = 10_000;
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 
@@ -109,7 +106,7 @@ impl<'a> Output<'a> {
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
         let cloud = folder.contents().is_cloud.then_some(&CLOUD);
-        let kinds = if folder.contents().count() <= MOST_CASES { &KINDS[..] } else { &KINDS[2..] };
+        let kinds = if folder.contents().count() <= MOST_LISTED { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,

@@ -8,7 +8,7 @@ use run::shaking::{Shaken, Shaking, together};
 
 use super::levels::Trace;
 use super::polarity::worse;
-use super::{Case, Curve, IdaError, Levels, Run, Study};
+use super::{Case, Curve, IdaError, Levels, MOST_LISTED, Run, Study};
 
 /// Most curves of many levels that advance together: enough to fill the lanes of nearly all rounds. The
 /// records of each are in memory, prepared for its wall.
@@ -65,7 +65,9 @@ impl Study {
         while self.advance(&group, &mut traces) {}
         let curves = traces.into_iter().map(|trace| Ok(trace?.finish()));
         let mut curves = curves.collect::<Result<Vec<_>, IdaError>>()?;
-        self.probe(&group, &mut curves)?;
+        if self.count() <= MOST_LISTED {
+            self.probe(&group, &mut curves)?;
+        }
         Ok(curves.into_iter().map(Curve::new).collect())
     }
 

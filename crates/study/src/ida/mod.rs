@@ -51,6 +51,10 @@ pub use measure::{IntensityMeasure, Misfit};
 pub use polarity::Polarity;
 pub use unit::{IntensityUnit, ToSi};
 
+/// Most combinations of a study whose runs and collapses are written as CSV too, with the sensitivity of each
+/// collapse. Runs of larger studies are in the parts only.
+pub(crate) const MOST_LISTED: usize = 10_000;
+
 /// Longest free vibration after a record of a study \[s\].
 pub const LONGEST_TAIL: f64 = 1000.0;
 
