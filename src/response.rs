@@ -180,7 +180,7 @@ impl Response {
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
-            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?.put_to_rest;
+            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?;
             samples.push(sample(&simulation, support_at(time)));
         }
         let progress = simulation.progress();

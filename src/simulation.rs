@@ -176,7 +176,8 @@ impl Simulation {
     }
 
     /// Moves the wall to a time \[s\] under a motion of its supports, or without one, and adds its demands to
-    /// `demands`. Steps of a record in which nothing happens are passed many at once.
+    /// `demands`. With these, steps of a record in which nothing happens are passed many at once. Returns
+    /// whether the limit on impacts was reached and the wall put to rest.
     ///
     /// ```
     /// use rocking_wall::simulation::Simulation;
@@ -196,7 +197,7 @@ impl Simulation {
         end: f64,
         motion: Option<&Excitation>,
         demands: Option<&mut Demands>,
-    ) -> Result<Step, RunError> {
+    ) -> Result<bool, RunError> {
         let next = |simulation: &mut Self, demands: Option<&mut Demands>, _| {
             if let (Some(motion), Some(demands)) = (motion, demands) {
                 simulation.pass_calm_steps(end, motion, demands);
@@ -206,7 +207,7 @@ impl Simulation {
         };
         let step = self.advance_by(next, demands)?;
         self.set_time(end);
-        Ok(step)
+        Ok(step.put_to_rest)
     }
 
     /// Moves the wall through the segments that `next` returns, with the length of the step that is left.

@@ -98,7 +98,9 @@ impl Excitation {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 0 it is 0")]
         let first = before as usize;
         let samples = self.bottom.samples().get(first..)?;
-        ((steps - first as f64).abs() <= SAMPLE_ROUNDING && !samples.is_empty()).then_some((first, samples))
+        // a time is the product of a number and the step, or a sum of few such
+        let is_at_sample = (steps - first as f64).abs() <= 16.0 * f64::EPSILON * steps;
+        (is_at_sample && !samples.is_empty()).then_some((first, samples))
     }
 
     fn records(&self) -> impl Iterator<Item = &GroundMotion> {

@@ -158,7 +158,7 @@ impl<'a> Series<'a> {
         let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
         let (polynomial, horizon, end) = secant.series(now, ends, remaining, tolerances);
         let mut series = Self::of(polynomial, horizon, Some(Law { branch, forcing }));
-        // that of a calm step
+        // so that a step by itself has the bits of a calm one
         if let Some([displacement, velocity]) = end {
             series.end = KinematicState { displacement, velocity, ..series.end };
         }

@@ -2,7 +2,7 @@
 //!
 //! Most steps of a run reach no corner and raise no extreme. Ranges of u, u̇, ü and the reactions at the ends
 //! of a step make sure of that (docs/record-path.md, §8): they are found once for many steps, so that
-//! such a step costs its motion and some comparisons. What becomes of the wall has the bits of a search.
+//! such a step costs its motion and some comparisons. The wall has the state that a step by itself gives it.
 
 use oscillator::{KinematicState, Oscillator};
 
@@ -22,25 +22,25 @@ pub(crate) struct Samples<'a> {
 }
 
 /// Lowest and highest value.
-type Range = [f64; 2];
+type Bounds = [f64; 2];
 
-fn holds([lowest, highest]: Range, value: f64) -> bool {
+fn holds([lowest, highest]: Bounds, value: f64) -> bool {
     lowest <= value && value <= highest
 }
 
 /// Returns the values that are `margin` or more within the extremes.
-fn within(Extremes { highest, lowest }: &Extremes, margin: f64) -> Range {
+fn within(Extremes { highest, lowest }: &Extremes, margin: f64) -> Bounds {
     [lowest.value + margin, highest.value - margin]
 }
 
 /// Where a wall may be at the ends of its steps on a branch, so that these are calm.
 struct Calm<'a> {
     wall: &'a Wall,
-    displacement: Range,
-    velocity: Range,
-    acceleration: Range,
-    bottom: Range,
-    top: Range,
+    displacement: Bounds,
+    velocity: Bounds,
+    acceleration: Bounds,
+    bottom: Bounds,
+    top: Bounds,
 }
 
 impl<'a> Calm<'a> {
@@ -48,7 +48,7 @@ impl<'a> Calm<'a> {
     fn new(wall: &'a Wall, state: &State, demands: &Demands, step: f64) -> Option<Self> {
         let branch = &wall.branches()[state.branch];
         let [lower, upper] = limits(branch, state, demands)?;
-        let larger = |range: Range| range[0].abs().max(range[1].abs());
+        let larger = |range: Bounds| range[0].abs().max(range[1].abs());
         let [c, slope, bend] = branch.damping_bounds([lower, upper]);
         let (force, stiffness) =
             (larger([lower, upper].map(|u| branch.restoring(u))), branch.stiffness.abs());
@@ -60,12 +60,14 @@ impl<'a> Calm<'a> {
         let turn = slope * speed + stiffness;
         let jerk = 2.0 * forcing / step + turn * speed + c * most;
         let snap = bend * speed.powi(3) + (2.0 * slope * speed + turn) * most + c * jerk;
-        let (share, drift) = (0.125 * step * step, 4.0 * 0.125 * step * step * most);
+        // from the straight line u₀ + u̇₀ t
+        let departure = 0.5 * step * step * most;
+        let share = 0.125 * step * step;
         let by_acceleration = wall.body().reactions(Support::default(), 1.0, 0.0, false);
         let reaction = |extremes, slope: f64| within(extremes, share * snap * slope.abs());
         (c * step < 1.0).then(|| Self {
             wall,
-            displacement: [lower + drift, upper - drift],
+            displacement: [lower + departure, upper - departure],
             velocity: within(&demands.velocity, share * jerk),
             acceleration: within(&demands.acceleration, share * snap),
             bottom: reaction(&demands.reaction_bottom, by_acceleration.bottom),
@@ -88,7 +90,7 @@ impl<'a> Calm<'a> {
 
 /// Returns the range of u on the branch of a state in which no extreme is raised and no half cycle begins or
 /// ends; `None` where each step has to be searched.
-fn limits(branch: &Branch, state: &State, demands: &Demands) -> Option<Range> {
+fn limits(branch: &Branch, state: &State, demands: &Demands) -> Option<Bounds> {
     if state.overturned || demands.tie.is_some() && branch.tie != TieAction::None {
         return None;
     }
@@ -164,8 +166,8 @@ impl Motion {
             return None;
         }
         let mut passed = 0;
-        for &acceleration in &accelerations[1..] {
-            let to = forcing(acceleration);
+        for &of_support in &accelerations[1..] {
+            let to = forcing(of_support);
             if !holds(calm.displacement, now.displacement + step * now.velocity) {
                 break;
             }
@@ -185,7 +187,7 @@ impl Motion {
                     KinematicState { displacement, velocity, acceleration }
                 }
             };
-            if !calm.holds(&end, acceleration) {
+            if !calm.holds(&end, of_support) {
                 break;
             }
             (now, from, passed) = (end, to, passed + 1);

@@ -9,8 +9,6 @@ const MOST_THREADS: usize = 512;
 /// Stack of each thread that works on runs \[bytes\]: what the main thread of Linux and macOS has.
 /// Unoptimised vectors of the record path need more than the 2 MiB that Rust gives.
 pub const STACK: usize = 8 << 20;
-/// Just below the largest block that makes glibc adapt, 32 MiB \[bytes\].
-const KEPT: usize = 31 << 20;
 
 /// Returns the number of threads asked for, or one for each core.
 pub fn threads(given: Option<NonZeroUsize>) -> NonZeroUsize {
@@ -52,6 +50,7 @@ pub fn each<E: Send>(
     threads: usize,
     work: impl Fn(usize) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
+    #[cfg(all(target_env = "gnu", target_pointer_width = "64"))]
     keep_freed_memory();
     let next = AtomicUsize::new(0);
     let failure: Mutex<Option<(usize, E)>> = Mutex::new(None);
@@ -87,6 +86,10 @@ pub fn each<E: Send>(
 /// Lets the memory of some runs serve the next ones. Otherwise glibc returns it to the system each time, and
 /// a twentieth of a study's time goes into getting it back. It keeps as much as twice the largest block
 /// of up to 32 MiB that was ever freed (mallopt(3), `M_MMAP_THRESHOLD`); nothing is written to this one.
+#[cfg(all(target_env = "gnu", target_pointer_width = "64"))]
 fn keep_freed_memory() {
-    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
+    let mut block = Vec::<u8>::new();
+    // without this much memory, studies are slower
+    let _ = block.try_reserve_exact(31 << 20);
+    drop(std::hint::black_box(block));
 }

@@ -37,7 +37,7 @@ pub fn compute(
     threads: usize,
     done: impl Fn(Case, &Curve) -> ControlFlow<()> + Sync,
 ) -> Result<(), ComputeError> {
-    // a few parts are shared by all threads too
+    // parts that are fewer than threads are split among these
     let of_part = threads.div_ceil(parts.len().max(1));
     let groups: Vec<_> = parts
         .iter()

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Collapse, Crossing, Exceedance, MOST_SENSITIVITY, Polarity};
+use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
 use crate::results::{StateResults, WallResults};
 use crate::tables::{OF_INTENSITY, OF_RATIO};
 use report::counted;
@@ -23,7 +23,7 @@ const MOST_POINTS: usize = 100_000;
 const MOST_LISTED: usize = 200;
 
 /// Makes the page of a study with a number of runs from the sections of its walls, or of all together.
-/// `sensitive` counts the collapses with a sensitivity, and those above [`MOST_SENSITIVITY`].
+/// `sensitive` counts the collapses with a sensitivity, and those above [`SENSITIVE_ABOVE`].
 pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
@@ -64,11 +64,14 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
 
 /// Says how many collapses are sensitive, and what that means.
 pub(crate) fn sensitive_words([collapses, above]: [usize; 2]) -> String {
-    format!(
-        "Sensitivity above {MOST_SENSITIVITY:e}: {above} of {}; the level at which such a wall falls is not \
-         a property of the wall and the record, since it depends on digits that no record has",
-        counted(collapses, "collapse")
-    )
+    let count =
+        format!("Sensitivity above {SENSITIVE_ABOVE:e}: {above} of {}", counted(collapses, "collapse"));
+    if above == 0 {
+        return count;
+    }
+    count
+        + "; the level of such a collapse is not a property of the wall and the record, since it depends on \
+           digits that no record has"
 }
 
 /// The intensity measure in words, with its periods.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval, Summary};
-use crate::ida::{Crossing, Curve, Exceedance, MOST_LISTED, MOST_SENSITIVITY};
+use crate::ida::{Crossing, Curve, Exceedance, MOST_LISTED, SENSITIVE_ABOVE};
 use crate::results::{StateResults, WallResults};
 use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
 use report::counted;
@@ -92,7 +92,7 @@ struct Output<'a> {
     resurrected: usize,
     /// Runs that exceed `u_ins` and come back.
     come_back: usize,
-    /// Collapses with a sensitivity; of these the ones above [`MOST_SENSITIVITY`].
+    /// Collapses with a sensitivity; of these the ones above [`SENSITIVE_ABOVE`].
     sensitive: [usize; 2],
     /// Runs of walls with ties that may yield; of these the runs in which one yielded, and broke.
     tied: [usize; 3],
@@ -183,7 +183,7 @@ impl<'a> Output<'a> {
         self.come_back += runs.filter(|run| run.comes_back()).count();
         for sensitivity in results.all_curves().iter().filter_map(Curve::sensitivity) {
             self.sensitive[0] += 1;
-            self.sensitive[1] += usize::from(sensitivity > MOST_SENSITIVITY);
+            self.sensitive[1] += usize::from(sensitivity > SENSITIVE_ABOVE);
         }
         let stands_again =
             |curve: &&Curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0;

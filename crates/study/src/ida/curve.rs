@@ -26,7 +26,7 @@ pub struct Run {
 
 /// Sensitivity above which the level of a collapse is not a property of the wall and the record: a change of
 /// 1e-10 of the record, far below what a recorder of 16 bits resolves, changes u by as much as `u_ins`.
-pub const MOST_SENSITIVITY: f64 = 1e10;
+pub const SENSITIVE_ABOVE: f64 = 1e10;
 
 impl Run {
     /// Returns the run at a level whose outcome is known.

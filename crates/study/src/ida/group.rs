@@ -66,7 +66,7 @@ impl Study {
         let curves = traces.into_iter().map(|trace| Ok(trace?.finish()));
         let mut curves = curves.collect::<Result<Vec<_>, IdaError>>()?;
         if self.count() <= MOST_LISTED {
-            self.probe(&group, &mut curves)?;
+            self.probe(&group, &mut curves);
         }
         Ok(curves.into_iter().map(Curve::new).collect())
     }
@@ -98,37 +98,36 @@ impl Study {
     }
 
     /// Finds the sensitivity of each collapse above a level at which the wall stands: runs both levels again,
-    /// with the record changed. `curves` are the runs of each case, by their levels.
-    fn probe(&self, group: &Group<'_>, curves: &mut [Vec<Run>]) -> Result<(), IdaError> {
+    /// with the record changed. `curves` are the runs of each case, by their levels. A collapse of which such
+    /// a run fails has none.
+    fn probe(&self, group: &Group<'_>, curves: &mut [Vec<Run>]) {
         let collapse = |(place, runs): (usize, &Vec<Run>)| {
             let first = runs.iter().position(|run| run.overturning.is_some()).filter(|first| *first > 0)?;
             Some((place, first))
         };
         let collapses: Vec<(usize, usize)> = curves.iter().enumerate().filter_map(collapse).collect();
-        // u̇ at overturning is known of runs that end there
-        for (below, end) in [(1, self.collapse.end()), (0, RunEnd::AtPeaks)] {
-            let changed = |&(place, first): &(usize, usize)| {
-                (
-                    place,
-                    (1.0 + PROBE) * self.factor(group.cases[place], curves[place][first - below].intensity),
-                )
-            };
+        let changes = |below: usize, end: RunEnd| {
+            let run = |(place, first): (usize, usize)| curves[place][first - below];
+            let factor = |place: usize, level| (1.0 + PROBE) * self.factor(group.cases[place], level);
+            let changed = |&at: &(usize, usize)| (at.0, factor(at.0, run(at).intensity));
             let outcomes = group.outcomes(collapses.iter().map(changed), end);
-            for (&(place, first), outcomes) in collapses.iter().zip(outcomes.chunks(group.signs.len())) {
-                let run = curves[place][first - below];
-                // of both signs the one that the run has is nearer
-                let mut change = 1.0;
-                for outcome in outcomes {
-                    let outcome = outcome
-                        .as_ref()
-                        .map_err(|source| self.failed(group.cases[place], run.intensity, *source))?;
-                    change = f64::min(change, run.change(group.motion, outcome));
-                }
-                let known = &mut curves[place][first].sensitivity;
-                *known = Some(f64::max(known.unwrap_or(0.0), change / PROBE));
-            }
+            let change = |(at, outcomes): (&(usize, usize), &[Result<Outcome, SolverError>])| {
+                let run = run(*at);
+                let of = |outcome: &Outcome| Run::of(group.motion, run.intensity, outcome);
+                let worst = outcomes.iter().flatten().reduce(|one, other| {
+                    let first = of(one);
+                    if worse(first, of(other)) == first { one } else { other }
+                })?;
+                Some(run.change(group.motion, worst))
+            };
+            collapses.iter().zip(outcomes.chunks(group.signs.len())).map(change).collect::<Vec<_>>()
+        };
+        // u̇ at overturning is known of runs that end there
+        let (below, at) = (changes(1, self.collapse.end()), changes(0, RunEnd::AtPeaks));
+        for ((&(place, first), below), at) in collapses.iter().zip(below).zip(at) {
+            let larger = below.zip(at).map(|(below, at)| below.max(at).min(1.0));
+            curves[place][first].sensitivity = larger.map(|change| change / PROBE);
         }
-        Ok(())
     }
 }
 

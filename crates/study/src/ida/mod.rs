@@ -44,7 +44,7 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
 
-pub use curve::{Collapse, Crossing, Curve, Exceedance, MOST_SENSITIVITY, Run, TieDemand};
+pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::{IntensityMeasure, Misfit};

@@ -9,7 +9,7 @@ use rocking_wall::wall::{Parameters, Support};
 use run::model::Model;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::ida::{IntensityMeasure, Levels, MOST_SENSITIVITY, Study};
+use study::ida::{IntensityMeasure, Levels, SENSITIVE_ABOVE, Study};
 
 use crate::reliability::{load, number, rows, run_analysis};
 
@@ -45,14 +45,14 @@ fn collapses_that_depend_on_digits_of_the_record_are_counted() {
     let loaded = load("sensitive", SENSITIVE).unwrap();
     let found: Vec<_> =
         loaded.study.run(1).unwrap().iter().map(|curve| curve.sensitivity().unwrap()).collect();
-    let above = |found: &[f64]| found.iter().filter(|one| **one > MOST_SENSITIVITY).count();
+    let above = |found: &[f64]| found.iter().filter(|one| **one > SENSITIVE_ABOVE).count();
     assert!(above(&found) == 1 && found.iter().all(|one| (1.0..=1e12).contains(one)), "{found:?}");
     let path = run_analysis("sensitive_results", &loaded);
     let kept: Vec<_> =
         rows(&path.join("collapses.csv")).iter().map(|row| number(row, "sensitivity")).collect();
     assert_eq!(kept, found);
     let page = fs::read_to_string(path.join("study.html")).unwrap();
-    assert!(page.contains("Sensitivity above 1e10: 1 of 3 collapses; the level"));
+    assert!(page.contains("Sensitivity above 1e10: 1 of 3 collapses; the level of such"));
 }
 
 /// A collapse without a level at which the wall stands below has no sensitivity, and neither has a curve
