@@ -22,7 +22,7 @@ pub(crate) struct Folder {
 }
 
 /// A summary, and what is to be warned of.
-type Told = (String, Option<String>);
+type Told = (String, Vec<String>);
 
 #[pymethods]
 impl Folder {
@@ -56,10 +56,10 @@ impl Folder {
     }
 
     /// Lists the parts of a share that are missing or damaged, and says which of them are damaged.
-    fn missing(&self, py: Python<'_>, number: usize, of: usize) -> (Vec<usize>, Option<String>) {
+    fn missing(&self, py: Python<'_>, number: usize, of: usize) -> (Vec<usize>, Vec<String>) {
         py.detach(|| {
             let missing = self.folder.missing(self.folder.contents().shard(number, of));
-            let damage = self.folder.damage(&missing);
+            let damage: Vec<_> = self.folder.damage(&missing).into_iter().collect();
             (missing, damage)
         })
     }
@@ -99,11 +99,11 @@ impl Folder {
         py.detach(|| self.folder.keep_encoded(part, bytes)).map_err(of_folder)
     }
 
-    /// Writes the results of a complete folder; returns the summary and what the fits warn of.
+    /// Writes the results of a complete folder; returns the summary and warnings.
     fn finish(&self, py: Python<'_>, threads: Option<&Bound<'_, PyAny>>) -> PyResult<Told> {
         let threads = threads_of(threads)?.get();
         let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
-        Ok((report.summary, report.warning))
+        Ok((report.summary, report.warnings))
     }
 
     /// Writes how safe the walls of a complete folder are where they just pass their check; returns as
@@ -118,7 +118,7 @@ impl Folder {
         let threads = threads_of(threads)?.get();
         let found = py.detach(|| reliability::finish(&self.folder, &question, threads, || ()));
         let report = found.map_err(of_folder)?;
-        Ok((report.summary, report.warning))
+        Ok((report.summary, report.warnings))
     }
 
     /// Returns the tables of all runs and collapses.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -23,6 +23,9 @@ from ._tables import Table, Tabular
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
+
+# Most curves that a plot names.
+MOST_NAMED = 12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,8 +46,10 @@ class StudyResults(Tabular):
     """The curve of every wall, then of every class, for each damping model and limit state: θ, and β with
     its parts due to records, walls and modelling. `wall` is the name of the wall or class."""
     rates: Table | None
-    """The annual rate of each of these curves, with its interval, what may lie beyond the hazard curve,
-    return period and probability; None for a study without `hazard`."""
+    """The annual rate of each of these curves between the points of the hazard curve, with the ends of its 95 %
+    interval over resampled records (`annual_rate_low`, `_high`), return period and probability. What may lie
+    outside the points stands apart: `beyond_last_point_continued` if the curve goes on as it ends, and
+    `annual_rate_most` with the most that is possible. None for a study without `hazard`."""
     rate_shares: Table | None
     """The part of each rate from each segment of the hazard curve; None for a study without `hazard`."""
     vulnerability: Table | None
@@ -89,7 +94,8 @@ class StudyResults(Tabular):
         return fragilities.merge(self.collapses.to_xarray("wall", "model", "record"))
 
     def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws the curves of the highest limit state of some walls and classes, by default of all.
+        """Draws the curves of the highest limit state of some walls and classes, by default of all. In a study
+        of many walls name the class.
 
         Needs matplotlib. Raises `ValueError` for a name that is not there.
         """
@@ -110,7 +116,8 @@ class StudyResults(Tabular):
                 ax.plot(x, y, label=f"{row['wall']}, {row['model']}")
         measure = f"{curves['measure'][0]} ({curves['unit'][0]})"
         ax.set(xlabel=measure, ylabel="probability of exceedance", ylim=(0, 1))
-        ax.legend()
+        if len(ax.lines) <= MOST_NAMED:
+            ax.legend()
         return ax
 
 
@@ -229,9 +236,9 @@ def place(folder: str | PathLike[str] | None) -> AbstractContextManager[str]:
     return TemporaryDirectory(prefix="rocking_wall_") if folder is None else nullcontext(fspath(folder))
 
 
-def tell(warning: str | None, level: int = 3) -> None:
-    """Warns of damaged parts of a study, or of its fits, if there is something to warn of."""
-    if warning is not None:
+def tell(warnings: Iterable[str], level: int = 3) -> None:
+    """Warns of damaged parts of a study, of its fits and rates."""
+    for warning in warnings:
         warn(warning, stacklevel=level)
 
 

@@ -85,7 +85,8 @@ class Study:
             in a list or by their names. What is missing has its default. Damping and impact are those of the
             models.
         :param records: Records, or paths of records, in a list or by their names.
-        :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
+        :param models: Damping models by the names of study files, such as CR (restitution), "CR rigid", CDC
+            (constant coefficient) and CDR (constant ratio).
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in the
             unit of results: g, cm/s of PGV, cm of PGD and Housner, m/s of Arias, g s of CAV. `{"method":
             "cloud"}` runs each record once, and takes a regression.

@@ -71,8 +71,8 @@ def run(
                 done += len(batch)
                 report(done)
                 tasks.update(submit(len(batch)))
-    summary, warning = kept.finish(threads)
-    tell(warning)
+    summary, warnings = kept.finish(threads)
+    tell(warnings)
     if progress:
         print(summary, end="")
     return path

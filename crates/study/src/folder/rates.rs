@@ -149,9 +149,25 @@ impl<'a> Rates<'a> {
         self.plots.push((name.to_owned(), plot.svg(&id, [&axis, "share of the rate up to there"])));
     }
 
+    /// Says how many rates may lie beyond the hazard curve for a good part.
+    pub(crate) fn warning(&self) -> Option<String> {
+        let ([all, much], unit) = (self.beyond, self.manifest.contents.unit);
+        let last = self.hazard.curve.points().last().map_or(0.0, |[x, _]| unit.of(*x));
+        (much > 0).then(|| {
+            format!(
+                "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, at \
+                 {} {}; give points of higher intensities",
+                100.0 * MOST_BEYOND,
+                OF_INTENSITY.of(last),
+                unit.name()
+            )
+        })
+    }
+
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
     pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let Self { manifest, hazard, files, shown, plots, beyond: [all, much], .. } = self;
+        let warning = self.warning();
+        let Self { manifest, hazard, files, shown, plots, .. } = self;
         let paths = files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
         let (points, unit) = (hazard.curve.points(), manifest.contents.unit);
         let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| OF_INTENSITY.of(unit.of(x)));
@@ -166,24 +182,15 @@ impl<'a> Rates<'a> {
             let _ = write!(words, "; target {target:e} a year");
         }
         let (mut told, mut html) = (words.clone() + "\n", String::new());
-        let beyond = format!(
-            "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, at \
-             {to} {}; give points of higher intensities",
-            100.0 * MOST_BEYOND,
-            unit.name()
-        );
         let _ = write!(html, "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.", escaped(&words));
         if let Some(table) = shown {
             told.push_str(&table.text());
-            if much > 0 {
-                let _ = write!(html, " {}.", escaped(&beyond));
+            if let Some(warning) = warning {
+                let _ = write!(html, " {}.", escaped(&warning));
             }
             let _ = write!(html, "</p><div class=\"scroll\">{}</div>", table.html());
         } else {
             html.push_str("</p>");
-        }
-        if much > 0 {
-            told = told + &beyond + "\n";
         }
         html.push_str("<h3>Share of the rate of the last limit state, by intensity</h3><div class=\"row\">");
         // classes come last

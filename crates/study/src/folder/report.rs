@@ -34,8 +34,8 @@ const NAMED: usize = 3;
 pub struct Report {
     /// The collapse of every wall and model, or of a large study its fractiles, as a table.
     pub summary: String,
-    /// Warnings about the fits.
-    pub warning: Option<String>,
+    /// Warnings about the fits and the rates.
+    pub warnings: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
 }
@@ -198,7 +198,8 @@ impl<'a> Output<'a> {
         let together =
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
-        let (summary, warning) = (self.summary(manifest, is_large), self.warning(manifest));
+        let summary = self.summary(manifest, is_large);
+        let warnings: Vec<_> = self.warning(manifest).into_iter().chain(self.risk.warning()).collect();
         let (mut files, about_risk, rates) = self.risk.finish()?;
         if let Some(sampled) = self.sampled {
             let (paths, section) = sampled.finish(self.folder.path())?;
@@ -222,7 +223,7 @@ impl<'a> Output<'a> {
         let path = self.folder.path().join(PAGE);
         file::to_file(&path, page::page(manifest, self.runs, self.sensitive, &self.sections).as_bytes())?;
         files.push(path);
-        Ok(Report { summary: summary + &about_risk, warning, files })
+        Ok(Report { summary: summary + &about_risk, warnings, files })
     }
 
     fn summary(&self, manifest: &Manifest, is_large: bool) -> String {

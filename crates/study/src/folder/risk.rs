@@ -178,6 +178,11 @@ impl<'a> Risk<'a> {
         Ok((paths, told, section))
     }
 
+    /// Says what the annual rates leave out.
+    pub(crate) fn warning(&self) -> Option<String> {
+        self.rates.as_ref()?.warning()
+    }
+
     /// Adds what follows from the curves of a wall or a class with one model, where the study asks for it.
     fn follow(
         &mut self,

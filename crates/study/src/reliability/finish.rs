@@ -55,7 +55,7 @@ pub fn finish(
     rules.commit()?;
     Ok(Report {
         summary: words(&class, &models, reliability.target) + &summary.text(),
-        warning: warning(&class),
+        warnings: warnings(&class),
         files: paths.into(),
     })
 }
@@ -82,7 +82,7 @@ pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
     text
 }
 
-fn warning(class: &Class) -> Option<String> {
+fn warnings(class: &Class) -> Vec<String> {
     let mut told = Vec::new();
     if let Some((name, [own, checked])) = class.hinges.first() {
         told.push(format!(
@@ -97,5 +97,5 @@ fn warning(class: &Class) -> Option<String> {
         let count = counted(class.refused.len(), "wall");
         told.push(format!("{count} not checked, {}", named.join("; ")));
     }
-    (!told.is_empty()).then(|| told.join("; "))
+    told
 }

@@ -69,6 +69,13 @@ fn rates_and_reliability_are_the_same_bytes() {
     assert_has(&text(&again.stderr), &["combinations are done already"]);
     assert!(bytes(&folder.join("shared")) == whole, "after losses");
 
+    // rates that the points leave out are warned of
+    fs::write(folder.join("short.toml"), STUDY.replace(", [0.8, 1e-4]", "")).unwrap();
+    let short = succeed(&folder, &["study", "ida", "short.toml", "-o", "short"]);
+    let warning =
+        "8 of 8 rates may have more than 5 % beyond the last point of the hazard curve, at 0.200 g; give";
+    assert_has(&text(&short.stderr), &[warning]);
+
     // a study without a hazard leaves no rates of an earlier one
     let hazard = STUDY.lines().find(|line| line.starts_with("hazard")).unwrap();
     fs::write(folder.join("study.toml"), STUDY.replace(hazard, "")).unwrap();

@@ -235,6 +235,6 @@ fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> 
 }
 
 fn told_of(console: &Console<'_>, report: &Report) -> Result<()> {
-    console.warn(&report.warning);
+    console.warn(&report.warnings);
     console.print(&(report.summary.clone() + &output::written("written  ", &report.files)))
 }
