@@ -41,9 +41,20 @@ type Recognises = fn(&[&str]) -> bool;
 /// Reads every channel of a text.
 type Parse = fn(&str, &RecordOptions) -> Result<Vec<Parsed>, Fault>;
 
-/// A format: its short name, what people call it, the endings of its files, whether these say which direction
-/// a component has, and its reader.
-type Known = (Format, &'static str, &'static str, &'static [&'static str], bool, Recognises, Parse);
+/// What is known of a format.
+struct Known {
+    format: Format,
+    /// Short name.
+    name: &'static str,
+    /// What people call it.
+    description: &'static str,
+    /// Endings of its files.
+    endings: &'static [&'static str],
+    /// Whether its files say which direction a component has; otherwise their names may.
+    states_direction: bool,
+    recognises: Recognises,
+    parse: Parse,
+}
 
 const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
@@ -51,27 +62,139 @@ const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud
 /// COSMOS and SMC, whose first lines may have the same words; AT2, known by two words anywhere in its header,
 /// comes after tables, whose title may have them too.
 const KNOWN: [Known; Format::ALL.len()] = [
-    (Format::Esm, "esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
-    (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], true, geonet::recognises, geonet::parse),
-    (Format::Volume1, "volume1", "RENADIC/BHRC", &[], true, volume_1::recognises, volume_1::parse),
-    (Format::Knet, "knet", "K-NET/KiK-net", KNET, true, knet::recognises, knet::parse),
-    (Format::KnetCsv, "knet-csv", "K-NET CSV", &[], true, knet_csv::recognises, knet_csv::parse),
-    (Format::Afad, "afad", "AFAD", &[], true, afad::recognises, afad::parse),
-    (Format::Cwa, "cwa", "CWA", &[], true, cwb::recognises, cwb::parse),
-    (Format::Unam, "unam", "UNAM", &[], true, unam::recognises, unam::parse),
-    (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
-    (Format::Smc, "smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
-    (Format::Csmip, "csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
-    (Format::Csv, "csv", "CSV", &[], false, csv::recognises, csv::parse),
-    (Format::At2, "at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
+    Known {
+        format: Format::Esm,
+        name: "esm",
+        description: "ESM/ITACA",
+        endings: &["asc"],
+        states_direction: true,
+        recognises: esm::recognises,
+        parse: esm::parse,
+    },
+    Known {
+        format: Format::Geonet,
+        name: "geonet",
+        description: "GeoNet",
+        endings: &["v1a", "v2a"],
+        states_direction: true,
+        recognises: geonet::recognises,
+        parse: geonet::parse,
+    },
+    Known {
+        format: Format::Volume1,
+        name: "volume1",
+        description: "RENADIC/BHRC",
+        endings: &[],
+        states_direction: true,
+        recognises: volume_1::recognises,
+        parse: volume_1::parse,
+    },
+    Known {
+        format: Format::Knet,
+        name: "knet",
+        description: "K-NET/KiK-net",
+        endings: KNET,
+        states_direction: true,
+        recognises: knet::recognises,
+        parse: knet::parse,
+    },
+    Known {
+        format: Format::KnetCsv,
+        name: "knet-csv",
+        description: "K-NET CSV",
+        endings: &[],
+        states_direction: true,
+        recognises: knet_csv::recognises,
+        parse: knet_csv::parse,
+    },
+    Known {
+        format: Format::Afad,
+        name: "afad",
+        description: "AFAD",
+        endings: &[],
+        states_direction: true,
+        recognises: afad::recognises,
+        parse: afad::parse,
+    },
+    Known {
+        format: Format::Cwa,
+        name: "cwa",
+        description: "CWA",
+        endings: &[],
+        states_direction: true,
+        recognises: cwb::recognises,
+        parse: cwb::parse,
+    },
+    Known {
+        format: Format::Unam,
+        name: "unam",
+        description: "UNAM",
+        endings: &[],
+        states_direction: true,
+        recognises: unam::recognises,
+        parse: unam::parse,
+    },
+    Known {
+        format: Format::Cosmos,
+        name: "cosmos",
+        description: "COSMOS V2",
+        endings: &["v2c"],
+        states_direction: true,
+        recognises: cosmos::recognises,
+        parse: cosmos::parse,
+    },
+    Known {
+        format: Format::Smc,
+        name: "smc",
+        description: "USGS SMC",
+        endings: &["smc"],
+        states_direction: true,
+        recognises: smc::recognises,
+        parse: smc::parse,
+    },
+    Known {
+        format: Format::Csmip,
+        name: "csmip",
+        description: "CSMIP V2",
+        endings: &["v2"],
+        states_direction: true,
+        recognises: csmip::recognises,
+        parse: csmip::parse,
+    },
+    Known {
+        format: Format::Csv,
+        name: "csv",
+        description: "CSV",
+        endings: &[],
+        states_direction: false,
+        recognises: csv::recognises,
+        parse: csv::parse,
+    },
+    Known {
+        format: Format::At2,
+        name: "at2",
+        description: "PEER AT2",
+        endings: &["at2"],
+        states_direction: false,
+        recognises: at2::recognises,
+        parse: at2::parse,
+    },
     // whether these are numbers depends on the step that is stated: see below
-    (Format::Numbers, "numbers", "numbers", &[], false, |_| false, numbers::parse),
+    Known {
+        format: Format::Numbers,
+        name: "numbers",
+        description: "numbers",
+        endings: &[],
+        states_direction: false,
+        recognises: |_| false,
+        parse: numbers::parse,
+    },
 ];
 
 const _: () = {
     let mut place = 0;
     while place < KNOWN.len() {
-        assert!(KNOWN[place].0 as usize == place, "each format stands at its place in the enumeration");
+        assert!(KNOWN[place].format as usize == place, "each format stands at its place in the enumeration");
         place += 1;
     }
 };
@@ -79,20 +202,17 @@ const _: () = {
 impl Format {
     /// Returns the format's short name, such as `at2`.
     pub fn name(self) -> &'static str {
-        let (_, name, ..) = KNOWN[self as usize];
-        name
+        KNOWN[self as usize].name
     }
 
     /// Returns what people call the format.
     pub fn description(self) -> &'static str {
-        let (_, _, description, ..) = KNOWN[self as usize];
-        description
+        KNOWN[self as usize].description
     }
 
     /// Returns whether its files say which direction a component has; otherwise their names may.
     pub(crate) fn states_direction(self) -> bool {
-        let (.., states_direction, _, _) = KNOWN[self as usize];
-        states_direction
+        KNOWN[self as usize].states_direction
     }
 
     /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that
@@ -100,20 +220,19 @@ impl Format {
     pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         refuse_unread(&head)?;
-        let by_content = KNOWN.iter().find(|(.., recognises, _)| recognises(&head));
+        let by_content = KNOWN.iter().find(|known| (known.recognises)(&head));
         if by_content.is_none() && numbers::recognises(&head, options.step.is_some()) {
             return Ok(Self::Numbers);
         }
         let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         let has_ending = |endings: &[&str]| endings.iter().any(|known| ending.as_deref() == Some(known));
-        let known = by_content.or_else(|| KNOWN.iter().find(|(_, _, _, endings, ..)| has_ending(endings)));
-        Ok(known.map_or(Self::Csv, |(format, ..)| *format))
+        let known = by_content.or_else(|| KNOWN.iter().find(|known| has_ending(known.endings)));
+        Ok(known.map_or(Self::Csv, |known| known.format))
     }
 
     /// Reads every channel of a text in this format.
     pub(crate) fn parse(self, text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-        let (.., parse) = KNOWN[self as usize];
-        parse(text, options)
+        (KNOWN[self as usize].parse)(text, options)
     }
 }
 
