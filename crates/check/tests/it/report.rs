@@ -3,7 +3,7 @@
 
 use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_walls, read};
 use rocking_wall::scene::Scene;
-use run::walls::read_walls;
+use run::walls::{NamedWall, read_walls};
 
 use crate::circolare::PARAPET;
 use crate::circolare_second::palazzo;
@@ -260,4 +260,26 @@ fn what_a_table_of_walls_states_is_not_a_default() {
     let text = plain(&report_of_file(name.to_str().unwrap(), text, Language::En));
     let origins: Vec<_> = text.split("width\n1 m\n").skip(1).map(|after| after.lines().next()).collect();
     assert_eq!(origins, [Some("file"), Some("default")]);
+}
+
+/// Of a wall that was made, not read, no parameter is a default.
+#[test]
+fn a_wall_of_no_file_states_everything() {
+    let text = format!(
+        "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+         SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
+    );
+    let file = CheckFile::parse("one.toml", &text).unwrap();
+    let code = read(&file).unwrap();
+    let scene = Scene::parse("one.toml", &text, ".".as_ref()).unwrap();
+    let verdict = code.check((&scene).into()).unwrap();
+    let (records, report) = (code.records(), file.report().unwrap());
+    let width = |wall: Option<&NamedWall>| {
+        let origin = Origin { title: "one", wall, file: &file, set: &[], records, report: &report };
+        let text = plain(&page(&verdict, &origin).unwrap());
+        let (_, after) = text.split_once("width\n1 m\n").unwrap();
+        after.lines().next().unwrap().to_owned()
+    };
+    assert_eq!(width(None), "default", "the scene leaves it open");
+    assert_eq!(width(Some(&NamedWall::new("one", scene.parameters.clone()))), "file");
 }
