@@ -123,7 +123,7 @@ const fn number(
 impl BarNumber {
     /// Returns its key in `[tie.bar]`.
     pub fn key(&self) -> &'static str {
-        self.usual.name.trim_start_matches("bar_")
+        self.usual.name.strip_prefix("bar_").unwrap_or(self.usual.name)
     }
 }
 

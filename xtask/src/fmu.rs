@@ -134,7 +134,7 @@ pub(crate) fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String
 
 /// Checks that this machine can build WebAssembly components.
 pub(crate) fn check_component() -> Result<()> {
-    check_rust_libraries([COMPONENT])
+    check_rust_libraries([COMPONENT], "")
 }
 
 /// Builds the WebAssembly component of a unit, and returns its path.

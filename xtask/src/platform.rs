@@ -75,8 +75,8 @@ impl Platform {
         }
         let wanted = PLATFORMS.iter().filter(|one| names.split(',').any(|name| is_named(one, name)));
         let wanted: Vec<_> = wanted.collect();
-        check_rust_libraries(wanted.iter().map(|platform| platform.target))
-            .map_err(|message| message + ", or choose other platforms with `--platforms`")?;
+        let targets = wanted.iter().map(|platform| platform.target);
+        check_rust_libraries(targets, ", or choose other platforms with `--platforms`")?;
         Ok(wanted)
     }
 
@@ -106,8 +106,9 @@ impl Platform {
     }
 }
 
-/// Checks that this machine has the Rust libraries for some targets.
-pub(crate) fn check_rust_libraries<'a>(targets: impl IntoIterator<Item = &'a str>) -> Result<()> {
+/// Checks that this machine has the Rust libraries for some targets; `or` is what else can be done where some
+/// are missing.
+pub(crate) fn check_rust_libraries<'a>(targets: impl IntoIterator<Item = &'a str>, or: &str) -> Result<()> {
     let mut missing = Vec::new();
     for target in targets {
         let mut rustc = program("rustc");
@@ -120,7 +121,7 @@ pub(crate) fn check_rust_libraries<'a>(targets: impl IntoIterator<Item = &'a str
         return Ok(());
     }
     let (listed, given) = (missing.join(", "), missing.join(" "));
-    Err(format!("the Rust libraries for {listed} are missing: run `rustup target add {given}`"))
+    Err(format!("the Rust libraries for {listed} are missing: run `rustup target add {given}`{or}"))
 }
 
 /// Makes what a build gives independent of its folders, with more flags of the linker.

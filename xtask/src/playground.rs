@@ -12,7 +12,7 @@ const LARGEST: u64 = 1_500_000;
 
 /// Checks that this machine can compile to WebAssembly.
 pub(crate) fn check_target() -> Result<()> {
-    check_rust_libraries([TARGET])
+    check_rust_libraries([TARGET], "")
 }
 
 /// Builds the page.

@@ -79,9 +79,9 @@ pub(crate) fn run() -> Result<()> {
 struct Fall {
     margin: f64,
     probability: f64,
-    /// a_g at which the check has ζ = 1 \[g\].
+    /// Ground acceleration at which the check has ζ = 1 \[g\].
     ag_code: f64,
-    /// Median a_g of the fall \[g\].
+    /// Ground acceleration at which half of the records make it fall \[g\].
     theta: f64,
 }
 
@@ -124,9 +124,7 @@ fn tables(motions: &str, records: &str) -> Result<String> {
     for ((kind, place, check, soil), falls) in &by_soil {
         let ground = &by_soil[&(*kind, "ground", check.clone(), *soil)];
         if ground.len() != falls.len() {
-            return Err(
-                format!("{} on soil {soil}: a wall falls at one place only", KINDS[*kind].name).into()
-            );
+            return Err(format!("{} on soil {soil}: a wall falls at one place only", KINDS[*kind].name));
         }
         let beside = |of: fn(&Fall) -> f64| {
             fractile(falls.iter().zip(ground).map(|(fall, ground)| of(fall) / of(ground)), 50)

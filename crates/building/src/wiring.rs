@@ -99,7 +99,8 @@ impl Loads<'_> {
 }
 
 impl System {
-    /// Returns the connections that the system describes: without an input for the ground, none from there.
+    /// Returns the connections that the SSD lists. Those from the ground are left out unless the ground is an
+    /// input of the system.
     pub(crate) fn described(&self) -> impl Iterator<Item = &Connection> {
         // FMPy cannot read an input connector without a connection
         self.connections.iter().filter(|connection| self.expose_ground || connection.from.is_some())

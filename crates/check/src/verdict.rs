@@ -38,6 +38,8 @@ pub struct Verdict<'a> {
 /// A ratio of capacity to demand that a rule of the code replaces by a larger one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Raise {
+    /// The check whose ratio it is, such as `SLV`.
+    pub check: &'static str,
     /// The ratio that is replaced \[-\].
     pub ratio: f64,
     /// What replaces it, such as `SLD`.
@@ -109,11 +111,11 @@ impl Ends {
         if matches!(self, Self::Displacements(_)) { "m" } else { "m/s2" }
     }
 
-    /// Both for people.
-    fn shown(self) -> [String; 2] {
+    /// One of both for people.
+    fn shown(self, end: f64) -> String {
         let (factor, unit) =
             if matches!(self, Self::Displacements(_)) { (1e3, "mm") } else { (1.0, "m/s²") };
-        self.values().map(|end| format!("{} {unit}", number(factor * end, 4)))
+        format!("{} {unit}", number(factor * end, 4))
     }
 }
 
@@ -182,7 +184,8 @@ pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits)
 impl Verdict<'_> {
     /// The verdict in a line.
     pub fn headline(&self) -> String {
-        let raised = self.raise.map(|Raise { ratio, by }| format!("{by}; by displacement {ratio:.3}"));
+        let said = |Raise { check, ratio, by }| format!("{by}; {check} by displacement {ratio:.3}");
+        let raised = self.raise.map(said);
         let [passed, raised] = match (self.passed, raised) {
             (true, None) => ["PASSED".to_owned(), String::new()],
             (true, Some(raised)) => [format!("PASSED by the raise of {raised}"), String::new()],
@@ -218,8 +221,8 @@ impl Verdict<'_> {
             .value("capacity", |row| row.ends.values()[0])
             .value("demand", |row| row.ends.values()[1])
             .column(Column::text("unit", ""), |row| row.ends.unit())
-            .text("", "capacity", |row| row.ends.shown()[0].clone())
-            .text("", "demand", |row| row.ends.shown()[1].clone())
+            .text("", "capacity", |row| row.ends.shown(row.ends.values()[0]))
+            .text("", "demand", |row| row.ends.shown(row.ends.values()[1]))
             .number("decides", "decides", four, |row| row.decides)
             .text("clause", "clause", |row| row.clause)
             .text("remark", if has_remarks { "remark" } else { "" }, |row| row.remark.clone())

@@ -34,8 +34,9 @@ pub struct NamedWall {
     pub floors: Option<Floors>,
     /// Those of [`DECIDING`] that nobody stated.
     pub assumed: Vec<&'static str>,
-    /// Parameters that its file states, and numbers of its bar by their names outside of `[tie.bar]`.
-    pub stated: Vec<&'static str>,
+    /// Parameters that its file states, and numbers of its bar by their names outside of `[tie.bar]`; `None`
+    /// of a wall of no file, of which nothing is a default.
+    pub stated: Option<Vec<&'static str>>,
     /// The place of its table in the list of walls that was read.
     pub entry: usize,
 }
@@ -92,13 +93,12 @@ impl NamedWall {
     /// Takes the names of the parameters that its file states; no other is stated.
     #[must_use]
     pub(crate) fn stating(self, stated: Vec<&'static str>) -> Self {
-        Self { assumed: assumed(|_, name| stated.contains(&name)), stated, ..self }
+        Self { assumed: assumed(|_, name| stated.contains(&name)), stated: Some(stated), ..self }
     }
 
     /// Makes a wall on the ground, all of whose parameters are stated.
     pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        let (assumed, stated) = (Vec::new(), Vec::new());
-        Self { name: name.into(), parameters, floors: None, assumed, stated, entry: 0 }
+        Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), stated: None, entry: 0 }
     }
 }
 

@@ -278,7 +278,7 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
     if given.state == LimitState::Slc {
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
         if !(local > 0.0 && local < curve.zero) {
-            let [local, zero] = apart([local, curve.zero], 4);
+            let [_, zero] = apart([local, curve.zero], 4);
             let message = format!("SLC.displacement = {local} m must be above 0 and below u_0 = {zero} m");
             return Err(CheckError::value(&["SLC", "displacement"], message));
         }

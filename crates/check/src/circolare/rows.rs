@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ::report::table::{Cell, Digits, Table};
 use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
@@ -91,21 +91,20 @@ impl<'a> Checked<'a> {
         if self.statement.table.method != Method::Nonlinear {
             return None;
         }
-        let mut raise: Option<Raise> = None;
+        let mut raised = Vec::new();
         for (side, verdict) in sides.iter() {
             for (state, check) in verdict.by_displacement() {
                 let is_told = *passed || (side, state) == (governs.side, governs.limit_state.state());
-                if !is_told || !check.raised || check.ratio >= 1.0 {
-                    continue;
+                if is_told && check.raised && check.ratio < 1.0 {
+                    raised.push((check.ratio, state));
                 }
-                let ratio = raise.map_or(check.ratio, |raise| raise.ratio.min(check.ratio));
-                // the code has the raise for SLV only
-                let is_of_slc = state == LimitState::Slc || raise.is_some_and(|raise| raise.by != "SLD");
-                let by = if is_of_slc { "SLD, for SLC by analogy with C8.7.1.2.1.8" } else { "SLD" };
-                raise = Some(Raise { ratio, by });
             }
         }
-        raise
+        // the code has the raise for SLV only
+        let has_slc = raised.iter().any(|(_, state)| *state == LimitState::Slc);
+        let by = if has_slc { "SLD, for SLC by analogy with C8.7.1.2.1.8" } else { "SLD" };
+        let (ratio, state) = raised.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(Raise { check: state.key(), ratio, by })
     }
 
     fn notes(&self) -> Vec<String> {
@@ -296,7 +295,7 @@ impl Details for Checked<'_> {
     }
 
     fn json(&self, _: &Verdict<'_>) -> Value {
-        serde_json::to_value(&self.outcome).unwrap_or_default()
+        json!(self.outcome)
     }
 
     fn numbers(&self) -> Table {

@@ -244,7 +244,7 @@ fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, 
     let at = hinge.unwrap_or(0.5);
     let shortest = height * at.min(1.0 - at);
     if shortest < thickness {
-        let [shortest, thickness] = apart([shortest, thickness], 4);
+        let [shortest, _] = apart([shortest, thickness], 4);
         warnings.push(format!(
             "{side}: with the hinge at {at:.4} a body is {shortest} m high, lower than b = {thickness} m: \
              small rotations no longer hold"

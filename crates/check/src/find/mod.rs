@@ -8,7 +8,7 @@ use report::number;
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
@@ -24,8 +24,7 @@ const HALVINGS: u32 = 30;
 const LARGE: f64 = 0.5;
 
 /// What is sought.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sought {
     /// The smallest thickness \[m\].
     Thickness,
@@ -105,10 +104,9 @@ fn load(parameters: &Parameters) -> f64 {
 }
 
 /// What was found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// What was sought.
-    #[serde(rename = "parameter")]
     pub sought: Sought,
     /// The value from which on the wall passes every check that decides; `None` if there is none.
     pub value: Option<f64>,
@@ -117,10 +115,8 @@ pub struct Found {
     /// Each check, in the order of the verdict.
     pub checks: Vec<FoundCheck>,
     /// Force of the tie at the value over W + O \[-\].
-    #[serde(rename = "force_over_load")]
     pub force_ratio: Option<f64>,
     /// Symbol of capacity over demand.
-    #[serde(skip)]
     symbol: &'static str,
 }
 
@@ -188,9 +184,15 @@ impl Found {
 
     /// What was found, by names.
     pub fn json(&self) -> Value {
-        let mut found = serde_json::to_value(self).unwrap_or_default();
-        found["passes_everywhere"] = self.everywhere().into();
-        found
+        let Self { sought, value, range, checks, force_ratio, symbol: _ } = self;
+        json!({
+            "parameter": sought.name(),
+            "value": value,
+            "range": range,
+            "checks": checks,
+            "force_over_load": force_ratio,
+            "passes_everywhere": self.everywhere(),
+        })
     }
 }
 

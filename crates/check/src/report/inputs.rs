@@ -27,7 +27,7 @@ impl Origin<'_> {
     fn of_parameter(&self, keys: &[&str], name: &str) -> &'static str {
         let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(name);
         match self.wall {
-            Some(wall) if wall.stated.contains(&name) => "file",
+            Some(wall) if wall.stated.as_ref().is_none_or(|stated| stated.contains(&name)) => "file",
             None if self.set.iter().any(is_set) => "--set",
             None if self.file.states(keys) => "scene",
             _ => "default",

@@ -3,7 +3,7 @@
 
 use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_walls, read};
 use rocking_wall::scene::Scene;
-use run::walls::read_walls;
+use run::walls::{NamedWall, read_walls};
 
 use crate::circolare::PARAPET;
 use crate::circolare_second::palazzo;
@@ -103,7 +103,7 @@ fn assumptions_signs_and_limits_are_declared() {
             "verso l'esterno (u > 0)\n",
             "eccentricità del carico in sommità, positiva verso l'esterno (u > 0)",
             // the raise that the code has for SLV only: on the headline and among the warnings
-            "ζE = 0,665 per analogia con C8.7.1.2.1.8; in spostamento 0,557",
+            "ζE = 0,665 per analogia con C8.7.1.2.1.8; SLC in spostamento 0,557",
             "lo SLC ha ζE = 0,557 in spostamento; 0,665 è per analogia con C8.7.1.2.1.8",
             "lo SLD considera la catena, che a dSLC è rotta",
             // beyond the spectra of the code
@@ -214,9 +214,17 @@ fn limit_states_without_hazard_do_not_decide() {
 #[test]
 fn a_raise_by_analogy_is_named() {
     let data: toml::Table = include_str!("../data/circolare.toml").parse().unwrap();
-    let text = report_of_one(data["cases"][2]["scene"].as_str().unwrap());
-    let passed = "PASSED by the raise of SLD, for SLC by analogy with C8.7.1.2.1.8; by displacement 0.599";
+    let case = |index: usize| data["cases"][index]["scene"].as_str().unwrap();
+    let passed =
+        "PASSED by the raise of SLD, for SLC by analogy with C8.7.1.2.1.8; SLC by displacement 0.599";
+    let text = report_of_one(case(2));
     assert_says(&text, &[passed, "Check of local out-of-plane mechanisms by Circolare"]);
+    let failed = "raised by SLD, for SLC by analogy with C8.7.1.2.1.8; SLC by displacement 0.301 (u > 0)";
+    assert_says(&report_of_one(case(4)), &["NOT PASSED: SLC governs with", failed]);
+    // of two that are raised the least is named, and the analogy stays
+    let both = case(2).replace("ag = 0.1006202520392437", "ag = 0.2");
+    let passed = "PASSED by the raise of SLD, for SLC by analogy with C8.7.1.2.1.8; SLV by displacement 0.";
+    assert_says(&report_of_one(&both), &[passed]);
 }
 
 /// Runs may fall to a side that the static checks leave out: what judges it there is printed. A parapet with
@@ -252,4 +260,26 @@ fn what_a_table_of_walls_states_is_not_a_default() {
     let text = plain(&report_of_file(name.to_str().unwrap(), text, Language::En));
     let origins: Vec<_> = text.split("width\n1 m\n").skip(1).map(|after| after.lines().next()).collect();
     assert_eq!(origins, [Some("file"), Some("default")]);
+}
+
+/// Of a wall that was made, not read, no parameter is a default.
+#[test]
+fn a_wall_of_no_file_states_everything() {
+    let text = format!(
+        "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+         SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
+    );
+    let file = CheckFile::parse("one.toml", &text).unwrap();
+    let code = read(&file).unwrap();
+    let scene = Scene::parse("one.toml", &text, ".".as_ref()).unwrap();
+    let verdict = code.check((&scene).into()).unwrap();
+    let (records, report) = (code.records(), file.report().unwrap());
+    let width = |wall: Option<&NamedWall>| {
+        let origin = Origin { title: "one", wall, file: &file, set: &[], records, report: &report };
+        let text = plain(&page(&verdict, &origin).unwrap());
+        let (_, after) = text.split_once("width\n1 m\n").unwrap();
+        after.lines().next().unwrap().to_owned()
+    };
+    assert_eq!(width(None), "default", "the scene leaves it open");
+    assert_eq!(width(Some(&NamedWall::new("one", scene.parameters.clone()))), "file");
 }

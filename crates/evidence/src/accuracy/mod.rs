@@ -292,7 +292,7 @@ impl<'a> Trial<'a> {
 pub(crate) fn refined(samples: &[f64], parts: u32) -> Vec<f64> {
     let mut refined = Vec::with_capacity(samples.len() * parts as usize);
     for ends in samples.windows(2) {
-        let part = |part: u32| ends[0] + (ends[1] - ends[0]) * f64::from(part) / f64::from(parts);
+        let part = |part: u32| ends[0] + (ends[1] - ends[0]) * (f64::from(part) / f64::from(parts));
         refined.extend((0..parts).map(part));
     }
     refined.extend(samples.last());

@@ -35,7 +35,7 @@ pub(super) unsafe fn array_mut<'a, T: Copy>(
     }
     check_array(name, start, count)?;
     for index in 0..count {
-        // SAFETY: `start` points to room for `count` elements, and `check_array` has refused NULL and
+        // SAFETY: `start` points to room for `count` elements, and `check_array` has refused NULL,
         // misaligned and oversized arrays.
         unsafe { start.add(index).write(blank) };
     }

@@ -155,6 +155,10 @@ functions! {
         knowns: *const ValueReference, known_count: usize,
         seeds: *const Real, values: *mut Real
     ): GetDirectionalDerivative, |instance| {
+        // SAFETY: `knowns` and `seeds` are NULL or point to `known_count` elements that stay as they are
+        // during the call.
+        let (knowns, seeds) =
+            unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         // SAFETY: `unknowns` and `values` are NULL or point to `unknown_count` elements that nobody else
         // changes during the call.
         let (unknowns, values) = unsafe {
@@ -163,10 +167,6 @@ functions! {
                 array_mut("dvUnknown", values, unknown_count, 0.0)?,
             )
         };
-        // SAFETY: `knowns` and `seeds` are NULL or point to `known_count` elements that stay as they are
-        // during the call.
-        let (knowns, seeds) =
-            unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         instance.derivatives_along([knowns, unknowns], seeds, values, false)
     };
 }

@@ -48,16 +48,15 @@ functions! {
     serialize_fmu_state<Model>(
         state: FmuState, bytes: *mut impl Sized, size: usize
     ): SerializeFMUstate, |instance| {
-        // SAFETY: `bytes` is NULL or points to room for `size` bytes that nobody else uses during the call.
-        let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size, 0) }?;
         let source = instance.serialize(state.addr())?;
-        if source.len() != target.len() {
+        if source.len() != size {
             return Err(Failure(format!(
                 "size = {size}, but the state has {} bytes: ask for its size first",
                 source.len()
             )));
         }
-        target.copy_from_slice(&source);
+        // SAFETY: `bytes` is NULL or points to room for `size` bytes that nobody else uses during the call.
+        unsafe { array_mut("serializedState", bytes.cast::<u8>(), size, 0) }?.copy_from_slice(&source);
         Ok(())
     };
     /// `fmi2DeSerializeFMUstate`, `fmi3DeserializeFMUState`

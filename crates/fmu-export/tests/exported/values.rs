@@ -202,3 +202,27 @@ fn unknown_references_are_refused() {
         refused(1, "fmi2SetString", |c, reference| fmi2SetString(c, reference, 1, &c"".as_ptr()));
     }
 }
+
+/// What C finds behind a getter that fails: values up to the refused one, then 0; of texts, NULL.
+#[test]
+fn values_from_a_refused_one_on_are_zero_and_texts_are_null() {
+    let importer = Importer::in_step_mode();
+    let (c, unknown) = (importer.component, 999);
+    let (mut reals, mut texts) = ([7.0; 3], [c"old".as_ptr(); 2]);
+    // SAFETY: the instance lives; as many references as values.
+    unsafe {
+        let references = [Real::Stiffness.reference(), unknown, Real::Stiffness.reference()];
+        assert_eq!(fmi2GetReal(c, references.as_ptr(), 3, reals.as_mut_ptr()), ERROR);
+        let references = [Text::Label.reference(), unknown];
+        assert_eq!(fmi2GetString(c, references.as_ptr(), 2, texts.as_mut_ptr()), ERROR);
+    }
+    assert_eq!((reals, texts), ([4.0, 0.0, 0.0], [ptr::null(); 2]));
+    // values that contradict each other: the model computes none
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.set(Real::XStart, 1.0), OK);
+    assert_eq!(importer.set_boolean(Boolean::Clamped, 1), OK);
+    let (references, mut reals) = ([Real::Stiffness.reference(), Real::X.reference()], [7.0; 2]);
+    // SAFETY: the instance lives; as many references as values.
+    unsafe { assert_eq!(fmi2GetReal(importer.component, references.as_ptr(), 2, reals.as_mut_ptr()), ERROR) };
+    assert_eq!(reals, [0.0; 2]);
+}
