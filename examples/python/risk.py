@@ -29,7 +29,7 @@ study = rw.Study(
     levels={"method": "hunt", "first": 0.05, "increase": 0.05, "top": 10, "gap": 0.1},
     report={"fractions": [0.4, 1.0], "resamples": 200},
     classes=[{"name": "parapets"}],
-    hazard={"points": [[0.05, 1 / 30], [0.1, 1 / 101], [0.2, 1 / 475], [0.4, 1 / 2475], [0.8, 1e-4], [2, 2e-6]]},
+    hazard={"points": [[0.05, 1 / 30], [0.1, 1 / 101], [0.2, 1 / 475], [0.4, 4e-4], [0.8, 1e-4], [2, 2e-6]]},
 )
 results = study.run()  # a folder keeps the runs: study.run("risk_results")
 

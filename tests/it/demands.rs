@@ -345,8 +345,9 @@ fn a_scene_states_its_limit_states() {
 }
 
 /// Between outputs far apart, steps in which nothing happens are passed together: demands, corners and half
-/// cycles are those of outputs at every sample. Steps differ by rounding, a hundred times 2.2e-16 of the record
-/// at most, which a run amplifies as it does a change of the record by 1e-10; secant ones by the tolerance too.
+/// cycles are those of outputs at every sample. Steps differ by rounding, a hundred times 2.2e-16 of the
+/// record at most, which a run amplifies as it does a change of the record by 1e-10; secant ones by the
+/// tolerance too.
 #[test]
 fn demands_do_not_depend_on_the_outputs() {
     let parameters = Parameters { height: 3.0, thickness: 0.25, u_start: 0.0, ..Parameters::default() };

@@ -91,7 +91,7 @@ fn tables(motions: &str, records: &str) -> Result<String> {
     remove_folder(&folder)?;
     make_folder(&folder)?;
     // by kind, place, check and model; and by kind, place, soil
-    let (mut all, mut by_soil) = (BTreeMap::<_, Vec<Fall>>::new(), BTreeMap::<_, Vec<Fall>>::new());
+    let (mut all, mut by_soil) = (BTreeMap::<_, Vec<Fall>>::new(), BySoil::new());
     for (order, kind) in KINDS.iter().enumerate() {
         write(folder.join(format!("{}.csv", kind.name)), walls(order, kind))?;
         for soil in SOILS {
@@ -110,42 +110,57 @@ fn tables(motions: &str, records: &str) -> Result<String> {
             }
         }
     }
-    let mut text = head("model", &[]);
+    let mut text = head("model");
     for ((kind, place, check, model), falls) in &all {
         // writing to a String cannot fail
         let _ = writeln!(text, "| {} | {place} | {check} | {model} | {} |", KINDS[*kind].name, shown(falls));
     }
-    let head = head("soil", &["a_g,code / ground", "θ / ground"]);
-    let _ = writeln!(
-        text,
-        "\nWith CR, soil by soil. The last columns are medians, over the same walls on the ground:"
-    );
-    let _ = writeln!(text, "{}", head.trim_end());
+    let _ = writeln!(text, "\nWith CR, soil by soil:\n{}", head("soil").trim_end());
     for ((kind, place, check, soil), falls) in &by_soil {
+        let _ = writeln!(text, "| {} | {place} | {check} | {soil} | {} |", KINDS[*kind].name, shown(falls));
+    }
+    Ok(text + &over_ground(&by_soil)? + "\n")
+}
+
+/// Falls with CR by kind, place, check and soil.
+type BySoil = BTreeMap<(usize, &'static str, String, &'static str), Vec<Fall>>;
+
+/// Compares the walls on storeys with the same walls on the ground: medians of both accelerations, soil by
+/// soil.
+fn over_ground(by_soil: &BySoil) -> Result<String> {
+    let mut rows = BTreeMap::<_, [Vec<String>; 2]>::new();
+    for ((kind, place, check, soil), falls) in by_soil {
         let ground = &by_soil[&(*kind, "ground", check.clone(), *soil)];
         if ground.len() != falls.len() {
             return Err(format!("{} on soil {soil}: a wall falls at one place only", KINDS[*kind].name));
         }
-        let beside = |of: fn(&Fall) -> f64| {
-            fractile(falls.iter().zip(ground).map(|(fall, ground)| of(fall) / of(ground)), 50)
+        if *place == "ground" {
+            continue;
+        }
+        let ratio = |of: fn(&Fall) -> f64| {
+            let ratios = falls.iter().zip(ground).map(|(fall, ground)| of(fall) / of(ground));
+            format!("{:.2}", fractile(ratios, 50))
         };
-        let [asked, falling] = [beside(|fall| fall.ag_code), beside(|fall| fall.theta)];
-        let _ = writeln!(
-            text,
-            "| {} | {place} | {check} | {soil} | {} | {asked:.2} | {falling:.2} |",
-            KINDS[*kind].name,
-            shown(falls)
-        );
+        let [asked, borne] = rows.entry((*kind, check)).or_default();
+        asked.push(ratio(|fall| fall.ag_code));
+        borne.push(ratio(|fall| fall.theta));
     }
-    Ok(text + "\n")
+    let mut text = String::from("\nStoreys over ground, medians with CR:\n\n| walls | check |");
+    for name in ["a_g,code", "θ"] {
+        let _ = write!(text, " {name}: {} |", SOILS.join(" | "));
+    }
+    let _ = writeln!(text, "\n|{}", "---|".repeat(2 + 2 * SOILS.len()));
+    for ((kind, check), [asked, borne]) in rows {
+        let cells = [asked, borne].concat().join(" | ");
+        let _ = writeln!(text, "| {} | {check} | {cells} |", KINDS[kind].name);
+    }
+    Ok(text)
 }
 
-/// The first lines of a table whose fourth column is `varied`, with further columns at the end.
-fn head(varied: &str, further: &[&str]) -> String {
-    let limit = format!("P > {LIMIT}");
-    let shown = ["θ/a_g,code: 5 %", "50 %", "95 %", "P(fall): 50 %", "95 %", &limit];
-    let columns = [&["walls", "place", "check", varied], &shown[..], further].concat();
-    format!("\n| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()))
+/// The first lines of a table whose fourth column is `varied`.
+fn head(varied: &str) -> String {
+    let columns = ["walls", "place", "check", varied, "θ/a_g,code: 5 %", "50 %", "95 %", "P(fall): 50 %"];
+    format!("\n| {} | 95 % | P > {LIMIT} |\n|{}\n", columns.join(" | "), "---|".repeat(10))
 }
 
 /// The value that some per cent of the values do not exceed.

@@ -46,9 +46,9 @@ class StudyResults(Tabular):
     """The curve of every wall, then of every class, for each damping model and limit state: θ, and β with
     its parts due to records, walls and modelling. `wall` is the name of the wall or class."""
     rates: Table | None
-    """The annual rate of each of these curves between the points of the hazard curve, with the ends of its 95 %
-    interval over resampled records (`annual_rate_low`, `_high`), return period and probability. What may lie
-    outside the points stands apart: `beyond_last_point_continued` if the curve goes on as it ends, and
+    """The annual rate of each of these curves between the points of the hazard curve, with the ends of its
+    95 % interval over resampled records (`annual_rate_low`, `_high`), return period and probability. What may
+    lie outside the points stands apart: `beyond_last_point_continued` if the curve goes on as it ends, and
     `annual_rate_most` with the most that is possible. None for a study without `hazard`."""
     rate_shares: Table | None
     """The part of each rate from each segment of the hazard curve; None for a study without `hazard`."""
@@ -94,8 +94,8 @@ class StudyResults(Tabular):
         return fragilities.merge(self.collapses.to_xarray("wall", "model", "record"))
 
     def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws the curves of the highest limit state of some walls and classes, by default of all. In a study
-        of many walls name the class.
+        """Draws the curves of the highest limit state of some walls and classes, by default of all. In a
+        study of many walls name the class.
 
         Needs matplotlib. Raises `ValueError` for a name that is not there.
         """

@@ -155,8 +155,8 @@ impl<'a> Rates<'a> {
         let last = self.hazard.curve.points().last().map_or(0.0, |[x, _]| unit.of(*x));
         (much > 0).then(|| {
             format!(
-                "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, at \
-                 {} {}; give points of higher intensities",
+                "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, \
+                 at {} {}; give points of higher intensities",
                 100.0 * MOST_BEYOND,
                 OF_INTENSITY.of(last),
                 unit.name()
