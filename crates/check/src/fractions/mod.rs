@@ -180,7 +180,8 @@ impl Statement {
     fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
         let Subject { parameters, floors, .. } = subject;
         let wall = Wall::new(parameters)?;
-        let (mut source, mut warnings) = (self.source.clone(), Vec::new());
+        let mut source = self.source.clone();
+        let mut warnings: Vec<_> = Warning::unusual(parameters).map(|warning| warning.to_string()).collect();
         let demand = if let Some(spectrum) = &self.spectrum {
             if floors.is_some() {
                 warnings.push(

@@ -53,6 +53,13 @@ fn every_code_gives_all_of_a_verdict() {
                 row.ends;
             assert!((capacity / demand / row.zeta - 1.0).abs() < 1e-12, "{name}: {row:?}");
         }
+        let mut light = scene.clone();
+        light.parameters.density = 300.0;
+        let warnings = stated.check((&light).into()).unwrap().warnings;
+        assert!(
+            warnings.iter().any(|warning| warning.starts_with("density = 300 kg/m3 is unusual")),
+            "{name}"
+        );
         let text = verdict.text("a wall");
         assert!(text.starts_with(&format!("a wall\n{}\n\ncheck", verdict.headline())), "{text}");
         let records = stated.records();
