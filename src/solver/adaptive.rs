@@ -156,10 +156,11 @@ impl<'a> Series<'a> {
         tolerances: Tolerances,
     ) -> Self {
         let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
-        let (polynomial, horizon, end) = secant.series(now, ends, remaining, tolerances);
-        let mut series = Self::of(polynomial, horizon, Some(Law { branch, forcing }));
+        let reach = secant.reach(now, ends, remaining, tolerances);
+        let law = Law { branch, forcing };
+        let mut series = Self::of(reach.polynomial(now, remaining), reach.horizon, Some(law));
         // so that a step by itself has the bits of a calm one
-        if let Some([displacement, velocity]) = end {
+        if let Some([displacement, velocity]) = reach.end(now, remaining) {
             series.end = KinematicState { displacement, velocity, ..series.end };
         }
         series

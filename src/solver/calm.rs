@@ -179,10 +179,8 @@ impl Motion {
                 }
                 Way::Series(secant) => {
                     let ends = [from, from + rate * step];
-                    let Some([displacement, velocity]) = secant.end(start, ends, step, self.tolerances)
-                    else {
-                        break;
-                    };
+                    let reach = secant.reach(start, ends, step, self.tolerances);
+                    let Some([displacement, velocity]) = reach.end(start, step) else { break };
                     let acceleration = branch.acceleration(displacement, velocity, to);
                     KinematicState { displacement, velocity, acceleration }
                 }

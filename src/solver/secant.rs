@@ -120,32 +120,9 @@ impl Secant {
         branch
     }
 
-    /// Returns the motion from u and u̇ on, under a forcing from p₀ to p₁ over a length, the time up to which
-    /// it is within the tolerances, and u and u̇ at the end of the length if that is all of it.
-    pub(super) fn series(
-        &self,
-        now: [f64; 2],
-        p: [f64; 2],
-        length: f64,
-        tolerances: Tolerances,
-    ) -> (Polynomial, f64, Option<[f64; 2]>) {
-        let reach = self.reach(now, p, length, tolerances);
-        (reach.polynomial(now, length), reach.horizon, reach.end(now, length))
-    }
-
-    /// Returns u and u̇ at the end of the length; `None` where the series does not reach it.
-    pub(super) fn end(
-        &self,
-        now: [f64; 2],
-        p: [f64; 2],
-        length: f64,
-        tolerances: Tolerances,
-    ) -> Option<[f64; 2]> {
-        self.reach(now, p, length, tolerances).end(now, length)
-    }
-
+    /// Returns the motion from u and u̇ on, under a forcing from p₀ to p₁ over a length.
     #[inline(always)]
-    fn reach(&self, now: [f64; 2], p: [f64; 2], length: f64, tolerances: Tolerances) -> Reach {
+    pub(super) fn reach(&self, now: [f64; 2], p: [f64; 2], length: f64, tolerances: Tolerances) -> Reach {
         match self {
             Self::Ratio(branch) => Reach::new::<ByRatio>(branch, now, p, length, tolerances),
             Self::Stiffness(branch) => Reach::new::<ByStiffness>(branch, now, p, length, tolerances),
@@ -154,10 +131,10 @@ impl Secant {
 }
 
 /// A series with as many terms as it takes, and the time up to which it is within the tolerances \[s\].
-struct Reach {
+pub(super) struct Reach {
     series: Scaled<f64>,
     order: usize,
-    horizon: f64,
+    pub(super) horizon: f64,
 }
 
 impl Reach {
@@ -175,8 +152,9 @@ impl Reach {
         Self { series, order, horizon }
     }
 
+    /// Returns the motion from u and u̇ on, of the same start and length.
     #[inline(always)]
-    fn polynomial(&self, now: [f64; 2], length: f64) -> Polynomial {
+    pub(super) fn polynomial(&self, now: [f64; 2], length: f64) -> Polynomial {
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
         let (mut scale, rate) = (now[0], 1.0 / length);
         for (coefficient, x) in coefficients.iter_mut().zip(&self.series.x[..=self.order]) {
@@ -187,8 +165,9 @@ impl Reach {
         Polynomial { coefficients, order: self.order }
     }
 
+    /// Returns u and u̇ at the end of the length; `None` where the series does not reach it.
     #[inline(always)]
-    fn end(&self, [u, _]: [f64; 2], length: f64) -> Option<[f64; 2]> {
+    pub(super) fn end(&self, [u, _]: [f64; 2], length: f64) -> Option<[f64; 2]> {
         let [rise, velocity] = match self.order {
             8 => self.series.end::<8>(),
             10 => self.series.end::<10>(),
@@ -241,7 +220,8 @@ mod tests {
             let mut time = 0.0;
             while time < length {
                 let ends = [forcing(time), forcing(length)];
-                let (polynomial, horizon, _) = branch.series(now, ends, length - time, most);
+                let reach = branch.reach(now, ends, length - time, most);
+                let (polynomial, horizon) = (reach.polynomial(now, length - time), reach.horizon);
                 assert!(horizon > 0.0 && horizon <= length - time, "{horizon} of {}", length - time);
                 count += 1;
                 let there = polynomial.at(horizon);

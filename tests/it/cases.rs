@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use rocking_wall::scene::Scene;
-use rocking_wall::simulation::{Excitation, Simulation};
+use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Work;
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{Parameters, Support};
@@ -66,23 +66,6 @@ pub(crate) fn rows(name: &str) -> Vec<Row> {
     text(&format!("{name}.csv")).lines().skip(1).map(parse).collect()
 }
 
-/// Advances a simulation to a time, through every sample of the excitation.
-pub(crate) fn advance_to(simulation: &mut Simulation, excitation: Option<&Excitation>, time: f64) {
-    while simulation.progress().time < time {
-        let now = simulation.progress().time;
-        let remaining = time - now;
-        let segment = match excitation {
-            Some(excitation) => excitation.segment(now, remaining),
-            None => crate::still(remaining),
-        };
-        let last = segment.duration >= remaining;
-        simulation.advance(&segment).unwrap();
-        if last {
-            simulation.set_time(time);
-        }
-    }
-}
-
 /// Returns the largest ratio of error to bound, and the work done.
 fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
     let mut scene = Scene::read(&folder().join(format!("{name}.toml"))).unwrap();
@@ -95,7 +78,7 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
     let rate = simulation.wall().rocking_rate();
     let (mut worst, mut compared) = (0.0_f64, 0);
     for row in rows(name).iter().filter(|row| row.time <= horizon && row.displacement.is_finite()) {
-        advance_to(&mut simulation, excitation, row.time);
+        simulation.advance_to(row.time, excitation, None).unwrap();
         let state = simulation.progress().state;
         let bound = 1e-9_f64.max(100.0 * 2.2e-16 * row.sensitivity).max(100.0 * reference.error_in_double);
         let error = (state.displacement - row.displacement).abs() / u_ins;
@@ -121,7 +104,7 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
         compared += 1;
     }
     assert!(compared > 10, "{name}: compared {compared} rows");
-    advance_to(&mut simulation, excitation, scene.stop_time);
+    simulation.advance_to(scene.stop_time, excitation, None).unwrap();
     let progress = simulation.progress();
     assert_eq!(progress.state.overturned, reference.overturn_time.is_some(), "{name}: overturned");
     if let Some(time) = reference.overturn_time {
