@@ -12,7 +12,6 @@ mod nearest;
 mod parameter;
 mod schema;
 mod storeys;
-mod syntax;
 mod toml_text;
 mod used;
 

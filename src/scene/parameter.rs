@@ -10,8 +10,7 @@ use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
-use super::syntax::number_meant;
-use super::toml_text::inner_span;
+use super::toml_text::{NUMBER, inner_span};
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -215,10 +214,7 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
 
 /// Reads the number of a key.
 fn real(name: &str, value: &Value) -> Result<f64, String> {
-    number(value).ok_or_else(|| {
-        let meant = value.as_str().and_then(|text| number_meant(name, text));
-        meant.unwrap_or_else(|| format!("{name} = {} is not a number", shown(value)))
-    })
+    number(value).ok_or_else(|| format!("{name} = {}: expected {NUMBER}", shown(value)))
 }
 
 /// Formats a value as the file states it.

@@ -10,7 +10,6 @@ use toml::de::{DeTable, DeValue};
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
 use super::parameter::belongs_in;
-use super::syntax::{explained, number_meant, shown};
 
 /// Reads a TOML text: a scene, a study, a building, a table of them.
 ///
@@ -19,7 +18,7 @@ use super::syntax::{explained, number_meant, shown};
 ///
 /// let place = Place::new("scene.toml", "[geometry]\nthickness = 0,30\n");
 /// let error = parse_toml::<Document>(&place).unwrap_err().to_string();
-/// assert!(error.starts_with("scene.toml, line 2: thickness = 0,30: a number has a decimal point"));
+/// assert!(error.starts_with("scene.toml, line 2: cannot read `thickness = 0,30`: a line is key = value"));
 /// ```
 ///
 /// # Errors
@@ -38,14 +37,28 @@ pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneErro
 pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> {
     DeTable::parse(place.text()).map(Spanned::into_inner).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        if error.message().starts_with("duplicate key") {
-            let key = place.text().get(span.clone()).unwrap_or_default();
-            let name = key.trim_matches(['"', '\'']);
-            return place.error(span, format!("{name} is given twice; leave one out"));
-        }
-        let (line, message) = explained(place, span.start);
-        place.error_on(line, message)
+        let text = place.text();
+        let message = if error.message().starts_with("duplicate key") {
+            format!("{} is given twice; leave one out", text[span.clone()].trim_matches(['"', '\'']))
+        } else {
+            let line = text.lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
+            format!("cannot read `{}`: {SYNTAX}", shown(line).replace('\r', "\\r"))
+        };
+        place.error(span, message)
     })
+}
+
+/// What a text that is not TOML may lack.
+const SYNTAX: &str = "a line is key = value, [table] or # comment; a number has a decimal point and no unit, \
+                      and digits on both sides of its point; a text stands in straight quotes, a path with /; \
+                      lists and tables are closed";
+
+/// What is expected where a number stands.
+pub(super) const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";
+
+/// Shortens a text for a message.
+fn shown(text: &str) -> String {
+    text.trim().chars().take(60).collect()
 }
 
 /// Returns the keys that lead to what a reader refused in a document, and the reason in plain words.
@@ -73,39 +86,30 @@ impl<'a> Found<'a> {
     /// Translates a message of the reader. Those of this project's own types pass.
     fn explained(&self, message: &str) -> String {
         let names: Vec<_> = message.split('`').skip(1).step_by(2).collect();
-        let after = |start: &str| message.strip_prefix(start);
-        if after("unknown field").is_some() {
+        let is = |start: &str| message.starts_with(start);
+        if is("unknown field") {
             return self.unknown_key(names[0], &names[1..]);
         }
-        if after("missing field").is_some() {
-            let name = names.first().copied().unwrap_or_default();
-            return match self.keys.join(".").as_str() {
-                "" => format!("{name} is missing; add it"),
-                table => format!("{table} needs {name}; add it"),
-            };
+        if is("missing field") {
+            return format!("{} is missing{}; add it", names.concat(), in_brackets(&self.keys));
         }
-        if after("unknown variant").is_some() {
+        if is("unknown variant") {
             let quoted: Vec<_> = names[1..].iter().map(|name| format!("{name:?}")).collect();
             let meant = suggestion(names[0], names[1..].iter().copied());
             return format!("{} is not one of {}{meant}", self.given(), quoted.join(", "));
         }
-        let expected = if after("wanted string or table").is_some() {
-            "a name in quotes".to_owned()
-        } else if message.contains("overflowed") || message.contains("too large") {
-            "a smaller number".to_owned()
-        } else if after("data did not match").is_some() || after("wanted exactly").is_some() {
-            "another kind of value".to_owned()
-        } else if let Some((_, expected)) =
-            message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "))
-        {
+        let expected = message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "));
+        let expected = if let Some((_, expected)) = expected {
             in_toml_words(expected)
+        } else if ["wanted ", "data did not match", "overflowed", "too large"]
+            .iter()
+            .any(|of| message.contains(of))
+        {
+            "another value".to_owned()
         } else {
             return format!("{}: {message}", self.given());
         };
-        let number = expected == "a number" || expected.starts_with("a whole number");
-        let key = self.keys.last().map_or("", String::as_str);
-        let meant = number.then(|| number_meant(key, self.value.trim_matches(['"', '\'']))).flatten();
-        meant.unwrap_or_else(|| format!("{}: expected {expected}", self.given()))
+        format!("{}: expected {expected}", self.given())
     }
 
     /// The value with its key.
@@ -121,17 +125,18 @@ impl<'a> Found<'a> {
 
     fn unknown_key(&self, name: &str, known: &[&str]) -> String {
         // the last key is the unknown one
-        let table = self.keys[..self.keys.len().saturating_sub(1)].join(".");
+        let table = &self.keys[..self.keys.len().saturating_sub(1)];
         if let (true, Some(group)) = (table.is_empty(), belongs_in(name)) {
             return format!("{name:?} belongs in [{group}]");
         }
-        let meant = suggestion(name, known.iter().copied());
-        let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
-        match known {
-            [] => format!("unknown key {name:?}{place}: it holds no keys"),
-            _ => format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", ")),
-        }
+        let (meant, place) = (suggestion(name, known.iter().copied()), in_brackets(table));
+        format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
     }
+}
+
+/// Names the table that keys lead to; nothing for the whole document.
+fn in_brackets(keys: &[String]) -> String {
+    if keys.is_empty() { String::new() } else { format!(" in [{}]", keys.join(".")) }
 }
 
 fn is_header(value: &str) -> bool {
@@ -187,7 +192,7 @@ fn in_toml_words(expected: &str) -> String {
         "a sequence" => "a list".to_owned(),
         "path string" => "a path in quotes".to_owned(),
         "a string" | "str" | "string" => "a text in quotes".to_owned(),
-        "f64" => "a number".to_owned(),
+        "f64" => NUMBER.to_owned(),
         "u32" | "u64" | "usize" => "a whole number from 0 on".to_owned(),
         "a boolean" | "bool" => "true or false".to_owned(),
         name if name.starts_with("struct ") => "a table".to_owned(),

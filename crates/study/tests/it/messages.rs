@@ -30,7 +30,7 @@ fn messages_name_line_and_key_and_what_is_expected() {
         ),
         (
             study(&STUDY.replace("tail = 5.0", "tail = \"5,0\"")),
-            "line 3: tail = 5,0: a number has a decimal point",
+            "line 3: tail = \"5,0\": expected a number with a decimal point",
         ),
     ] {
         assert!(found.contains(message), "{found}\nfor {message}");
