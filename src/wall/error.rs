@@ -77,12 +77,16 @@ pub enum ParameterError {
     /// A number of the bar of a tie.
     #[error("{name} = {value}{}{unit} must be above 0", if unit.is_empty() { "" } else { " " })]
     Bar { name: &'static str, value: f64, unit: &'static str },
-    /// Parameters that one-sided rocking does not allow.
-    #[error(
-        "rocking = {rocking} does not go with {}; or set rocking = two_sided",
-        conflicts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", nor with ")
-    )]
-    OneSided { rocking: &'static str, conflicts: Vec<Conflict> },
+    /// Two choices that do not go together.
+    #[error("{choice} = {chosen} does not go with {name} = {value}; set {remedy}, or {instead}")]
+    Conflict {
+        choice: &'static str,
+        chosen: &'static str,
+        name: &'static str,
+        value: String,
+        remedy: &'static str,
+        instead: &'static str,
+    },
     /// A start behind the transverse walls.
     #[error(
         "u_start = {u_start} m is behind the transverse walls of rocking = {rocking}; start the wall on the \
@@ -99,12 +103,6 @@ pub enum ParameterError {
          FMU move it"
     )]
     NothingMoves { u_start: f64, u_ins: f64 },
-    /// Full rotations are those of rigid bodies with impacts only.
-    #[error(
-        "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or \
-         kinematics = linear"
-    )]
-    Trigonometric { name: &'static str, value: String, remedy: &'static str },
     /// No unstable equilibrium in full rotations.
     #[error(
         "kinematics = trigonometric: for {side} the wall lies flat at u = {end} m before it becomes \
@@ -140,12 +138,9 @@ impl ParameterError {
             Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
             Self::TieUltimate { .. } => vec!["tie_ultimate"],
-            Self::OneSided { conflicts, .. } => {
-                std::iter::once("rocking").chain(conflicts.iter().map(|conflict| conflict.name)).collect()
-            }
+            Self::Conflict { choice, name, .. } => vec![choice, name],
             Self::StartsBehindWalls { .. } => vec!["u_start", "rocking"],
             Self::StartsOverturned { .. } | Self::NothingMoves { .. } => vec!["u_start"],
-            Self::Trigonometric { name, .. } => vec!["kinematics", name],
             Self::NoFall { .. } => vec!["kinematics"],
             Self::NotExact { .. } => vec!["solver", "damping_model"],
             Self::Improbable { error, .. } => error.keys(),
@@ -155,20 +150,5 @@ impl ParameterError {
     /// Adds the numbers that may be the cause.
     pub(crate) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
         if doubts.is_empty() { self } else { Self::Improbable { doubts, error: Box::new(self) } }
-    }
-}
-
-/// A parameter that does not go with another one, and what to set.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the fields are the words of the message")]
-pub struct Conflict {
-    pub name: &'static str,
-    pub value: String,
-    pub remedy: String,
-}
-
-impl std::fmt::Display for Conflict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} = {} (set {})", self.name, self.value, self.remedy)
     }
 }

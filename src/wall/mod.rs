@@ -34,7 +34,7 @@ pub use capacity::{CapacityPoint, Statics};
 pub(crate) use damping::DampingSeries;
 pub use damping::{BranchDamping, Damping};
 pub use equation::Wall;
-pub use error::{Conflict, ParameterError};
+pub use error::ParameterError;
 pub use facts::Fact;
 pub use force_law::Line;
 pub use mechanism::{Body, Sides};

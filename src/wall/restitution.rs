@@ -3,7 +3,7 @@
 use crate::choices::{Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::damping::Damping;
-use super::error::{Conflict, ParameterError};
+use super::error::ParameterError;
 use super::mechanism::Body;
 use super::parameters::{Parameters, given};
 
@@ -57,7 +57,7 @@ pub fn analytic_one_sided(slenderness: f64) -> f64 {
 ///
 /// # Errors
 /// [`ParameterError::Restitution`] where a squat wall makes the formula leave 0…1,
-/// [`ParameterError::OneSided`] for what does not go with one-sided rocking, [`ParameterError::NotGiven`].
+/// [`ParameterError::Conflict`] with what does not go with one-sided rocking, [`ParameterError::NotGiven`].
 pub(super) fn coefficient(
     parameters: &Parameters,
     damping: Damping,
@@ -88,43 +88,38 @@ pub(super) fn coefficient(
     }
 }
 
-/// e₁ of one-sided rocking \[-\]. All that does not go with it is named at once.
+/// e₁ of one-sided rocking \[-\].
 fn one_sided(
     parameters: &Parameters,
     damping: Damping,
     body: &Body,
     number: Option<f64>,
 ) -> Result<f64, ParameterError> {
-    let mut conflicts = Vec::new();
-    let mut refuse =
-        |name, value: String, remedy: &str| conflicts.push(Conflict { name, value, remedy: remedy.into() });
+    let conflict = |name, value: String, remedy| {
+        let (choice, chosen, instead) = ("rocking", parameters.rocking.name(), "rocking = two_sided");
+        Err(ParameterError::Conflict { choice, chosen, name, value, remedy, instead })
+    };
     if parameters.impact != Impact::Restitution {
-        refuse("impact", parameters.impact.name().into(), "impact = restitution");
+        return conflict("impact", parameters.impact.name().into(), "impact = restitution");
     }
     if let Some(name) = damping.computed_name() {
-        refuse(name, "-1 (computed)".into(), &format!("{name}, or damping_model = none"));
+        return conflict(name, "-1 (computed)".into(), "it, damping_model = none");
     }
     let source = parameters.restitution_source;
     let value = match (number, source, body.mechanism) {
-        (Some(number), ..) => {
-            if number >= 1.0 {
-                refuse("restitution", number.to_string(), "restitution below 1");
-            }
-            number
+        (Some(number), ..) if number >= 1.0 => {
+            return conflict("restitution", number.to_string(), "restitution below 1");
         }
+        (Some(number), ..) => number,
         (None, RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
-        (None, _, mechanism) => {
-            let remedy = match mechanism {
-                Mechanism::Parapet => "restitution, or restitution_source = analytic",
-                Mechanism::VerticalSpanning => "restitution",
-            };
-            refuse("restitution_source", source.name().into(), remedy);
-            f64::NAN
+        (None, _, Mechanism::Parapet) => {
+            let remedy = "restitution, or restitution_source = analytic";
+            return conflict("restitution_source", source.name().into(), remedy);
+        }
+        (None, _, Mechanism::VerticalSpanning) => {
+            return conflict("restitution_source", source.name().into(), "restitution");
         }
     };
-    if !conflicts.is_empty() {
-        return Err(ParameterError::OneSided { rocking: parameters.rocking.name(), conflicts });
-    }
     if (0.0..1.0).contains(&value) {
         Ok(value)
     } else {

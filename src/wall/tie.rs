@@ -21,6 +21,7 @@ use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
 use super::parameters::{Kinematics, Parameters};
+use super::trigonometric::conflict;
 
 /// The tie of a parapet; on both sides two ties of equal data.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +94,7 @@ impl Tie {
     /// Returns the tie that the parameters ask for; `None` for a stiffness of 0.
     ///
     /// # Errors
-    /// [`ParameterError::TieNeedsParapet`], [`ParameterError::Trigonometric`], [`ParameterError::TieHeight`],
+    /// [`ParameterError::TieNeedsParapet`], [`ParameterError::Conflict`], [`ParameterError::TieHeight`],
     /// [`ParameterError::TieUltimate`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Option<Self>, ParameterError> {
         let Parameters { height, tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
@@ -108,8 +109,7 @@ impl Tie {
             return Err(ParameterError::TieNeedsParapet { mechanism: parameters.mechanism.name() });
         }
         if parameters.kinematics == Kinematics::Trigonometric {
-            let (name, value) = ("tie_stiffness", stiffness.to_string());
-            return Err(ParameterError::Trigonometric { name, value, remedy: "0" });
+            return Err(conflict("tie_stiffness", stiffness.to_string(), "tie_stiffness = 0"));
         }
         if !(tie_height > 0.0 && tie_height <= height) {
             return Err(ParameterError::TieHeight { tie_height, height });

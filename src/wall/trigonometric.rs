@@ -73,7 +73,7 @@ const HALVINGS: u32 = 128;
 
 impl FullRotations {
     /// # Errors
-    /// [`ParameterError::Trigonometric`] for what the model does not know, [`ParameterError::NoFall`].
+    /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         check(parameters)?;
         let (b, h, h1) = (parameters.thickness, body.height, body.hinge_height);
@@ -242,30 +242,27 @@ fn forces(b: f64, [h1, h2]: [f64; 2], [m1, m2]: [f64; 2], body: &Body, c: f64) -
         .map(|force| 2.0 * force / body.effective_mass)
 }
 
+/// Says what does not go with full rotations, and what to set.
+pub(super) fn conflict(name: &'static str, value: String, remedy: &'static str) -> ParameterError {
+    let (choice, chosen, instead) = ("kinematics", "trigonometric", "kinematics = linear");
+    ParameterError::Conflict { choice, chosen, name, value, remedy, instead }
+}
+
 /// # Errors
-/// [`ParameterError::Trigonometric`] for a law, a damping or a solver that goes with small rotations only.
+/// [`ParameterError::Conflict`] with a law, a damping or a solver that goes with small rotations only.
 fn check(parameters: &Parameters) -> Result<(), ParameterError> {
-    let refuse = |name, value: String, remedy| Err(ParameterError::Trigonometric { name, value, remedy });
-    if parameters.multilinear.is_some() {
-        return refuse("force_law", "multilinear".into(), "rigid_linear");
-    }
-    if parameters.force_law != ForceLaw::RigidLinear {
-        return refuse("force_law", parameters.force_law.name().into(), "rigid_linear");
-    }
-    if parameters.a3 != 1.0 {
-        return refuse("a3", parameters.a3.to_string(), "1");
-    }
-    if parameters.damping_model != DampingModel::None {
-        return refuse(
-            "damping_model",
-            parameters.damping_model.name().into(),
-            "none and impact = restitution",
-        );
-    }
-    match parameters.solver {
-        Solver::Automatic | Solver::Adaptive => Ok(()),
-        solver @ (Solver::Exact | Solver::Newmark) => {
-            refuse("solver", solver.name().into(), "automatic or adaptive")
-        }
-    }
+    let law = parameters.multilinear.as_ref().map_or(parameters.force_law.name(), |_| "multilinear");
+    let refused = if law != ForceLaw::RigidLinear.name() {
+        conflict("force_law", law.into(), "force_law = rigid_linear")
+    } else if parameters.a3 != 1.0 {
+        conflict("a3", parameters.a3.to_string(), "a3 = 1")
+    } else if parameters.damping_model != DampingModel::None {
+        let remedy = "damping_model = none and impact = restitution";
+        conflict("damping_model", parameters.damping_model.name().into(), remedy)
+    } else if let solver @ (Solver::Exact | Solver::Newmark) = parameters.solver {
+        conflict("solver", solver.name().into(), "solver = automatic or adaptive")
+    } else {
+        return Ok(());
+    };
+    Err(refused)
 }

@@ -160,7 +160,7 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
     };
     refused(|p| p.impact = Impact::None, ["impact = none", "set impact = restitution"]);
-    refused(|p| p.restitution = 1.0, ["restitution = 1 (set", "restitution below 1"]);
+    refused(|p| p.restitution = 1.0, ["restitution = 1; set", "restitution below 1"]);
     refused(
         |p| p.restitution = COMPUTED,
         ["restitution_source = calibrated", "set restitution, or restitution_source = analytic"],
@@ -178,7 +178,7 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
             p.restitution = COMPUTED;
             p.restitution_source = RestitutionSource::Analytic;
         },
-        ["restitution_source = analytic", "(set restitution)"],
+        ["restitution_source = analytic", "set restitution, or rocking"],
     );
     refused(
         |p| {
@@ -190,15 +190,13 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
     );
     refused(
         |p| p.damping_model = DampingModel::StiffnessProportional,
-        ["xi = -1 (computed)", "set xi, or damping_model = none"],
+        ["xi = -1 (computed)", "set it, damping_model = none"],
     );
-    // all at once
     let open = Parameters { rocking: Rocking::OneSidedNegative, ..Parameters::default() };
     assert_eq!(
         Wall::new(&open).unwrap_err().to_string(),
-        "rocking = one_sided_negative does not go with impact = none (set impact = restitution), nor with \
-         xi = -1 (computed) (set xi, or damping_model = none), nor with restitution_source = calibrated (set \
-         restitution, or restitution_source = analytic); or set rocking = two_sided"
+        "rocking = one_sided_negative does not go with impact = none; set impact = restitution, or rocking = \
+         two_sided"
     );
     // a start is that of a run, not of a wall
     let behind = Wall::new(&good).unwrap().check_start(-0.01).unwrap_err().to_string();
