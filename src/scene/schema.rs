@@ -4,13 +4,11 @@
 //! A file's tables are declared with [`tables!`](crate::tables). Their descriptions are the comments of the
 //! fields, and their names those that serde reads.
 
-use std::fmt;
 use std::path::PathBuf;
 
 use fmu_export::{Kind, Variable, VariableId};
 use ground_motion::{Acceleration, Format, Unit};
-use serde::Deserialize;
-use serde::de::{Deserializer, IgnoredAny, Visitor};
+use serde::de::{DeserializeOwned, IgnoredAny};
 use toml::{Spanned, Table, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
@@ -104,7 +102,7 @@ pub struct Field {
 
 /// Adds a table to `tables`, and refers to it.
 #[doc(hidden)]
-pub fn describe_table<'de, T: Deserialize<'de>>(
+pub fn describe_table<T: DeserializeOwned>(
     name: &str,
     about: &str,
     fields: &[Field],
@@ -116,11 +114,11 @@ pub fn describe_table<'de, T: Deserialize<'de>>(
         for (key, field) in keys.iter().zip(fields) {
             let mut property = with((field.describe)(key, tables), "description", plain(field.text));
             property.extend((field.words)().into_iter().map(|(word, value)| (word.to_owned(), value)));
-            properties.insert((*key).into(), property.into());
+            properties.insert(key.clone(), property.into());
         }
         let mut table = with(object(properties), "description", plain(about));
-        let required: Vec<_> =
-            keys.iter().zip(fields).filter(|(_, field)| !field.optional).map(|(key, _)| *key).collect();
+        let required = keys.iter().zip(fields).filter(|(_, field)| !field.optional);
+        let required: Vec<_> = required.map(|(key, _)| key.as_str()).collect();
         if !required.is_empty() {
             table.insert("required".into(), required.into());
         }
@@ -181,60 +179,12 @@ fn plain(comment: &str) -> String {
     comment.trim().replace(['\\', '`'], "")
 }
 
-/// Returns the names that serde reads: the keys of a struct, or the choices of an enumeration.
-pub fn names<'de, T: Deserialize<'de>>() -> &'static [&'static str] {
-    T::deserialize(Ask).err().map_or(&[], |Names(names)| names)
-}
-
-/// A reader that has no value: a type tells it what it would read.
-struct Ask;
-
-#[derive(Debug)]
-struct Names(&'static [&'static str]);
-
-impl fmt::Display for Names {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.0.join(", "))
-    }
-}
-
-impl std::error::Error for Names {}
-
-impl serde::de::Error for Names {
-    fn custom<T: fmt::Display>(_: T) -> Self {
-        Self(&[])
-    }
-}
-
-impl<'de> Deserializer<'de> for Ask {
-    type Error = Names;
-
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Names> {
-        Err(Names(&[]))
-    }
-
-    fn deserialize_struct<V: Visitor<'de>>(
-        self,
-        _: &'static str,
-        fields: &'static [&'static str],
-        _: V,
-    ) -> Result<V::Value, Names> {
-        Err(Names(fields))
-    }
-
-    fn deserialize_enum<V: Visitor<'de>>(
-        self,
-        _: &'static str,
-        variants: &'static [&'static str],
-        _: V,
-    ) -> Result<V::Value, Names> {
-        Err(Names(variants))
-    }
-
-    serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit
-        unit_struct newtype_struct seq tuple tuple_struct map identifier ignored_any
-    }
+/// Returns the names that serde reads: the keys of a struct, or the choices of an enumeration. Its refusal of
+/// another name lists them.
+pub fn names<T: DeserializeOwned>() -> Vec<String> {
+    let refusal = toml::from_str::<T>("'' = 0").err().map(|error| error.message().to_owned());
+    // unknown field ``, expected one of `a`, `b`
+    refusal.iter().flat_map(|text| text.split('`').skip(3).step_by(2)).map(str::to_owned).collect()
 }
 
 /// Describes enumerations that serde reads: their names are the choices.
@@ -243,7 +193,7 @@ macro_rules! choices {
     ($($type:ty),+) => {$(
         impl $crate::scene::Described for $type {
             fn describe(_key: &str, _tables: &mut $crate::scene::Schema) -> $crate::scene::Schema {
-                $crate::scene::one_of($crate::scene::names::<Self>().iter().copied())
+                $crate::scene::one_of($crate::scene::names::<Self>().iter().map(String::as_str))
             }
         }
     )+};
