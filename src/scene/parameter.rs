@@ -10,7 +10,7 @@ use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
-use super::toml_text::{NUMBER, inner_span};
+use super::toml_text::NUMBER;
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -61,14 +61,12 @@ pub fn apply_group(
     place: &Place<'_>,
 ) -> Result<(), SceneError> {
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
-    let mut multilinear = None;
-    let mut points = None;
-    let mut bar = None;
+    let (mut law, mut points, mut bar) = (None, None, None);
     for (key, value) in entries {
         let own = value.get_ref();
         match (group, key.get_ref().as_str()) {
-            ("force_law", POINTS) => points = Some((key, value)),
-            ("force_law", "force_law") if own.as_str() == Some(MULTILINEAR) => multilinear = Some(key),
+            ("force_law", POINTS) => points = Some(value),
+            ("force_law", "force_law") if own.as_str() == Some(MULTILINEAR) => law = Some(value),
             (TIE_GROUP, BAR) => bar = Some(value),
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
@@ -76,58 +74,37 @@ pub fn apply_group(
             (_, name) => return Err(place.error(key.span(), unknown(name, group, names))),
         }
     }
-    match (multilinear, points) {
-        (Some(_), Some((_, value))) => {
-            let points =
-                read_points(value.get_ref()).map_err(|message| place.error(value.span(), message))?;
-            parameters.multilinear = Some(points.into());
-        }
-        (Some(key), None) => {
-            let message =
-                format!("force_law = {MULTILINEAR:?} needs {POINTS} = [[u/u_ins, F/F0], ...] in [force_law]");
-            return Err(place.error(key.span(), message));
-        }
-        (None, Some((key, _))) => {
-            let message = format!("{POINTS} needs force_law = {MULTILINEAR:?} beside it");
-            return Err(place.error(key.span(), message));
-        }
-        (None, None) => {}
+    if let Some(value) = points.or(law) {
+        let read = law.and(points).and_then(|points| read_points(points.get_ref()));
+        let message = format!(
+            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the \
+                               first corner outwards; give both"
+        );
+        parameters.multilinear = Some(read.ok_or_else(|| place.error(value.span(), message))?.into());
     }
     let Some(bar) = bar else { return Ok(()) };
     if let Some(key) = entries.keys().find(|key| OF_BAR.contains(&key.get_ref().as_str())) {
         let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
         return Err(place.error(key.span(), message));
     }
-    read_bar(parameters, bar, place)
+    let read = read_bar(bar.get_ref()).and_then(|own| {
+        parameters.bar = Some(own);
+        follow_bar(parameters)
+    });
+    read.map_err(|message| place.error(bar.span(), message))
 }
 
 /// Reads the table `[tie.bar]`.
-fn read_bar(
-    parameters: &mut Parameters,
-    table: &Spanned<Value>,
-    place: &Place<'_>,
-) -> Result<(), SceneError> {
-    let Some(entries) = table.get_ref().as_table() else {
-        let message = format!("{BAR} = {}: expected a table, [tie.bar]", shown(table.get_ref()));
-        return Err(place.error(table.span(), message));
-    };
-    let mut bar = Bar::default();
+fn read_bar(table: &Value) -> Result<Bar, String> {
+    let entries = table.as_table();
+    let entries = entries.ok_or_else(|| format!("{BAR} = {}: expected a table, [tie.bar]", shown(table)))?;
+    let (mut bar, keys) = (Bar::default(), Bar::NUMBERS.map(|number| number.key()));
     for (key, value) in entries {
-        let fail = |message| place.error(inner_span(place, table.span(), key), message);
-        let Some(index) = Bar::NUMBERS.iter().position(|number| number.key() == key) else {
-            let keys = Bar::NUMBERS.map(|number| number.key());
-            let meant = suggestion(key, keys.iter().copied());
-            let keys = keys.join(", ");
-            return Err(fail(format!("unknown key {key:?} in [tie.bar]{meant}; it holds {keys}")));
-        };
-        bar.set(index, real(key, value).map_err(fail)?);
+        let index = keys.iter().position(|known| known == key);
+        bar.set(index.ok_or_else(|| unknown(key, "tie.bar", &keys))?, real(key, value)?);
     }
-    let missing = Bar::NUMBERS.iter().enumerate().find(|(at, of)| of.is_required && bar.get(*at).is_none());
-    if let Some((_, number)) = missing {
-        return Err(place.error(table.span(), format!("tie.bar needs {}; add it", number.key())));
-    }
-    parameters.bar = Some(bar);
-    follow_bar(parameters).map_err(|message| place.error(table.span(), message))
+    // once it is complete, for a wall of any width
+    bar.tie(1.0).map(|_| bar).map_err(|error| error.to_string())
 }
 
 /// Gives the tie the numbers of its bar, once the bar is complete.
@@ -263,15 +240,12 @@ pub fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
     }
 }
 
-fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
-    let shape =
-        || format!("{POINTS} must be a list of pairs [u/u_ins, F/F0], from the first corner outwards");
-    let list = value.as_array().ok_or_else(shape)?;
-    let pair = |item: &Value| {
-        let [u, f] = item.as_array()?.as_slice() else { return None };
-        Some([number(u)?, number(f)?])
+fn read_points(value: &Value) -> Option<Vec<[f64; 2]>> {
+    let pair = |item: &Value| match item.as_array()?.as_slice() {
+        [u, f] => Some([number(u)?, number(f)?]),
+        _ => None,
     };
-    list.iter().map(|item| pair(item).ok_or_else(shape)).collect()
+    value.as_array()?.iter().map(pair).collect()
 }
 
 fn unknown(name: &str, group: &str, names: &[&str]) -> String {

@@ -232,6 +232,7 @@ describe! { |key, tables|
     @T Spanned<T> => T::describe(key, tables);
     @T Vec<T> => list(T::describe(key, tables));
     @T [T; 2] => pair(T::describe(key, tables));
+    Bar => bar();
     Group, true => object(parameters(key));
 }
 

@@ -167,23 +167,6 @@ fn in_value(value: &DeValue<'_>, span: &Range<usize>, keys: &mut Vec<String>) ->
     }
 }
 
-/// Returns where a key of the innermost table at a place stands; the table's own place if it is not found.
-pub(super) fn inner_span(place: &Place<'_>, table: Range<usize>, key: &str) -> Range<usize> {
-    fn innermost<'a, 'b>(value: &'a Spanned<DeValue<'b>>, span: &Range<usize>) -> Option<&'a DeTable<'b>> {
-        match value.get_ref() {
-            DeValue::Table(own) => {
-                let inner = own.values().find_map(|value| innermost(value, span));
-                inner.or(Some(own).filter(|_| value.span() == *span))
-            }
-            DeValue::Array(items) => items.iter().find_map(|item| innermost(item, span)),
-            _ => None,
-        }
-    }
-    let document = parse_document(place).unwrap_or_default();
-    let found = document.values().find_map(|value| innermost(value, &table));
-    found.and_then(|found| found.keys().find(|own| own.get_ref() == key)).map_or(table, Spanned::span)
-}
-
 /// Replaces the Rust type that the reader expects with TOML's own word.
 fn in_toml_words(expected: &str) -> String {
     let counted = |rest: &str| rest.split(' ').find_map(|word| word.parse::<usize>().ok());

@@ -40,13 +40,15 @@ use super::warning::Warning;
 /// assert_eq!((weak.weaker, weak.ultimate), (TiePart::Anchor, 0.0));
 /// assert!((weak.strength - 10e3).abs() < 1e-9);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Bar {
     /// Diameter φ \[m\].
     pub diameter: f64,
     /// Free length L between the anchors \[m\].
     pub length: f64,
     /// Young's modulus E \[Pa\].
+    #[serde(default = "steel")]
     pub young_modulus: f64,
     /// Yield stress `f_y` \[Pa\].
     pub yield_stress: f64,
@@ -58,13 +60,18 @@ pub struct Bar {
     pub spacing: Option<f64>,
 }
 
+/// E of steel \[Pa\].
+fn steel() -> f64 {
+    210e9
+}
+
 impl Default for Bar {
     /// Steel of 210 `GPa`; diameter, length and yield stress, which have to be given, are 0.
     fn default() -> Self {
         Self {
             diameter: 0.0,
             length: 0.0,
-            young_modulus: 210e9,
+            young_modulus: steel(),
             yield_stress: 0.0,
             ultimate_strain: None,
             anchor_capacity: None,

@@ -72,7 +72,7 @@ pub use side_verdict::{
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 pub use states::{Source, StateStatement};
 pub use table::{
-    Activation, AtActivation, BarTable, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
+    Activation, AtActivation, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
     LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, Topography, UseClass,
 };
 pub use tie::{TieAtLimit, TieState};

@@ -127,9 +127,9 @@ impl Statement {
             let message = format!("hinge_range = [{from}, {to}] must rise, within 0.01 to 0.99");
             return refused("hinge_range", message);
         }
-        if let Some(bar) = table.tie.as_ref().and_then(|tie| tie.bar.as_ref()) {
+        if let Some(bar) = table.tie.as_ref().and_then(|tie| tie.bar) {
             let named = |error: ParameterError| CheckError::value(&["tie", "bar"], error.to_string());
-            bar.bar().tie(1.0).map_err(named)?;
+            bar.tie(1.0).map_err(named)?;
         }
         if let Some([from, to]) =
             table.record_range.filter(|[from, to]| !(*from > 0.0 && from < to && to.is_finite()))
@@ -172,9 +172,9 @@ impl Statement {
     /// Returns the parameters of a wall with the bar of the check, where it has none of its own.
     pub(super) fn with_bar(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
         let mut parameters = parameters.clone();
-        let bar = self.table.tie.as_ref().and_then(|tie| tie.bar.as_ref());
+        let bar = self.table.tie.as_ref().and_then(|tie| tie.bar);
         if let (Some(bar), None) = (bar, &parameters.bar) {
-            parameters.bar = Some(bar.bar());
+            parameters.bar = Some(bar);
             parameters.apply_bar()?;
         }
         Ok(parameters)

@@ -2,6 +2,7 @@
 
 use rocking_wall::scene::{Described, Schema, one_of, with};
 use rocking_wall::variables::Rocking;
+use rocking_wall::wall::Bar;
 use rocking_wall::{choices, tables};
 use run::records::RecordsTable;
 use serde::Deserialize;
@@ -114,33 +115,7 @@ tables! {
         #[key(default = "none")]
         pub at_activation: AtActivation,
         /// The bar, in place of `tie_stiffness`, `tie_strength` and `tie_ultimate`.
-        pub bar: Option<BarTable>,
-    }
-
-    /// A steel bar with its anchor.
-    #[derive(Clone, Copy, Debug)]
-    pub struct BarTable {
-        /// Diameter φ \[m\].
-        #[key(exclusiveMinimum = 0)]
-        pub diameter: f64,
-        /// Length \[m\].
-        #[key(exclusiveMinimum = 0)]
-        pub length: f64,
-        /// E of the bar \[Pa\].
-        #[key(exclusiveMinimum = 0, default = STEEL)]
-        pub young_modulus: Option<f64>,
-        /// Design value of the yield stress \[Pa\].
-        #[key(exclusiveMinimum = 0)]
-        pub yield_stress: f64,
-        /// Strain at fracture (-); brittle unless given.
-        #[key(exclusiveMinimum = 0)]
-        pub ultimate_strain: Option<f64>,
-        /// What the anchor bears \[N\].
-        #[key(exclusiveMinimum = 0)]
-        pub anchor_capacity: Option<f64>,
-        /// Distance of the bars along the wall \[m\]; one bar for the width unless given.
-        #[key(exclusiveMinimum = 0)]
-        pub spacing: Option<f64>,
+        pub bar: Option<Bar>,
     }
 
     /// A site on a grid of the hazard that the user brings.
@@ -232,8 +207,6 @@ pub(super) const HINGE_RANGE: [f64; 2] = [0.1, 0.9];
 pub(super) const STRESS_BLOCK: f64 = 0.85;
 /// The least `f_m`; less is in another unit \[Pa\].
 pub(super) const LEAST_STRENGTH: f64 = 1e5;
-/// E of steel unless given \[Pa\].
-pub(super) const STEEL: f64 = 210e9;
 
 impl Described for Topography {
     fn describe(key: &str, tables: &mut Schema) -> Schema {

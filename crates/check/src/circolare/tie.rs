@@ -1,9 +1,7 @@
 //! The tie in the check: its force as the wall is pushed over for the first time, and the bar of its table.
 
-use rocking_wall::wall::{Bar, Parameters, Tie};
+use rocking_wall::wall::{Parameters, Tie};
 use serde::Serialize;
-
-use super::table::{BarTable, STEEL};
 
 /// N of a tie at u, up to and including where it breaks \[N\].
 pub(super) fn force(tie: &Tie, u: f64) -> f64 {
@@ -84,13 +82,4 @@ impl TieAtLimit {
 pub(super) fn anchors(parameters: &Parameters) -> Option<f64> {
     let bar = parameters.bar.filter(|_| parameters.weaker_part().is_some())?;
     Some(bar.spacing.map_or(1.0, |spacing| parameters.width / spacing))
-}
-
-impl BarTable {
-    /// Returns the bar of the table.
-    pub(super) fn bar(&self) -> Bar {
-        let Self { diameter, length, yield_stress, ultimate_strain, anchor_capacity, spacing, .. } = *self;
-        let young_modulus = self.young_modulus.unwrap_or(STEEL);
-        Bar { diameter, length, young_modulus, yield_stress, ultimate_strain, anchor_capacity, spacing }
-    }
 }
