@@ -88,7 +88,7 @@ impl<'a> Place<'a> {
         SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }
     }
 
-    /// Returns the number given, which must be above 0 and at most `limit`, or `natural` where none is given.
+    /// Returns the duration \[s\] given, which must be above 0 and at most `limit`, or `natural` where none is.
     ///
     /// # Errors
     /// [`SceneError::Line`] for a number outside the limits.
@@ -99,12 +99,9 @@ impl<'a> Place<'a> {
         natural: f64,
         limit: f64,
     ) -> Result<f64, SceneError> {
-        let Some(value) = given else { return Ok(natural) };
-        let number = *value.get_ref();
-        match check_duration(key, number, limit) {
-            Ok(()) => Ok(number),
-            Err(error) => Err(self.error(value.span(), error.to_string())),
-        }
+        let Some(given) = given else { return Ok(natural) };
+        let checked = check_duration(key, *given.get_ref(), limit);
+        checked.map(|()| *given.get_ref()).map_err(|error| self.error(given.span(), error.to_string()))
     }
 }
 

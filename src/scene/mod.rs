@@ -35,7 +35,6 @@ pub use storeys::{Floors, StoreyTable, SupportsTable};
 pub use document::read_text;
 use error::check_duration;
 pub use error::{Place, SceneError};
-use motion::Loaded;
 pub use nearest::suggestion;
 use parameter::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits, number};
@@ -153,59 +152,34 @@ impl Scene {
     }
 
     fn from_document(document: &Document, place: &Place<'_>, folder: &Path) -> Result<Self, SceneError> {
-        let mut parameters = Parameters::default();
-        for (group, entries) in document.groups() {
-            parameter::apply_group(&mut parameters, group, entries, place)?;
-        }
-        let motion = document.motion.as_ref();
-        let loaded = motion.map(|table| motion::load(table, place, folder, !document.storeys.is_empty()));
-        let Loaded { excitation, tail, notes: mut motion_notes, records } =
-            loaded.transpose()?.unwrap_or_default();
-        let inputs = document.inputs(place)?;
         let floors = read_floors(&document.storeys, document.supports.as_ref(), place)?;
-        if motion.is_some() || !inputs.is_empty() {
-            // A shaken or coupled wall starts upright unless the scene says otherwise.
-            let start = document.start.keys().map(|key| key.get_ref().as_str());
-            if !start.clone().any(|key| key == "u_start") {
-                parameters.u_start = 0.0;
+        let title = document.title.clone().unwrap_or_else(|| name_of(place.name()));
+        let mut scene = Self { title, floors, ..Self::default() };
+        if let Some(table) = &document.motion {
+            let loaded = motion::load(table, place, folder, scene.floors.is_some())?;
+            scene.shake(loaded.excitation, loaded.tail, loaded.notes);
+            scene.records = loaded.records;
+        }
+        if document.inputs.is_some() {
+            scene.inputs = document.inputs(place)?;
+            if !scene.inputs.is_empty() {
+                // a coupled wall starts upright like a shaken one, unless the scene says otherwise
+                scene.parameters.u_start = 0.0;
             }
         }
-        if let (Some(table), Some(message)) = (motion, moved_apart(&parameters, excitation.as_ref())) {
-            return Err(place.error(table.span(), message));
+        for (group, entries) in document.groups() {
+            apply_group(&mut scene.parameters, group, entries, place)?;
         }
-        motion_notes.extend(floors.iter().map(Floors::note));
-        let free = Self::default();
-        let thresholds = match &document.thresholds {
-            Some(given) => {
-                check_thresholds(given.get_ref())
-                    .map_err(|error| place.error(given.span(), error.to_string()))?;
-                given.get_ref().clone()
-            }
-            None => DEFAULT_THRESHOLDS.to_vec(),
-        };
-        let natural_stop = excitation.as_ref().map_or(free.stop_time, |e| e.duration() + tail);
-        let natural_step = excitation.as_ref().map_or(DEFAULT_OUTPUT_STEP, |e| e.bottom().step().max(1e-3));
-        let inputs = match (&excitation, inputs.is_empty() && document.inputs.is_none()) {
-            (None, true) => free.inputs,
-            _ => inputs,
-        };
-        Ok(Self {
-            title: document.title.clone().unwrap_or_else(|| name_of(place.name())),
-            parameters,
-            inputs,
-            stop_time: place.within("stop_time", document.stop_time.as_ref(), natural_stop, LONGEST_RUN)?,
-            output_step: place.within(
-                "output_step",
-                document.output_step.as_ref(),
-                natural_step,
-                LONGEST_OUTPUT_STEP,
-            )?,
-            excitation,
-            floors,
-            thresholds,
-            motion_notes,
-            records,
-        })
+        if let Some(given) = &document.thresholds {
+            check_thresholds(given.get_ref())
+                .map_err(|error| place.error(given.span(), error.to_string()))?;
+            scene.thresholds.clone_from(given.get_ref());
+        }
+        let Document { stop_time, output_step, .. } = document;
+        scene.stop_time = place.within("stop_time", stop_time.as_ref(), scene.stop_time, LONGEST_RUN)?;
+        scene.output_step =
+            place.within("output_step", output_step.as_ref(), scene.output_step, LONGEST_OUTPUT_STEP)?;
+        Ok(scene)
     }
 
     /// Sets one parameter by name from text, as `--set xi=0.03` does.
@@ -268,10 +242,16 @@ impl Scene {
                 return Err(refused("storeys move under a motion of the ground; give [motion] or --record"));
             }
         };
-        match moved_apart(&self.parameters, motion.as_deref()) {
-            Some(message) => Err(refused(message)),
-            None => Ok(motion),
+        let Parameters { mechanism, kinematics, .. } = self.parameters;
+        let is_full_strip =
+            mechanism == Mechanism::VerticalSpanning && kinematics == Kinematics::Trigonometric;
+        if is_full_strip && motion.as_ref().is_some_and(|motion| motion.top().is_some()) {
+            return Err(refused(
+                "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or \
+                 set kinematics = linear",
+            ));
         }
+        Ok(motion)
     }
 
     /// Returns the number of output intervals of the run.
@@ -287,17 +267,6 @@ impl Scene {
             Err(SceneError::TooLong { stop: self.stop_time, step: self.output_step, limit: MOST_POINTS })
         }
     }
-}
-
-/// Returns the message for full rotations on supports that move differently; `None` for every other wall.
-fn moved_apart(parameters: &Parameters, excitation: Option<&Excitation>) -> Option<&'static str> {
-    let strip = parameters.mechanism == Mechanism::VerticalSpanning;
-    let full = parameters.kinematics == Kinematics::Trigonometric;
-    let apart = excitation.is_some_and(|motion| motion.top().is_some());
-    (strip && full && apart).then_some(
-        "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set \
-         kinematics = linear",
-    )
 }
 
 /// Returns a title made from a file name.

@@ -132,10 +132,9 @@ tables! {
     }
 }
 
-/// A motion ready to use; none by default.
-#[derive(Default)]
+/// A motion ready to use.
 pub(super) struct Loaded {
-    pub(super) excitation: Option<Excitation>,
+    pub(super) excitation: Excitation,
     pub(super) tail: f64,
     pub(super) notes: Vec<String>,
     /// Files of the records.
@@ -208,7 +207,7 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
     notes.push(format!("{peak}, {} s", (1e4 * excitation.duration()).round() / 1e4));
     let files = spec.record.iter().chain(spec.top.as_ref().map(|top| &top.record));
     let records = files.map(|file| folder.join(file)).collect();
-    Ok(Loaded { excitation: Some(excitation), tail, notes, records })
+    Ok(Loaded { excitation, tail, notes, records })
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {

@@ -167,17 +167,8 @@ impl Building {
     fn from_document(document: Document, place: &Place<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
         let stop_time = place.within("stop_time", stop_time.as_ref(), DEFAULT_STOP_TIME, LONGEST_RUN)?;
-        let step = match &step {
-            None => None,
-            Some(given) if *given.get_ref() > 0.0 && *given.get_ref() <= stop_time => Some(*given.get_ref()),
-            Some(given) => {
-                let step = given.get_ref();
-                let message = format!(
-                    "step = {step} s must be above 0 and at most stop_time = {stop_time} s, or leave it out"
-                );
-                return Err(place.error(given.span(), message));
-            }
-        };
+        let within = |given| place.within("step", Some(&given), stop_time, stop_time);
+        let step = step.map(within).transpose()?;
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
             let reason = format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members");
             return Err(SceneError::File { file: place.name().to_owned(), reason });
