@@ -51,12 +51,16 @@ impl Method {
     /// importer's.
     ///
     /// # Errors
-    /// [`ParameterError::NotExact`] where the exact solver is asked for damping that varies on a branch.
+    /// [`ParameterError::Conflict`] where the exact solver is asked for damping that varies on a branch.
     pub fn new(parameters: &Parameters, wall: &Wall, tolerance: f64) -> Result<Self, ParameterError> {
         let exact = wall.has_closed_form();
         match parameters.solver {
             Solver::Automatic | Solver::Exact if exact => Ok(Self::Exact),
-            Solver::Exact => Err(ParameterError::NotExact { model: parameters.damping_model.name() }),
+            Solver::Exact => Err(ParameterError::conflict(
+                ("solver", "exact"),
+                ("damping_model", parameters.damping_model.name()),
+                "solver = automatic or adaptive: exact needs damping that is constant on each branch",
+            )),
             Solver::Automatic | Solver::Adaptive => Ok(Self::Adaptive { tolerance }),
             Solver::Newmark => Ok(Self::Newmark { step: parameters.newmark_step }),
         }

@@ -10,8 +10,7 @@
 use std::f64::consts::PI;
 
 use super::error::ParameterError;
-use super::parameters::Parameters;
-use super::tie::ELASTIC;
+use super::parameters::{COMPUTED, Parameters};
 use super::usual::{FORCES, LENGTHS, Usual};
 use super::warning::Warning;
 
@@ -227,7 +226,7 @@ impl Bar {
         let (weaker, ultimate) = match (anchor, self.ultimate_strain) {
             (Some(_), _) => (TiePart::Anchor, 0.0),
             (None, Some(strain)) => (TiePart::Bar, (strain * self.length - strength / stiffness).max(0.0)),
-            (None, None) => (TiePart::Bar, ELASTIC),
+            (None, None) => (TiePart::Bar, COMPUTED),
         };
         Ok(BarTie { stiffness, strength, ultimate, weaker })
     }

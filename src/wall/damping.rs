@@ -244,7 +244,7 @@ pub(super) struct DampingLaw {
 
 impl DampingLaw {
     /// # Errors
-    /// [`ParameterError::NoElasticBranch`] where a ratio ξ meets the rigid-linear law;
+    /// [`ParameterError::Conflict`] where a ratio ξ meets the rigid-linear law;
     /// [`ParameterError::Computed`] where e = 0 leaves none to compute.
     pub(super) fn new(
         asked: Damping,
@@ -255,7 +255,12 @@ impl DampingLaw {
     ) -> Result<Self, ParameterError> {
         let model = asked.model;
         if force.elastic_stiffness.is_none() && model.needs_elastic_branch() {
-            return Err(ParameterError::NoElasticBranch { model: model.name() });
+            return Err(ParameterError::conflict(
+                ("damping_model", model.name()),
+                ("force_law", "rigid_linear"),
+                "force_law = bilinear, since the model needs an elastic branch, damping_model = \
+                 free_standing_block, or none with impact = restitution",
+            ));
         }
         let value = match (asked.ratio, asked.computed_name()) {
             (Some(number), _) => number,

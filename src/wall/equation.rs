@@ -135,8 +135,7 @@ impl Wall {
     /// Checks a displacement \[m\] at which a run is to start.
     ///
     /// # Errors
-    /// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartsOverturned`],
-    /// [`ParameterError::NothingMoves`].
+    /// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartsOverturned`].
     pub fn check_start(&self, u_start: f64) -> Result<(), ParameterError> {
         if self.free_side().is_some_and(|side| side * u_start < 0.0) {
             return Err(ParameterError::StartsBehindWalls { u_start, rocking: self.rocking.name() });
@@ -145,12 +144,7 @@ impl Wall {
         if u_start.abs() <= u_ins {
             return Ok(());
         }
-        let is_default = u_start == Parameters::default().u_start;
-        Err(if is_default {
-            ParameterError::NothingMoves { u_start, u_ins }
-        } else {
-            ParameterError::StartsOverturned { u_start, u_ins }
-        })
+        Err(ParameterError::StartsOverturned { u_start, u_ins })
     }
 
     /// Returns the warning of a start that has stretched or broken a tie: whoever pulls the wall to `u_start`

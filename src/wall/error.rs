@@ -38,39 +38,21 @@ pub enum ParameterError {
         r#source: &'static str,
         value: f64,
     },
-    /// Damping on the elastic branch, and no elastic branch.
-    #[error(
-        "damping_model = {model} needs an elastic branch, and force_law = rigid_linear has none; use \
-         damping_model = free_standing_block, impact = restitution, or force_law = bilinear"
-    )]
-    NoElasticBranch { model: &'static str },
     /// e = 0 leaves no damping to compute.
     #[error(
         "{name} = -1 asks for damping computed from the coefficient of restitution, which has to be above 0 \
          but is {restitution}; set {name}"
     )]
     Computed { name: &'static str, restitution: f64 },
-    /// A number that is neither given nor to be computed.
-    #[error("{name} = {value} must be 0 or more, or -1 to compute it from the geometry")]
+    /// A number that is neither given nor left out.
+    #[error("{name} = {value} must be 0 or more, or -1 where it is not given")]
     NotGiven { name: &'static str, value: f64 },
-    /// A tie of a strip.
-    #[error(
-        "tie_stiffness needs a parapet, but mechanism = {mechanism}; set tie_stiffness = 0 or \
-         mechanism = parapet"
-    )]
-    TieNeedsParapet { mechanism: &'static str },
     /// A tie that is not on the wall.
     #[error(
         "tie_height = {tie_height} m must be above 0 and at most height = {height} m; give the height of \
          the tie above the base"
     )]
     TieHeight { tie_height: f64, height: f64 },
-    /// A plastic elongation that is none.
-    #[error(
-        "tie_ultimate = {ultimate} m must be 0 or more, the plastic elongation at which the tie breaks, or \
-         -1 for a tie that stays elastic"
-    )]
-    TieUltimate { ultimate: f64 },
     /// A number that the bar of a tie lacks.
     #[error("the bar of the tie needs {name}: give it, or leave the other numbers of the bar out")]
     BarNeeds { name: &'static str },
@@ -78,15 +60,8 @@ pub enum ParameterError {
     #[error("{name} = {value}{}{unit} must be above 0", if unit.is_empty() { "" } else { " " })]
     Bar { name: &'static str, value: f64, unit: &'static str },
     /// Two choices that do not go together.
-    #[error("{choice} = {chosen} does not go with {name} = {value}; set {remedy}, or {instead}")]
-    Conflict {
-        choice: &'static str,
-        chosen: &'static str,
-        name: &'static str,
-        value: String,
-        remedy: &'static str,
-        instead: &'static str,
-    },
+    #[error("{choice} = {chosen} does not go with {name} = {value}; set {remedy}")]
+    Conflict { choice: &'static str, chosen: String, name: &'static str, value: String, remedy: String },
     /// A start behind the transverse walls.
     #[error(
         "u_start = {u_start} m is behind the transverse walls of rocking = {rocking}; start the wall on the \
@@ -94,15 +69,11 @@ pub enum ParameterError {
     )]
     StartsBehindWalls { u_start: f64, rocking: &'static str },
     /// A start at which the wall has overturned.
-    #[error("u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: for a wall at rest set u_start = 0")]
-    StartsOverturned { u_start: f64, u_ins: f64 },
-    /// The start value of the model description, where the wall has overturned.
     #[error(
-        "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m; it is the default of a run without a motion. \
-         Give a motion ([motion] or --record), or set u_start = 0 if the wall is at rest or the inputs of an \
-         FMU move it"
+        "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: set u_start = 0 for a wall that is at rest until \
+         a motion ([motion], --record) or the inputs of an FMU move it"
     )]
-    NothingMoves { u_start: f64, u_ins: f64 },
+    StartsOverturned { u_start: f64, u_ins: f64 },
     /// No unstable equilibrium in full rotations.
     #[error(
         "kinematics = trigonometric: for {side} the wall lies flat at u = {end} m before it becomes \
@@ -110,12 +81,6 @@ pub enum ParameterError {
          kinematics = linear"
     )]
     NoFall { side: &'static str, end: f64 },
-    /// Damping that varies on a branch has no closed form.
-    #[error(
-        "solver = exact needs damping that is constant on each branch, and damping_model = {model} is not; \
-         use solver = automatic or adaptive"
-    )]
-    NotExact { model: &'static str },
     /// A wall that is refused and has numbers that walls rarely have: they may be the cause.
     #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Improbable { doubts: Vec<Warning>, error: Box<ParameterError> },
@@ -130,21 +95,27 @@ impl ParameterError {
             Self::PlateauTooHigh { .. } => vec!["d1", "a1", "softening"],
             Self::Points { .. } => vec!["points"],
             Self::Restitution { .. } => vec!["restitution_source", "restitution"],
-            Self::NoElasticBranch { .. } => vec!["damping_model", "force_law"],
             Self::Computed { name, .. }
             | Self::NotGiven { name, .. }
             | Self::BarNeeds { name }
             | Self::Bar { name, .. } => vec![name],
-            Self::TieNeedsParapet { .. } => vec!["tie_stiffness", "mechanism"],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
-            Self::TieUltimate { .. } => vec!["tie_ultimate"],
             Self::Conflict { choice, name, .. } => vec![choice, name],
             Self::StartsBehindWalls { .. } => vec!["u_start", "rocking"],
-            Self::StartsOverturned { .. } | Self::NothingMoves { .. } => vec!["u_start"],
+            Self::StartsOverturned { .. } => vec!["u_start"],
             Self::NoFall { .. } => vec!["kinematics"],
-            Self::NotExact { .. } => vec!["solver", "damping_model"],
             Self::Improbable { error, .. } => error.keys(),
         }
+    }
+
+    /// Refuses two choices that do not go together, each a parameter with its value; `remedy` says what to set.
+    pub(crate) fn conflict(
+        (choice, chosen): (&'static str, impl ToString),
+        (name, value): (&'static str, impl ToString),
+        remedy: impl Into<String>,
+    ) -> Self {
+        let (chosen, value, remedy) = (chosen.to_string(), value.to_string(), remedy.into());
+        Self::Conflict { choice, chosen, name, value, remedy }
     }
 
     /// Adds the numbers that may be the cause.

@@ -95,29 +95,29 @@ fn one_sided(
     body: &Body,
     number: Option<f64>,
 ) -> Result<f64, ParameterError> {
-    let conflict = |name, value: String, remedy| {
-        let (choice, chosen, instead) = ("rocking", parameters.rocking.name(), "rocking = two_sided");
-        Err(ParameterError::Conflict { choice, chosen, name, value, remedy, instead })
+    let conflict = |name, value: &dyn ToString, remedy: &str| {
+        let (rocking, remedy) = (parameters.rocking.name(), format!("{remedy}, or rocking = two_sided"));
+        Err(ParameterError::conflict(("rocking", rocking), (name, value.to_string()), remedy))
     };
     if parameters.impact != Impact::Restitution {
-        return conflict("impact", parameters.impact.name().into(), "impact = restitution");
+        return conflict("impact", &parameters.impact.name(), "impact = restitution");
     }
     if let Some(name) = damping.computed_name() {
-        return conflict(name, "-1 (computed)".into(), "it, damping_model = none");
+        return conflict(name, &"-1 (computed)", "it, damping_model = none");
     }
     let source = parameters.restitution_source;
     let value = match (number, source, body.mechanism) {
         (Some(number), ..) if number >= 1.0 => {
-            return conflict("restitution", number.to_string(), "restitution below 1");
+            return conflict("restitution", &number, "restitution below 1");
         }
         (Some(number), ..) => number,
         (None, RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
         (None, _, Mechanism::Parapet) => {
             let remedy = "restitution, or restitution_source = analytic";
-            return conflict("restitution_source", source.name().into(), remedy);
+            return conflict("restitution_source", &source.name(), remedy);
         }
         (None, _, Mechanism::VerticalSpanning) => {
-            return conflict("restitution_source", source.name().into(), "restitution");
+            return conflict("restitution_source", &source.name(), "restitution");
         }
     };
     if (0.0..1.0).contains(&value) {

@@ -20,7 +20,7 @@ use crate::choices::{Mechanism, TieSide};
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::{Body, Sides};
-use super::parameters::{Kinematics, Parameters};
+use super::parameters::{Kinematics, Parameters, given};
 use super::trigonometric::conflict;
 
 /// The tie of a parapet; on both sides two ties of equal data.
@@ -94,22 +94,22 @@ impl Tie {
     /// Returns the tie that the parameters ask for; `None` for a stiffness of 0.
     ///
     /// # Errors
-    /// [`ParameterError::TieNeedsParapet`], [`ParameterError::Conflict`], [`ParameterError::TieHeight`],
-    /// [`ParameterError::TieUltimate`].
+    /// [`ParameterError::Conflict`], [`ParameterError::TieHeight`], [`ParameterError::NotGiven`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Option<Self>, ParameterError> {
         let Parameters { height, tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
-        let ultimate = parameters.tie_ultimate;
-        if ultimate != ELASTIC && ultimate < 0.0 {
-            return Err(ParameterError::TieUltimate { ultimate });
-        }
+        let ultimate = given("tie_ultimate", parameters.tie_ultimate)?;
         if stiffness == 0.0 {
             return Ok(None);
         }
         if parameters.mechanism != Mechanism::Parapet {
-            return Err(ParameterError::TieNeedsParapet { mechanism: parameters.mechanism.name() });
+            return Err(ParameterError::conflict(
+                ("tie_stiffness", stiffness),
+                ("mechanism", parameters.mechanism.name()),
+                "tie_stiffness = 0 or mechanism = parapet",
+            ));
         }
         if parameters.kinematics == Kinematics::Trigonometric {
-            return Err(conflict("tie_stiffness", stiffness.to_string(), "tie_stiffness = 0"));
+            return Err(conflict("tie_stiffness", &stiffness, "tie_stiffness = 0"));
         }
         if !(tie_height > 0.0 && tie_height <= height) {
             return Err(ParameterError::TieHeight { tie_height, height });
@@ -119,7 +119,7 @@ impl Tie {
             stiffness,
             slack,
             strength,
-            ultimate: strength.and(Some(ultimate)).filter(|ultimate| *ultimate >= 0.0),
+            ultimate: strength.and(ultimate),
             side: parameters.tie_side,
             lever: 2.0 * tie_height / height,
             departure: body.departure,
@@ -273,6 +273,3 @@ impl Tie {
         }
     }
 }
-
-/// The value of `tie_ultimate` for a tie that stays elastic.
-pub(super) const ELASTIC: f64 = -1.0;

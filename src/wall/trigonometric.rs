@@ -243,9 +243,9 @@ fn forces(b: f64, [h1, h2]: [f64; 2], [m1, m2]: [f64; 2], body: &Body, c: f64) -
 }
 
 /// Says what does not go with full rotations, and what to set.
-pub(super) fn conflict(name: &'static str, value: String, remedy: &'static str) -> ParameterError {
-    let (choice, chosen, instead) = ("kinematics", "trigonometric", "kinematics = linear");
-    ParameterError::Conflict { choice, chosen, name, value, remedy, instead }
+pub(super) fn conflict(name: &'static str, value: &dyn ToString, remedy: &str) -> ParameterError {
+    let remedy = format!("{remedy}, or kinematics = linear");
+    ParameterError::conflict(("kinematics", "trigonometric"), (name, value.to_string()), remedy)
 }
 
 /// # Errors
@@ -253,14 +253,14 @@ pub(super) fn conflict(name: &'static str, value: String, remedy: &'static str) 
 fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     let law = parameters.multilinear.as_ref().map_or(parameters.force_law.name(), |_| "multilinear");
     let refused = if law != ForceLaw::RigidLinear.name() {
-        conflict("force_law", law.into(), "force_law = rigid_linear")
+        conflict("force_law", &law, "force_law = rigid_linear")
     } else if parameters.a3 != 1.0 {
-        conflict("a3", parameters.a3.to_string(), "a3 = 1")
+        conflict("a3", &parameters.a3, "a3 = 1")
     } else if parameters.damping_model != DampingModel::None {
         let remedy = "damping_model = none and impact = restitution";
-        conflict("damping_model", parameters.damping_model.name().into(), remedy)
+        conflict("damping_model", &parameters.damping_model.name(), remedy)
     } else if let solver @ (Solver::Exact | Solver::Newmark) = parameters.solver {
-        conflict("solver", solver.name().into(), "solver = automatic or adaptive")
+        conflict("solver", &solver.name(), "solver = automatic or adaptive")
     } else {
         return Ok(());
     };

@@ -259,7 +259,7 @@ fn logged_by(
 fn the_unit_warns_once_of_a_start_that_was_forgotten() {
     use RealVariable::{ABottom, AG, D1, Thickness, UStart};
     let (started, reason) = logged(&[(Thickness, 0.25)], &[]);
-    assert!(!started && reason.contains("it is the default of a run without a motion"), "{reason}");
+    assert!(!started && reason.contains("set u_start = 0 for a wall that is at rest"), "{reason}");
     assert_eq!(logged(&[], &[]), (true, String::new()));
     assert_eq!(logged(&[], &[(AG, 0.0)]).1, "");
     for input in [AG, ABottom] {

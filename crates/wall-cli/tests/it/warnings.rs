@@ -164,7 +164,7 @@ fn a_number_that_is_given_counts() {
 #[test]
 fn a_start_beyond_u_ins_is_refused() {
     let folder = folder("start_beyond");
-    let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m; it is the default of a run without a motion";
+    let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m: set u_start = 0 for a wall that is at rest";
     fails(&folder, &["simulate", "--set", "thickness=0.25"], &[remedy]);
     // what does not move has no start
     assert_eq!(warned(&["describe", "--set", "thickness=0.25"]), "");
