@@ -163,18 +163,6 @@ impl Simulation {
         self.add_segment(segment, Some(demands), &mut step).map(|()| step)
     }
 
-    /// Moves the wall through the segments of a step. `next` receives the present time and the length of the
-    /// step that is done \[s\]. It returns the next segment and the length that is left \[s\].
-    ///
-    /// # Errors
-    /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
-    pub fn advance_through(
-        &mut self,
-        mut next: impl FnMut(f64, f64) -> (Segment, f64),
-    ) -> Result<Step, RunError> {
-        self.advance_by(|simulation, _, done| next(simulation.progress.time, done), None)
-    }
-
     /// Moves the wall to a time \[s\] under a motion of its supports, or without one, and adds its demands to
     /// `demands`. With these, steps of a record in which nothing happens are passed many at once. Returns
     /// whether the limit on impacts was reached and the wall put to rest.
@@ -205,13 +193,18 @@ impl Simulation {
             let now = simulation.progress.time;
             (segment_of(motion, now, end - now), end - now)
         };
-        let step = self.advance_by(next, demands)?;
+        let step = self.advance_through(next, demands)?;
         self.set_time(end);
         Ok(step.put_to_rest)
     }
 
-    /// Moves the wall through the segments that `next` returns, with the length of the step that is left.
-    fn advance_by(
+    /// Moves the wall through the segments of a step, and adds its demands to `demands`. `next` receives the
+    /// simulation, the demands and the length of the step that is done \[s\]. It returns the next segment
+    /// and the length that is left \[s\].
+    ///
+    /// # Errors
+    /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
+    pub fn advance_through(
         &mut self,
         mut next: impl FnMut(&mut Self, Option<&mut Demands>, f64) -> (Segment, f64),
         mut demands: Option<&mut Demands>,

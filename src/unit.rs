@@ -1,6 +1,5 @@
 //! The wall as an FMI model: a wall between the FMI calls.
 
-mod exchange;
 mod model;
 mod model_exchange;
 mod state;
@@ -12,11 +11,11 @@ use fmu_export::{Experiment, Failure, Input, Kind, Log, Step as CommunicationSte
 
 use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
-use crate::solver::Segment;
+use crate::solver::{Demands, Segment};
 use crate::variables::{RealVariable, real_calculated, real_output, real_parameter};
 use crate::wall::{Ends, Parameters, Support, Wall};
 
-use exchange::Exchange;
+use model_exchange::Exchange;
 
 /// A wall between the FMI calls.
 #[derive(Clone, Debug)]
@@ -155,13 +154,13 @@ impl Unit {
     fn move_wall(&mut self, step: CommunicationStep) -> Result<Step, Failure> {
         self.simulation.set_time(step.from);
         let (inputs, motion, start) = (self.inputs, self.excitation.as_deref(), self.experiment.start);
-        let next = |time: f64, done: f64| {
+        let next = |simulation: &mut Simulation, _: Option<&mut Demands>, done: f64| {
             let remaining = step.duration - done;
-            let own = segment_of(motion, time - start, remaining);
+            let own = segment_of(motion, simulation.progress().time - start, remaining);
             let (from, to) = (inputs.support(own.from, done), inputs.support(own.to, done + own.duration));
             (Segment { duration: own.duration, from, to }, remaining)
         };
-        self.simulation.advance_through(next).map_err(|error| error.to_string().into())
+        self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
     }
 
     /// Returns the length of the step up to just after overturning \[s\]; `None` where the wall does not

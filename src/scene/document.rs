@@ -12,7 +12,6 @@ use crate::variables::RealVariable;
 
 use super::error::{Place, SceneError};
 use super::motion::MotionTable;
-use super::nearest::suggestion;
 use super::parameter::{Group, input_names};
 use super::schema::{fraction, one_of};
 use super::storeys::{StoreyTable, SupportsTable};
@@ -93,20 +92,12 @@ impl Document {
     pub(super) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, SceneError> {
         let mut inputs = Vec::new();
         for name in self.inputs.iter().flatten() {
-            let found = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
-            let Some(input) = found else {
-                let known: Vec<_> = input_names().collect();
-                let meant = suggestion(name.get_ref(), known.iter().copied());
-                let message = format!(
-                    "{:?} is not an input{meant}; the inputs are {}",
-                    name.get_ref(),
-                    known.join(", ")
-                );
-                return Err(place.error(name.span(), message));
-            };
-            if inputs.contains(&input) {
-                return Err(place.error(name.span(), format!("{:?} is listed twice", name.get_ref())));
-            }
+            let input = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
+            let input = input.filter(|input| !inputs.contains(input)).ok_or_else(|| {
+                let known = input_names().collect::<Vec<_>>().join(", ");
+                let message = format!("{:?} is not one of the inputs {known}, each once", name.get_ref());
+                place.error(name.span(), message)
+            })?;
             inputs.push(input);
         }
         Ok(inputs)

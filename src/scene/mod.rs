@@ -13,7 +13,6 @@ mod parameter;
 mod schema;
 mod storeys;
 mod toml_text;
-mod used;
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -22,7 +21,7 @@ use std::path::{Path, PathBuf};
 use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
-use crate::variables::{Mechanism, RealVariable};
+use crate::variables::{BooleanVariable, Mechanism, RealVariable};
 use crate::wall::{Bar, COMPUTABLE, Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
@@ -252,6 +251,24 @@ impl Scene {
             ));
         }
         Ok(motion)
+    }
+
+    /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the
+    /// library reads them from the scene.
+    pub fn uses(&self, name: &str) -> bool {
+        use RealVariable as V;
+        let p = &self.parameters;
+        let matters = || usage(p).any(|usage| usage.name == name && usage.matters);
+        match V::from_name(name) {
+            None => BooleanVariable::from_name(name).is_some() && matters(),
+            Some(input @ (V::AG | V::ABottom | V::ATop | V::Drift)) => self.inputs.contains(&input),
+            // 0 stands for "none", and so does -1
+            Some(V::Overburden) if p.overburden == 0.0 => false,
+            Some(V::TieStiffness) if p.tie_stiffness == 0.0 => false,
+            Some(V::TieStrength) if p.tie_strength == 0.0 => false,
+            Some(V::TieUltimate) if p.tie_ultimate == -1.0 => false,
+            Some(_) => matters(),
+        }
     }
 
     /// Returns the number of output intervals of the run.

@@ -73,9 +73,6 @@ pub(super) trait Recurrence {
 
     /// The n-th coefficient of ü; those of u are known up to n + 1.
     fn acceleration(&mut self, n: usize) -> f64;
-
-    /// −1 where the recurrence works on −u, else 1.
-    fn sign(&self) -> f64;
 }
 
 /// The recurrence on a branch with viscous damping.
@@ -111,16 +108,16 @@ impl Recurrence for Viscous<'_> {
         let slowing = |i: usize| damping.coefficients[i] * ((n - i + 1) as f64 * u[n - i + 1]);
         forcing - restoring - (0..terms).map(slowing).sum::<f64>()
     }
-
-    fn sign(&self) -> f64 {
-        1.0
-    }
 }
 
 impl<'a> Series<'a> {
-    /// Computes the motion from a recurrence, over `remaining` or as much of it as the highest order can
-    /// cover within the tolerance.
-    pub(super) fn new(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
+    /// Computes the motion from a recurrence of `sign` u, over `remaining` or as much of it as the highest
+    /// order can cover within the tolerance.
+    pub(super) fn new(mut work: impl Recurrence, sign: f64, remaining: f64, tolerances: Tolerances) -> Self {
+        let polynomial = |u: &[f64; HIGHEST_ORDER + 1], order: usize| Polynomial {
+            coefficients: u.map(|coefficient| sign * coefficient),
+            order,
+        };
         let mut power = remaining;
         let mut small_before = false;
         for n in 0..=HIGHEST_ORDER - 2 {
@@ -134,13 +131,13 @@ impl<'a> Series<'a> {
                 // the forcing enters the first two terms, and damping one more
                 && order > 3;
             if small && small_before {
-                return Self::of(polynomial(work, order), remaining, None);
+                return Self::of(polynomial(work.displacement(), order), remaining, None);
             }
             small_before = small;
             power *= remaining;
         }
         let horizon = longest_step(work.displacement(), tolerances).min(remaining);
-        Self::of(polynomial(work, HIGHEST_ORDER), horizon, None)
+        Self::of(polynomial(work.displacement(), HIGHEST_ORDER), horizon, None)
     }
 
     fn of(polynomial: Polynomial, horizon: f64, law: Option<Law<'a>>) -> Self {
@@ -175,12 +172,6 @@ impl<'a> Series<'a> {
         coefficients[3] = acceleration_rate / 6.0;
         Self::of(Polynomial { coefficients, order: 3 }, horizon, None)
     }
-}
-
-/// u(t) from its coefficients up to `order`.
-fn polynomial(mut work: impl Recurrence, order: usize) -> Polynomial {
-    let sign = work.sign();
-    Polynomial { coefficients: work.displacement().map(|coefficient| sign * coefficient), order }
 }
 
 /// Returns 0.9 of the step at which the last two terms of the highest order meet the tolerance.
@@ -284,7 +275,7 @@ mod tests {
                 let branch =
                     Branch { lower: 0.01, upper: 0.3, anchor: 0.02, force, stiffness, own, tie, damping };
                 let start = KinematicState { displacement, velocity, acceleration: 0.0 };
-                let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 0.01, tolerances);
+                let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 1.0, 0.01, tolerances);
                 let secant = Secant::new(&branch).expect("secant damping");
                 let (law, now) = ((&secant, &branch), [displacement, velocity]);
                 let own = Series::secant(law, now, [0.4, 2.0], 0.01, tolerances);
@@ -294,7 +285,8 @@ mod tests {
                 assert!((any.velocity - own.velocity).abs() < 1e-11, "{any:?} {own:?}");
                 // damping matters by far more than the tolerance
                 let undamped = Branch { damping: BranchDamping::Constant(0.0), ..branch };
-                let free = Series::new(Viscous::new(&undamped, start, [0.4, 2.0]), time, tolerances).at(time);
+                let free =
+                    Series::new(Viscous::new(&undamped, start, [0.4, 2.0]), 1.0, time, tolerances).at(time);
                 assert!((free.velocity - own.velocity).abs() > 1e-4, "{free:?} {own:?}");
                 compared += 1;
             }

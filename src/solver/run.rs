@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
         }
         if let Some(rotations) = motion.wall.rotations() {
             let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
-            return self.follow_piece(&Series::new(rotation, remaining, motion.tolerances));
+            return self.follow_piece(&Series::new(rotation, branch.side(), remaining, motion.tolerances));
         }
         if let Some(secant) = &motion.secants[index] {
             let (now, forcing) = ([displacement, velocity], [forcing, self.rate]);
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
             return self.follow_piece(&piece);
         }
         let viscous = Viscous::new(branch, start, [forcing, self.rate]);
-        self.follow_piece(&Series::new(viscous, remaining, motion.tolerances))
+        self.follow_piece(&Series::new(viscous, 1.0, remaining, motion.tolerances))
     }
 
     fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm<'a> {

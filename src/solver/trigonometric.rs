@@ -149,8 +149,4 @@ impl Recurrence for Rotation<'_> {
         self.acceleration[n] = sum / self.mass[0];
         self.acceleration[n]
     }
-
-    fn sign(&self) -> f64 {
-        self.sign
-    }
 }

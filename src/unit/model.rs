@@ -17,7 +17,7 @@ use crate::variables::{
 use crate::wall::{Kinematics, Parameters, Support};
 
 use super::Unit;
-use super::exchange::Exchange;
+use super::model_exchange::Exchange;
 
 impl Model for Unit {
     type Real = RealVariable;

@@ -6,7 +6,7 @@ use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};
 use crate::wall::{Ends, Support, TieMemory};
 
-use super::exchange::{Exchange, OwnMotion};
+use super::model_exchange::{Exchange, OwnMotion};
 use super::{Inputs, Unit};
 
 impl Unit {
