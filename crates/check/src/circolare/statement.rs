@@ -11,8 +11,8 @@ use super::demand::Demand;
 use super::site::{self, FromGrid};
 use super::states::{StateStatement, limit_state};
 use super::table::{
-    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, LEAST_STRENGTH,
-    Method, STRESS_BLOCK,
+    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, Method,
+    STRESS_BLOCK,
 };
 use super::{FEWEST_RECORDS, LimitState};
 
@@ -87,14 +87,6 @@ impl Statement {
     /// Checks the values against each other and the code.
     fn new(table: CheckTable) -> Result<Self, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        let behaviour_factor = at_least(1.0, "behaviour_factor", table.behaviour_factor.unwrap_or(2.0))?;
-        at_least(0.0, "overburden_mass", table.overburden_mass.unwrap_or(0.0))?;
-        if let Some(e) = table.young_modulus.filter(|e| !(*e >= SOFTEST && e.is_finite())) {
-            let doubt = super::warnings::YOUNG_MODULUS.warning(e).map(|doubt| format!("{doubt}; "));
-            let doubt = doubt.unwrap_or_default();
-            let message = format!("{doubt}no masonry has E below {SOFTEST:e} Pa; give young_modulus in Pa");
-            return refused("young_modulus", message);
-        }
         match (table.before_activation, table.young_modulus) {
             (Some(Activation::Beam), None) => {
                 return refused("before_activation", "beam needs young_modulus, E in Pa".into());
@@ -137,6 +129,7 @@ impl Statement {
             let message = format!("record_range = [{from}, {to}] s must rise from above 0");
             return refused("record_range", message);
         }
+        let behaviour_factor = table.behaviour_factor.unwrap_or(2.0);
         let (records, displacements) = (Records::default(), Displacements::OF_CODE);
         Ok(Self {
             table,
@@ -207,14 +200,6 @@ impl Statement {
     }
 }
 
-/// Refuses a value of the table `[check]` that is below a limit, or not finite.
-fn at_least(limit: f64, key: &str, value: f64) -> Result<f64, CheckError> {
-    if value >= limit && value.is_finite() {
-        return Ok(value);
-    }
-    Err(CheckError::value(&[key], format!("{key} = {value} must be at least {limit}")))
-}
-
 /// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].
 fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, CheckError> {
     let refused = |key, message: String| Err(CheckError::value(&[key], message));
@@ -229,24 +214,10 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
             None => Ok(None),
         };
     };
-    if !(strength >= LEAST_STRENGTH && strength.is_finite()) {
-        let message = format!(
-            "masonry_strength = {strength} Pa is below {LEAST_STRENGTH} Pa: is it in MPa? give f_m in Pa, \
-             such as 1.5e6"
-        );
-        return refused("masonry_strength", message);
-    }
-    let gamma = at_least(1.0, "masonry_gamma", table.masonry_gamma.unwrap_or(1.0))?;
-    let block = table.stress_block.unwrap_or(STRESS_BLOCK);
-    if !(block > 0.0 && block <= 1.0) {
-        return refused("stress_block", format!("stress_block = {block} must be above 0 and at most 1"));
-    }
+    let (gamma, block) = (table.masonry_gamma.unwrap_or(1.0), table.stress_block.unwrap_or(STRESS_BLOCK));
     let over = if table.masonry_over_fc.unwrap_or(true) { confidence_factor } else { 1.0 };
     Ok(Some(block * strength / (gamma * over)))
 }
-
-/// The softest masonry, E; less is in another unit \[Pa\].
-const SOFTEST: f64 = 1e7;
 
 fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
     let factor = match (table.confidence_factor, table.knowledge_level) {
@@ -254,7 +225,7 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
             let message = "confidence_factor and knowledge_level state the same; leave one out";
             return Err(CheckError::value(&["knowledge_level"], message));
         }
-        (Some(factor), None) => at_least(1.0, "confidence_factor", factor)?,
+        (Some(factor), None) => factor,
         (None, Some(KnowledgeLevel::LC2)) => 1.20,
         (None, Some(KnowledgeLevel::LC3)) => 1.00,
         (None, Some(KnowledgeLevel::LC1) | None) => return Ok(LARGEST_CONFIDENCE_FACTOR),

@@ -103,13 +103,17 @@ impl ReportTable {
     /// Takes from the site what is not given here.
     ///
     /// # Errors
-    /// The key that both have with different values, and why that cannot be.
-    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (&'static str, String)> {
-        let same = |key, own: String, of_site: String| {
+    /// The key of coordinates that are no place, or which both have with different values, and why that cannot
+    /// be.
+    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (Vec<String>, String)> {
+        if let Some(message) = self.coordinates.and_then(no_place) {
+            return Err((vec!["coordinates".to_owned()], message));
+        }
+        let same = |key: &str, own: String, of_site: String| {
             let message = format!(
                 "{key} = {own} differs from {of_site} of [check.site]; leave it out here, or make both equal"
             );
-            if own == of_site { Ok(()) } else { Err((key, message)) }
+            if own == of_site { Ok(()) } else { Err((vec![key.to_owned()], message)) }
         };
         for (key, own, of_site) in [
             ("nominal_life", &mut self.nominal_life, site.nominal_life),
@@ -125,19 +129,6 @@ impl ReportTable {
         }
         self.coordinates = self.coordinates.or(site.coordinates);
         Ok(())
-    }
-
-    /// Says which key has a number that cannot be, and why.
-    pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
-        if let Some(message) = self.coordinates.and_then(no_place) {
-            return Some(("coordinates", message));
-        }
-        let positive = [("nominal_life", self.nominal_life), ("use_coefficient", self.use_coefficient)];
-        let bad = |value: f64| !(value > 0.0 && value.is_finite());
-        let (key, value) =
-            positive.into_iter().find_map(|(key, value)| Some((key, value.filter(|v| bad(*v))?)))?;
-        let such = if key == "nominal_life" { "50 (years)" } else { "1.0" };
-        Some((key, format!("{key} = {value} must be above 0, such as {such}")))
     }
 
     /// The data of the project as a table, without those that are not given; empty without any.

@@ -127,7 +127,7 @@ fn sites_that_cannot_be_are_refused() {
         (both("42.02, 13.03", "13.03, 42.02"), "in no cell of the grid; the nearest node is at lon"),
         (both("42.02", "142.02"), "coordinates = [142.02, 13.03] must be latitude and longitude"),
         (both("nominal_life = 50", "nominal_life = 0"), "nominal_life = 0 must be above 0"),
-        (both("g/10", "gal"), "ag_unit = \"gal\" is none of \"g\", \"g/10\", \"m/s2\""),
+        (both("g/10", "gal"), "ag_unit = \"gal\" is not one of \"g\", \"g/10\", \"m/s2\""),
         (both("ag_unit = \"g/10\", ", ""), "grid.csv, line 2: a_g = 5 g is above 1.5 g"),
         (both("grid.csv", "none.csv"), "none.csv: cannot be read"),
         (format!("{SITE}\nSLV = {{ F0 = 2.4 }}"), "gives ag, F0 and TC together; state all or none"),

@@ -79,7 +79,10 @@ fn spectra_and_sites_that_contradict_themselves_are_refused() {
             parapet("", scaled),
             "record_scale = \"spectrum\" needs S of F0 and TC; give them, or record_scale = \"none\"",
         ),
-        (slv(&format!("{}, building_period = 0", &SITE[2..SITE.len() - 2])), "building_period = 0 s must be"),
+        (
+            slv(&format!("{}, building_period = 0", &SITE[2..SITE.len() - 2])),
+            "SLV.building_period = 0 must be",
+        ),
     ] {
         refuses(&text, message);
     }
