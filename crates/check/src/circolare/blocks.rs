@@ -34,8 +34,7 @@ pub(super) fn reason(
     }
     let case = Case::new(statement, subject).ok()?;
     let untied = || -> Result<f64, CheckError> {
-        let sign = if side == super::Side::Negative { -1.0 } else { 1.0 };
-        Ok(case.at(sign, verdict.hinge, false)?.1.zetas()[which as usize])
+        Ok(case.at(side.sign(), verdict.hinge, false)?.1.zetas()[which as usize])
     };
     let untied = untied().map_or_else(|_| String::new(), |zeta| format!(", untied {zeta:.3}"));
     let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
