@@ -110,9 +110,9 @@ fn a_report_is_about_the_site_of_the_check() {
     for (given, words) in [
         (
             "nominal_life = 100",
-            "line 6: [report] nominal_life = 100 differs from 50 of [check.site]; leave it",
+            "line 6: [report] nominal_life = 100.0 differs from 50.0 of [check.site]; leave it",
         ),
-        ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1 of [check.site]"),
+        ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1.0 of [check.site]"),
         ("coordinates = [42.1, 13.03]", "coordinates = [42.1, 13.03] differs from [42.02, 13.03] of"),
     ] {
         let told = report(&format!("[report]\n{given}")).unwrap_err();
