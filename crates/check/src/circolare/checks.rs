@@ -6,7 +6,7 @@ use rocking_wall::wall::{Body, Warning};
 
 use super::case::{Case, Demands};
 use super::curve::Curve;
-use super::demand::{Demand, DisplacementDemand};
+use super::demand::Demand;
 use super::floor::Mode;
 use super::side_verdict::{ActivationCheck, DisplacementCheck, TieBreak};
 use super::statement::{Displacements, Statement};
@@ -313,8 +313,7 @@ fn displacement(
     }
     let period = Curve::period(period_factor, d, a);
     let t0 = curve.tied_period().min(period);
-    let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
-        demand.displacement(state, [t0, period], given.damping)?;
+    let (acceleration, demand, demand_terms) = demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
     let least = floor.unwrap_or(0.0);
     let raised = least > ratio * given.ag;
