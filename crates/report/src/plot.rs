@@ -224,7 +224,7 @@ impl Plot {
     fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
         let labels = self.axes.each_ref().map(|axis| &*axis.label);
         let ranges = [0, 1].map(|axis| self.range(axis, true));
-        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size }
+        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size, numbers: None }
     }
 
     /// The range of an axis, x or y: its own, or that of the data, with or without room around them.
