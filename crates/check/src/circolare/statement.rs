@@ -87,17 +87,12 @@ impl Statement {
     /// Checks the values against each other and the code.
     fn new(table: CheckTable) -> Result<Self, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        match (table.before_activation, table.young_modulus) {
-            (Some(Activation::Beam), None) => {
-                return refused("before_activation", "beam needs young_modulus, E in Pa".into());
-            }
-            (Some(Activation::Rigid | Activation::Law) | None, Some(_)) => {
-                return refused(
-                    "young_modulus",
-                    "young_modulus counts only with before_activation = \"beam\"".into(),
-                );
-            }
-            _ => {}
+        let is_beam = table.before_activation == Some(Activation::Beam);
+        if is_beam != table.young_modulus.is_some() {
+            let key = if is_beam { "before_activation" } else { "young_modulus" };
+            let message =
+                "before_activation = \"beam\" and young_modulus, E in Pa, go together; give both or none";
+            return refused(key, message.into());
         }
         let mut states = [const { None }; 3];
         for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
@@ -202,17 +197,14 @@ impl Statement {
 
 /// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].
 fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, CheckError> {
-    let refused = |key, message: String| Err(CheckError::value(&[key], message));
     let Some(strength) = table.masonry_strength else {
-        let others = [
-            ("masonry_gamma", table.masonry_gamma.is_some()),
-            ("stress_block", table.stress_block.is_some()),
-            ("masonry_over_fc", table.masonry_over_fc.is_some()),
-        ];
-        return match others.into_iter().find(|(_, given)| *given) {
-            Some((key, _)) => refused(key, format!("{key} counts only with masonry_strength, f_m in Pa")),
-            None => Ok(None),
-        };
+        let others = table.masonry_gamma.is_some() || table.stress_block.is_some();
+        if others || table.masonry_over_fc.is_some() {
+            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, f_m \
+                           in Pa; give it, or leave them out";
+            return Err(CheckError::value(&["masonry_strength"], message));
+        }
+        return Ok(None);
     };
     let (gamma, block) = (table.masonry_gamma.unwrap_or(1.0), table.stress_block.unwrap_or(STRESS_BLOCK));
     let over = if table.masonry_over_fc.unwrap_or(true) { confidence_factor } else { 1.0 };

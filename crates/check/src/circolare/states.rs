@@ -94,47 +94,37 @@ fn source(
     given: &LimitStateTable,
     table: &CheckTable,
 ) -> Result<Source, CheckError> {
-    let refused = |key, message: String| refused(state, key, &message);
-    match (given.f0, given.tc, &given.spectrum) {
-        (Some(_), Some(_), None) if given.spectrum_damping.is_some() => {
-            Err(refused("spectrum_damping", "spectrum_damping is that of a spectrum; leave it out".into()))
-        }
-        (Some(f0), Some(tc), None) => {
-            let hazard = Hazard { ag, f0, tc };
+    match (given.f0.zip(given.tc), &given.spectrum, given.spectrum_damping) {
+        (Some((f0, tc)), None, None) => {
             let Some(soil) = table.soil else {
                 let message = "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)";
                 return Err(CheckError::value(&["soil"], message));
             };
             let topography = table.topography.map_or(1.0, Topography::factor);
-            Ok(Source::Code(GroundSpectrum::new(hazard, soil, topography)))
+            Ok(Source::Code(GroundSpectrum::new(Hazard { ag, f0, tc }, soil, topography)))
         }
-        (None, None, Some(points)) => {
-            let Some(damping) = given.spectrum_damping else {
-                return Err(refused("spectrum", "state spectrum_damping, the ratio of that spectrum".into()));
-            };
+        (None, Some(points), Some(damping)) if given.f0.or(given.tc).is_none() => {
             let points: Vec<_> = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
             if points.len() < 2 || misplaced(&points).is_some() {
                 let message = "expected points [T, Sa] in s and g: T from 0 on that rises, Sa above 0";
-                return Err(refused("spectrum", message.into()));
+                return Err(refused(state, "spectrum", message));
             }
             Ok(Source::Points(points, damping))
         }
-        (None, None, None) if table.records.is_some() && table.record_scale == RecordScale::None => {
+        (None, None, None)
+            if given.f0.or(given.tc).is_none()
+                && table.records.is_some()
+                && table.record_scale == RecordScale::None =>
+        {
             Ok(Source::Records)
         }
-        (None, None, None) if table.records.is_some() => Err(refused(
-            "ag",
-            "a demand from the records takes them as they are: state record_scale = \"none\", or F0 and TC"
-                .into(),
-        )),
-        (None, None, None) => Err(refused(
-            "ag",
-            format!("needs its site: [check.{state}] with ag, F0 and TC, or a spectrum or records"),
-        )),
-        (Some(_), _, Some(_)) | (_, Some(_), Some(_)) => {
-            Err(refused("spectrum", "give F0 and TC, or a spectrum, not both".into()))
+        _ => {
+            let message = format!(
+                "needs its site: [check.{state}] with ag, F0 and TC; or ag with a spectrum and spectrum_damping; \
+                 or ag, with records and record_scale = \"none\""
+            );
+            Err(refused(state, "ag", &message))
         }
-        _ => Err(refused("ag", "F0 and TC go together; give both".into())),
     }
 }
 

@@ -27,7 +27,7 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         (slv("ag = 1.5, F0 = 2.45, TC = 0.3"), "ag = 1.5 must be above 0 and at most 1"),
         (slv("ag = 0.15, F0 = 2.1, TC = 0.3"), "F0 = 2.1 must be at least 2.2"),
         (slv("ag = 0.15, F0 = 2.45, TC = 0"), "TC = 0 must be above 0: T_C* [s]"),
-        (slv("ag = 0.15, F0 = 2.45"), "F0 and TC go together; give both"),
+        (slv("ag = 0.15, F0 = 2.45"), "SLV: needs its site: [check.SLV] with ag, F0 and TC"),
         (slv("ag = 0.15"), "needs its site: [check.SLV] with ag, F0 and TC"),
         (table(""), "SLV needs its site: [check.SLV] with ag, F0 and TC"),
         (
@@ -64,8 +64,8 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         (open("").replace("soil = \"B\"\n", "before_activation = \"rigid\"\n"), "soil is missing"),
         (open("").replace("\"B\"", "\"F\""), "soil = \"F\" is not one of \"A\", \"B\""),
         (open(""), "before_activation is missing: state \"rigid\""),
-        (open("before_activation = \"beam\""), "beam needs young_modulus, E in Pa"),
-        (with("young_modulus = 1e9"), "young_modulus counts only with before_activation = \"beam\""),
+        (open("before_activation = \"beam\""), "before_activation = \"beam\" and young_modulus, E in Pa, go together"),
+        (with("young_modulus = 1e9"), "young_modulus, E in Pa, go together; give both or none"),
         (with("record_scale = \"g\""), "record_scale = \"g\" is not one of \"ag\", \"none\""),
         (with("soll = 1"), "did you mean \"soil\"?"),
         (with("records = { synthetic = { count = 2 } }"), "found 2; at least 3 records (NTC 7.3.5)"),
@@ -130,7 +130,7 @@ fn demands_that_do_not_serve_are_refused() {
     let in_building = spectrum(to_nine, 0.1).replace(SITE, damped)
         + "building = { modes = [{ period = 0.3, participation = 1 }] }";
     let records = with("method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }");
-    let as_they_are = "takes them as they are: state record_scale = \"none\"";
+    let as_they_are = "or ag, with records and record_scale = \"none\"";
     for (table, message) in [
         (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),
         (spectrum(to_two, 0.1), "SLC needs the spectrum up to T = 3.1"),

@@ -93,11 +93,11 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("0,1\n1,0.5\n", &["has no T = 1.4"]);
     refuses("0,1.0\n1\n", &["line 2: expected 2 values"]);
     for (more, words) in [
-        ("", "there is no demand"),
+        ("", "the demand is spectrum"),
         ("spectrum = [[0, 1], [4, 1]]", "unit is missing"),
         ("spectrum = [[0, 1], [4, 1]]\nunit = \"g\"\nsecant_fraction = 2", "above 0 and at most 1"),
         ("records = { synthetic = { count = 1 } }\nunit = \"g\"", "records.unit"),
-        ("spectrum = \"s.csv\"\nrecords = { synthetic = { count = 1 } }", "leave one out"),
+        ("spectrum = \"s.csv\"\nrecords = { synthetic = { count = 1 } }", "give one of both"),
     ] {
         of_fractions(&folder, more);
         refused(&folder, &["check", "scene.toml"], &["scene.toml, line", words]);
