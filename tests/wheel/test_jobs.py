@@ -223,7 +223,7 @@ def test_what_decides_is_stated(program, tmp_path):
     "arguments, words",
     [
         ({"soil": "B"}, "SLV needs its site"),
-        (SLV, "before_activation is missing: state \"rigid\""),
+        (SLV, "before_activation is missing, or does not go with the law"),
         ({**SLV, "before_activation": "beam"}, "and young_modulus, E in Pa, go together"),
         ({**SLV, "code": "EC8"}, 'code = "EC8"; state one of "circolare-2019", "fractions"'),
         ({**SLV, "sol": "B"}, 'unknown key "sol" in .check. .did you mean "soil"'),

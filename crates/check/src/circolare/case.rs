@@ -218,20 +218,17 @@ fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activati
     }
     let is_rigid = parameters.multilinear.is_none()
         && parameters.force_law == rocking_wall::variables::ForceLaw::RigidLinear;
-    let refused = |message: &str| Err(CheckError::value(&["before_activation"], message));
     match statement.table.before_activation {
         // transverse walls hold it
         None if parameters.rocking != Rocking::TwoSided && !has_plateau(parameters) => Ok(Activation::Rigid),
-        None => refused(
-            "before_activation is missing: state \"rigid\" (held by transverse walls), \"law\" or \"beam\"",
-        ),
-        Some(Activation::Law) if is_rigid => {
-            refused("law: force_law = rigid_linear has no elastic branch; state \"rigid\" or \"beam\"")
+        Some(Activation::Law) if !is_rigid => Ok(Activation::Law),
+        Some(given @ (Activation::Rigid | Activation::Beam)) if !has_plateau(parameters) => Ok(given),
+        _ => {
+            let message = "before_activation is missing, or does not go with the law of the wall: state \
+                           \"rigid\" (held by transverse walls) or \"beam\"; \"law\" of a law with an elastic \
+                           branch, not rigid_linear, and of a trilinear or multilinear one";
+            Err(CheckError::value(&["before_activation"], message))
         }
-        Some(Activation::Rigid | Activation::Beam) if has_plateau(parameters) => {
-            refused("a trilinear or multilinear law has its own elastic branch; state \"law\"")
-        }
-        Some(activation) => Ok(activation),
     }
 }
 

@@ -79,10 +79,7 @@ fn what_no_default_decides() {
 fn ties_that_do_not_act_at_the_activation() {
     let stiff = "tie_stiffness = 5e6\ntie_strength = 10e3";
     for (text, message) in [
-        (
-            facade(&format!("{stiff}\ntie_slack = 0.01"), YIELD),
-            "this one has tie_slack = 0.01 m",
-        ),
+        (facade(&format!("{stiff}\ntie_slack = 0.01"), YIELD), "this one has tie_slack = 0.01 m"),
         (facade("tie_stiffness = 5e6", YIELD), "needs a tie with tie_strength, N_y in N, or a bar"),
         (facade("tie_stiffness = 2e5\ntie_strength = 10e3", YIELD), "its strength at u_y = 25.7"),
         (

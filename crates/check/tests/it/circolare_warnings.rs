@@ -65,14 +65,8 @@ fn spectra_and_sites_that_contradict_themselves_are_refused() {
                   method = \"dynamic\"\nrecord_scale = \"spectrum\"\nrecords = { synthetic = { count = 3 } }";
     for (text, message) in [
         (slv(spectrum), "or ag with a spectrum and spectrum_damping"),
-        (
-            slv(&format!("{spectrum}, spectrum_damping = 0.08, F0 = 2.45, TC = 0.3")),
-            "SLV: needs its site",
-        ),
-        (
-            slv("ag = 0.15, F0 = 2.45, TC = 0.3, spectrum_damping = 0.08"),
-            "SLV: needs its site",
-        ),
+        (slv(&format!("{spectrum}, spectrum_damping = 0.08, F0 = 2.45, TC = 0.3")), "SLV: needs its site"),
+        (slv("ag = 0.15, F0 = 2.45, TC = 0.3, spectrum_damping = 0.08"), "SLV: needs its site"),
         (parapet("", height), "SLV: a_Z = 0: the wall stands on the ground; leave [check.building] out"),
         (parapet("", &records), "record_range = [2, 0.15] s must rise from above 0"),
         (

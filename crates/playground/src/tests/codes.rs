@@ -130,7 +130,7 @@ fn a_check_that_cannot_be_made_leaves_the_run() {
         (json!({ "a1": "0.6" }), json!({ "SLV.F0": "24" }), "check", "F0 = 24 is unusual"),
         (json!({}), undamped, "SLV.building_damping", "state building_damping"),
         (json!({}), json!({ "confidence_factor": "1.2" }), "confidence_factor", "FC of LC1"),
-        (rigid, json!({}), "before_activation", "no elastic branch"),
+        (rigid, json!({}), "before_activation", "with an elastic branch, not rigid_linear"),
         (loaded, json!({ "overburden_mass": "" }), "overburden_mass", "is missing"),
         (json!({}), json!({ "SLV.ag": "", "SLV.F0": null, "SLV.TC": null }), "SLV.ag", "needs its site"),
         (json!({ "a1": "0.6" }), json!({}), "check", "the elastic branch ends at d_y"),

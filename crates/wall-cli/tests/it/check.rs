@@ -337,7 +337,7 @@ fn the_smallest_wall_that_passes_is_found() {
         let chart = content(&folder, "find.svg");
         assert!(chart.contains(">ζ<tspan") && chart.contains(&format!("{sought} (")), "{sought}");
     }
-    let words = ["tie_strength is sought, but the wall has no tie"];
+    let words = ["tie_strength is sought, but the wall has no such tie"];
     refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);
     fails(&folder, &[&arguments[..], &["--find", "width"]].concat(), &["expected thickness, height"]);
 }
