@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Place, SceneError, Schema, parse_document, read_text, refusal, suggestion};
+use rocking_wall::scene::{
+    Described, Place, SceneError, Schema, parse_document, read_text, refusal, suggestion,
+};
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -12,6 +14,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use crate::code::{CODES, Code};
 use crate::error::CheckError;
+use crate::limits::fault;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
 use crate::site::Records;
@@ -266,14 +269,21 @@ impl<'a> CheckFile<'a> {
     /// Reads the table `[check]`.
     ///
     /// # Errors
-    /// [`CheckError::Unread`] of the first key that is not known, or has another kind of value.
-    pub(crate) fn table<T: DeserializeOwned>(&self) -> Result<T, CheckError> {
+    /// [`CheckError::Unread`] of the first key that is not known, or has another kind of value;
+    /// [`CheckError::Value`] of a number outside the limits that its schema states.
+    pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
-        T::deserialize(ValueDeserializer::from(check.clone())).map_err(|error| {
+        let unread = |error| {
             let (mut keys, message) = refusal(&self.place, &self.document, &error);
             keys.drain(..keys.len().min(1));
             CheckError::Unread { keys, message }
-        })
+        };
+        let table = T::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
+        let values = toml::Value::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
+        match fault::<T>(&values) {
+            Some((keys, message)) => Err(CheckError::Value { keys, message }),
+            None => Ok(table),
+        }
     }
 
     /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U`
@@ -296,10 +306,11 @@ impl<'a> CheckFile<'a> {
                 let (_, message) = refusal(&self.place, &self.document, &error);
                 self.place.error(error.span().unwrap_or(given.span()), message)
             })?;
-        let faulty = table.fault().map_or(Ok(()), Err).and_then(|()| table.complete(&site));
-        faulty.map_err(|(key, message)| {
-            let span = given.get_ref().get(key).map_or(given.span(), Spanned::span);
-            self.place.error(span, format!("[report] {message}"))
+        let values = toml::Value::deserialize(ValueDeserializer::from(given.clone())).ok();
+        let faulty = values.and_then(|values| fault::<ReportTable>(&values)).map_or(Ok(()), Err);
+        faulty.and_then(|()| table.complete(&site)).map_err(|(keys, message)| {
+            let value = keys.first().and_then(|key| given.get_ref().get(key.as_str()));
+            self.place.error(value.map_or(given.span(), Spanned::span), format!("[report] {message}"))
         })?;
         Ok(table)
     }

@@ -6,6 +6,7 @@ mod error;
 mod file;
 mod find;
 pub mod fractions;
+mod limits;
 mod report;
 mod site;
 mod verdict;

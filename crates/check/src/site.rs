@@ -45,6 +45,16 @@ impl Records {
     }
 }
 
+/// Finds the first of points (T, `S_a`) that is not one of a spectrum: T rises from 0 on, `S_a` is above 0.
+pub(crate) fn misplaced(points: &[(f64, f64)]) -> Option<usize> {
+    let is_usable = |index: usize| {
+        let (period, acceleration) = points[index];
+        let rises = if index == 0 { period == 0.0 } else { period > points[index - 1].0 };
+        rises && period.is_finite() && acceleration > 0.0 && acceleration.is_finite()
+    };
+    (0..points.len()).find(|index| !is_usable(*index))
+}
+
 /// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them; `None` beyond
 /// its ends.
 pub(crate) fn interpolated(points: &[(f64, f64)], period: f64) -> Option<f64> {

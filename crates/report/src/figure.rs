@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::escaped;
 use crate::palette::{Mark, SERIES, sign, stroke};
 use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series};
-use crate::points::{simplified, within};
+use crate::points::simplified;
 
 /// Size of a figure, and of a picture of it \[px\].
 const SIZES: [[f64; 2]; 2] = [[460.0, 300.0], [460.0, 400.0]];
@@ -88,17 +88,16 @@ impl Plot {
                 drawn.push(series.clone());
                 continue;
             }
-            let pieces = within(&series.points, ranges);
-            for (number, piece) in pieces.iter().enumerate() {
-                // one piece of a line stands for it in a legend
-                let name = if number == 0 { series.name.clone() } else { String::new() };
-                drawn.push(Series { name, points: simplified(piece, scale), ..series.clone() });
-            }
+            let pieces: Vec<_> = series.within(ranges).collect();
             if let Some(mark) = self.mark(series) {
                 let part = (index as f64 + 0.5) / self.series.len() as f64;
-                let points = spread(&pieces.concat(), scale, part);
+                let all: Vec<_> = pieces.iter().flat_map(|piece| piece.points.iter().copied()).collect();
+                let points = spread(&all, scale, part);
                 on_top.push(Series { look: Look::Marks(mark), ..Series::stroke(series.color, 3.5, points) });
             }
+            drawn.extend(
+                pieces.into_iter().map(|piece| Series { points: simplified(&piece.points, scale), ..piece }),
+            );
         }
         drawn.extend(on_top);
         let [x, y] = self.axes.each_ref().map(|axis| axis.label.as_str());

@@ -31,6 +31,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) scale: Scale,
     /// Size of the numbers on the axes \[px\].
     pub(crate) number_size: f64,
+    /// Numbers on both axes with their texts, in place of round ones.
+    pub(crate) numbers: Option<[Vec<(f64, String)>; 2]>,
 }
 
 impl Frame<'_> {
@@ -59,6 +61,9 @@ impl Frame<'_> {
 
     /// Returns the numbers on both axes, with their texts.
     fn numbers(&self) -> [Vec<(f64, String)>; 2] {
+        if let Some(numbers) = &self.numbers {
+            return numbers.clone();
+        }
         let ([left, right, top, bottom], [across, up]) = (self.area(), self.ranges);
         let count = [(right - left) / BETWEEN_NUMBERS[0], (bottom - top) / BETWEEN_NUMBERS[1]];
         match self.scale {

@@ -19,15 +19,14 @@
 
 use std::fmt::Write;
 
-use crate::axes::{ticks as round, write_text, write_upwards};
+use crate::axes::{ticks as round, write_text};
+use crate::frame::Frame;
+use crate::plot::Scale;
 
-/// Margins around the cells \[px\].
-const LEFT: f64 = 62.0;
-const RIGHT: f64 = 8.0;
-const BOTTOM: f64 = 44.0;
-const TOP: f64 = 6.0;
-/// Half the width of a character, with some space \[px\].
-const HALF_CHARACTER: f64 = 4.5;
+/// Margins around the cells \[px\]: left, right, top, bottom.
+const MARGINS: [f64; 4] = [68.0, 8.0, 6.0, 44.0];
+/// Size of the numbers on the axes \[px\].
+const NUMBERS: f64 = 12.0;
 
 /// A map of cells, the first row at the bottom.
 pub struct HeatMap<'a> {
@@ -93,58 +92,48 @@ pub fn place(values: &[f64], value: f64) -> Option<f64> {
 impl HeatMap<'_> {
     /// Returns width and height of the drawing \[px\].
     pub fn extent(&self) -> [f64; 2] {
-        let [width, height] = self.size;
+        let ([width, height], [left, right, top, bottom]) = (self.size, MARGINS);
         let (columns, rows) = (self.columns.count as f64, self.rows.count as f64);
-        [LEFT + width * columns + RIGHT, TOP + height * rows + BOTTOM]
+        [left + width * columns + right, top + height * rows + bottom]
     }
 
     /// Draws the map.
     pub fn svg(&self) -> String {
-        let ([width, height], [all, high]) = (self.size, self.extent());
-        let (right, bottom) = (all - RIGHT, high - BOTTOM);
-        let mut svg =
-            format!("<svg viewBox=\"0 0 {all:.0} {high:.0}\" role=\"img\" aria-label=\"{}\">", self.label);
-        svg.push_str("<g shape-rendering=\"crispEdges\">");
+        let [width, height] = self.extent();
+        let axes = [&self.columns, &self.rows];
+        let frame = Frame {
+            size: [width, height],
+            margins: MARGINS,
+            ranges: axes.map(|axis| [0.0, axis.count as f64]),
+            labels: axes.map(|axis| &*axis.label),
+            scale: Scale::Linear,
+            number_size: NUMBERS,
+            numbers: Some(axes.map(|axis| axis.ticks.clone())),
+        };
+        let mut inside = "<g shape-rendering=\"crispEdges\">".to_owned();
         for row in 0..self.rows.count {
-            let y = bottom - height * (row + 1) as f64;
             for column in 0..self.columns.count {
-                self.draw_cell(&mut svg, [LEFT + width * column as f64, y], (self.cells)(row, column));
+                let corner = frame.place((column as f64, (row + 1) as f64));
+                self.draw_cell(&mut inside, corner, (self.cells)(row, column));
             }
         }
-        svg.push_str("</g>");
-        let _ = write!(
-            svg,
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\" \
-             fill=\"none\" stroke=\"#888\"/>",
-            right - LEFT,
-            bottom - TOP
-        );
+        inside.push_str("</g>");
         if let Some(([column, row], words)) = self.own {
-            let (x, y) = (LEFT + width * column, bottom - height * row);
+            let [x, y] = frame.place((column, row));
             // the words stand on the side with more room
-            let (side, anchor) = if x < 0.5 * (LEFT + right) { (12.0, "start") } else { (-12.0, "end") };
+            let (side, anchor) = if x < 0.5 * width { (12.0, "start") } else { (-12.0, "end") };
             for color in ["stroke=\"#fff\" stroke-width=\"5\"", "stroke=\"#000\" stroke-width=\"2\""] {
-                let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\" fill=\"none\" {color}/>");
+                let _ = write!(inside, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\" fill=\"none\" {color}/>");
             }
-            svg.push_str("<g class=\"own\" stroke=\"#fff\" stroke-width=\"4\" paint-order=\"stroke\">");
-            write_text(&mut svg, [x + side, y + 5.0], anchor, words);
-            svg.push_str("</g>");
+            inside.push_str("<g class=\"own\" stroke=\"#fff\" stroke-width=\"4\" paint-order=\"stroke\">");
+            write_text(&mut inside, [x + side, y + 5.0], anchor, words);
+            inside.push_str("</g>");
         }
-        for (place, text) in &self.rows.ticks {
-            write_text(&mut svg, [LEFT - 5.0, bottom - height * place + 4.0], "end", text);
-        }
-        // a text that would touch the one before it is left out
-        let mut free = 0.0;
-        for (place, text) in &self.columns.ticks {
-            let (x, half) = (LEFT + width * place, HALF_CHARACTER * text.chars().count() as f64);
-            if x - half >= free {
-                write_text(&mut svg, [x, bottom + 15.0], "middle", text);
-                free = x + half;
-            }
-        }
-        write_text(&mut svg, [0.5 * (LEFT + right), bottom + 34.0], "middle", &self.columns.label);
-        write_upwards(&mut svg, [12.0, 0.5 * (TOP + bottom)], &self.rows.label);
-        svg + "</svg>"
+        format!(
+            "<svg viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{}\">{}</svg>",
+            self.label,
+            frame.around(&inside)
+        )
     }
 
     fn draw_cell(&self, svg: &mut String, [x, y]: [f64; 2], cell: Cell) {

@@ -3,24 +3,25 @@
 //! ```
 //! let mut plot = report::many_lines::ManyLines::new([300.0, 250.0], [0.0, 1.0], [0.0, 2.0]);
 //! plot.line(&[[0.0, 0.0], [0.5, 1.0]], "record", report::palette::BLUE);
-//! assert!(plot.svg("c0", ["u_max / u_ins", "PGA (g)"]).contains("class=\"record\""));
+//! assert!(plot.svg(["u_max / u_ins", "PGA (g)"]).contains("class=\"record\""));
 //! ```
 
 use std::fmt::Write;
 
-use crate::axes::{ticks, write_text, write_upwards};
 use crate::escaped;
+use crate::frame::Frame;
 use crate::palette::Mark;
+use crate::plot::Scale;
 
 /// How the plots look on a page or in a file, as CSS.
 pub const STYLE: &str = include_str!("many_lines.css");
 
 /// Margins around the plot area \[px\]: left, right, top, bottom.
-const MARGINS: [f64; 4] = [48.0, 12.0, 10.0, 42.0];
+const MARGINS: [f64; 4] = [58.0, 12.0, 10.0, 44.0];
+/// Size of the numbers on the axes \[px\].
+const NUMBERS: f64 = 11.0;
 /// Radius of a mark \[px\].
 const MARK: f64 = 3.3;
-/// Ticks on an axis, about.
-const TICKS: f64 = 5.0;
 
 /// A plot under construction.
 #[derive(Clone, Debug)]
@@ -37,16 +38,20 @@ impl ManyLines {
         Self { size, x, y, body: String::new() }
     }
 
-    /// Corners of the plot area: left, right, top, bottom \[px\].
-    fn area(&self) -> [f64; 4] {
-        let [left, right, top, bottom] = MARGINS;
-        [left, self.size[0] - right, top, self.size[1] - bottom]
+    fn frame<'a>(&self, labels: [&'a str; 2]) -> Frame<'a> {
+        Frame {
+            size: self.size,
+            margins: MARGINS,
+            ranges: [self.x, self.y],
+            labels,
+            scale: Scale::Linear,
+            number_size: NUMBERS,
+            numbers: None,
+        }
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let [left, right, top, bottom] = self.area();
-        let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
-        [left + (right - left) * part(x, self.x), bottom - (bottom - top) * part(y, self.y)]
+        self.frame([""; 2]).place((x, y))
     }
 
     /// Adds a broken line of a class and a colour; the plot area cuts off what lies outside.
@@ -97,39 +102,15 @@ impl ManyLines {
         let _ = write!(self.body, "<path class=\"mark\" stroke=\"{color}\" fill=\"{color}\" d=\"{path}\"/>");
     }
 
-    /// Draws the plot with its axes and their labels; `id` is unique on the page.
-    pub fn svg(self, id: &str, [x_label, y_label]: [&str; 2]) -> String {
+    /// Draws the plot with its axes and their labels.
+    pub fn svg(self, labels: [&str; 2]) -> String {
         let [width, height] = self.size;
-        let [left, right, top, bottom] = self.area();
-        let mut svg = format!(
+        let [x_label, y_label] = labels.map(escaped);
+        let inside = format!("<g fill=\"none\">{}</g>", self.body);
+        format!(
             "<svg class=\"lines\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" \
-             aria-label=\"{} over {}\">\
-             <clipPath id=\"{id}\">\
-             <rect x=\"{left}\" y=\"{top}\" width=\"{:.0}\" height=\"{:.0}\"/></clipPath>",
-            escaped(y_label),
-            escaped(x_label),
-            right - left,
-            bottom - top
-        );
-        for (tick, text) in ticks(self.x, TICKS) {
-            let [x, _] = self.place([tick, self.y[0]]);
-            let _ = write!(svg, "<path class=\"grid\" d=\"M{x:.1} {top}V{bottom}\"/>");
-            write_text(&mut svg, [x, bottom + 14.0], "middle", &text);
-        }
-        for (tick, text) in ticks(self.y, TICKS) {
-            let [_, y] = self.place([self.x[0], tick]);
-            let _ = write!(svg, "<path class=\"grid\" d=\"M{left} {y:.1}H{right}\"/>");
-            write_text(&mut svg, [left - 5.0, y + 4.0], "end", &text);
-        }
-        let _ = write!(
-            svg,
-            "<g clip-path=\"url(#{id})\" fill=\"none\">{}</g>\
-             <path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>\
-             <g class=\"label\">",
-            self.body
-        );
-        write_text(&mut svg, [0.5 * (left + right), height - 8.0], "middle", &escaped(x_label));
-        write_upwards(&mut svg, [12.0, 0.5 * (top + bottom)], &escaped(y_label));
-        svg + "</g></svg>"
+             aria-label=\"{y_label} over {x_label}\">{}</svg>",
+            self.frame(labels).around(&inside)
+        )
     }
 }

@@ -21,6 +21,7 @@ use std::fmt::Write;
 use crate::escaped;
 use crate::frame::{CHARACTER, Frame, LEGEND, legend, legend_height};
 use crate::palette::{Mark, SERIES};
+use crate::points::within;
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
 pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
@@ -112,6 +113,14 @@ impl Series {
     /// A solid line of a colour and a width \[px\].
     pub fn stroke(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
+    }
+
+    /// The pieces of a line inside ranges of x and y, cut at their edges; the first keeps the name.
+    pub fn within(&self, ranges: [[f64; 2]; 2]) -> impl Iterator<Item = Self> {
+        within(&self.points, ranges).into_iter().enumerate().map(|(index, points)| {
+            let name = if index == 0 { self.name.clone() } else { String::new() };
+            Self { points, name, ..self.clone() }
+        })
     }
 
     /// Writes the line or its marks at places \[px\].
@@ -224,7 +233,7 @@ impl Plot {
     fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
         let labels = self.axes.each_ref().map(|axis| &*axis.label);
         let ranges = [0, 1].map(|axis| self.range(axis, true));
-        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size }
+        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size, numbers: None }
     }
 
     /// The range of an axis, x or y: its own, or that of the data, with or without room around them.

@@ -23,62 +23,35 @@ pub fn decimated(points: &[(f64, f64)], end: f64) -> Points {
     kept
 }
 
-/// Cuts a line to a range of x.
-pub fn clipped(line: &[(f64, f64)], [low, high]: [f64; 2]) -> Points {
-    let mut points = Vec::new();
-    for pair in line.windows(2) {
-        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        if x1 < low || x0 > high {
-            continue;
-        }
-        let at = |x: f64| if x1 > x0 { y0 + (y1 - y0) * (x - x0) / (x1 - x0) } else { y0 };
-        for (x, y) in [(x0, y0), (x1, y1)] {
-            let inside = x.clamp(low, high);
-            points.push((inside, if inside == x { y } else { at(inside) }));
-        }
-    }
-    points
-}
-
-/// Returns the pieces of a line inside the axes, cut at their edges.
-pub fn within(points: &[(f64, f64)], [x, y]: [[f64; 2]; 2]) -> Vec<Points> {
-    let inside = |point: &(f64, f64)| (x[0]..=x[1]).contains(&point.0) && (y[0]..=y[1]).contains(&point.1);
-    let mut pieces = Vec::new();
-    let mut piece: Points = Vec::new();
+/// Returns the pieces of a line inside ranges of x and y, cut at their edges.
+pub fn within(points: &[(f64, f64)], ranges: [[f64; 2]; 2]) -> Vec<Points> {
+    let mut pieces: Vec<Points> = Vec::new();
     for pair in points.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
-        let starts = inside(&from);
-        if starts && piece.is_empty() {
-            piece.push(from);
-        }
-        match (starts, inside(&to)) {
-            (true, true) => piece.push(to),
-            (true, false) => {
-                piece.push(edge(from, to, [x, y]));
-                pieces.push(std::mem::take(&mut piece));
-            }
-            (false, true) => piece = vec![edge(to, from, [x, y]), to],
-            (false, false) => {}
+        let Some([from, to]) = inside(pair[0], pair[1], ranges) else { continue };
+        match pieces.last_mut() {
+            Some(piece) if piece.last() == Some(&from) => piece.push(to),
+            _ => pieces.push(vec![from, to]),
         }
     }
-    pieces.push(piece);
-    pieces.retain(|piece| piece.len() > 1);
     pieces
 }
 
-/// The point where the way from a point inside to one outside leaves the axes.
-fn edge(from: (f64, f64), to: (f64, f64), [x, y]: [[f64; 2]; 2]) -> (f64, f64) {
-    let part = |from: f64, to: f64, [low, high]: [f64; 2]| {
-        if to > high {
-            (high - from) / (to - from)
-        } else if to < low {
-            (low - from) / (to - from)
-        } else {
-            1.0
+/// The part of a segment inside ranges (Liang and Barsky, 1984); none of one without a value.
+fn inside(a: (f64, f64), b: (f64, f64), [x, y]: [[f64; 2]; 2]) -> Option<[(f64, f64); 2]> {
+    let way = (b.0 - a.0, b.1 - a.1);
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for (from, way, range) in [(a.0, way.0, x), (a.1, way.1, y)] {
+        if way == 0.0 && (range[0]..=range[1]).contains(&from) {
+            continue;
         }
-    };
-    let t = part(from.0, to.0, x).min(part(from.1, to.1, y));
-    (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1))
+        let [low, high] = range.map(|edge| (edge - from) / way);
+        if way == 0.0 || low.is_nan() || high.is_nan() {
+            return None;
+        }
+        (first, last) = (first.max(low.min(high)), last.min(low.max(high)));
+    }
+    let at = |part: f64| if part == 1.0 { b } else { (a.0 + part * way.0, a.1 + part * way.1) };
+    (first < last).then(|| [at(first), at(last)])
 }
 
 /// Leaves out points that make no visible difference (Douglas and Peucker, 1973). `scale` turns data into
@@ -110,4 +83,23 @@ fn distance(point: (f64, f64), [from, to]: [(f64, f64); 2], scale: [f64; 2]) -> 
     let along = if length > 0.0 { (chord[0] * way[0] + chord[1] * way[1]) / length } else { 0.0 };
     let along = along.clamp(0.0, 1.0);
     (way[0] - along * chord[0]).hypot(way[1] - along * chord[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::within;
+
+    #[test]
+    fn lines_are_cut_at_the_edges() {
+        let mountain = [(0.0, 1.0), (1.0, 5.0), (2.0, 6.0), (3.0, 0.0)];
+        let pieces = within(&mountain, [[0.0, 3.0], [0.0, 3.0]]);
+        assert_eq!(pieces, [[(0.0, 1.0), (0.5, 3.0)], [(2.5, 3.0), (3.0, 0.0)]]);
+        // a segment may begin and end outside, at any height
+        let across = within(&[(-1.0, 2.0), (1.0, 4.0)], [[-0.5, 0.5], [f64::NEG_INFINITY, f64::INFINITY]]);
+        assert_eq!(across, [[(-0.5, 2.5), (0.5, 3.5)]]);
+        // one without a value is a gap, and points inside belong together
+        let gap = [(0.0, 1.0), (0.0, 2.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 1.0)];
+        let pieces = within(&gap, [[0.0, 9.0], [0.0, 9.0]]);
+        assert_eq!(pieces, [vec![(0.0, 1.0), (0.0, 2.0), (1.0, 2.0)], vec![(3.0, 1.0), (4.0, 1.0)]]);
+    }
 }

@@ -9,7 +9,7 @@
 
 use report::palette::{AMBER, BLUE, DARK_GREY, GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
-use report::points::{clipped, decimated};
+use report::points::{decimated, within};
 use rocking_wall::response::Sample;
 use rocking_wall::wall::{Tie, Wall};
 
@@ -86,8 +86,9 @@ pub fn force_path<'a>(
     let [lowest, highest] = [of(f64::min), of(f64::max)];
     let breaks = wall.tie().and_then(Tie::fracture_displacement).map(|breaks| breaks / u_ins.positive);
     let reach = 1.05 * highest.max(-lowest).max(breaks.unwrap_or(1.0).min(1.0));
-    let within = clipped(&backbone, [-reach, reach]);
-    let y_range = padded(within.iter().map(|point| point.1));
+    let across = |range| within(&backbone, [range, [f64::NEG_INFINITY, f64::INFINITY]]).concat();
+    let law = across([-reach, reach]);
+    let y_range = padded(law.iter().map(|point| point.1));
     let apart = [2.0 * reach, y_range[1] - y_range[0]].map(|range| PATH_DETAIL * range);
     let path = if breaks.is_some() {
         let shown = samples.map(|Sample { outputs, .. }| (outputs.ratio, 1e-3 * outputs.restoring_force));
@@ -95,9 +96,9 @@ pub fn force_path<'a>(
         path.dedup_by(|next, last| (next.0 - last.0).abs() < apart[0] && (next.1 - last.1).abs() < apart[1]);
         path
     } else {
-        clipped(&backbone, [lowest, highest])
+        across([lowest, highest])
     };
-    let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, within) };
+    let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, law) };
     let axes = [Axis::over("u / u_ins", [-reach, reach]), Axis::over("restoring force F (kN)", y_range)];
     Plot::new([WIDTH, 320.0], axes, vec![law, Series::stroke(BLUE, 1.6, path)])
 }

@@ -3,14 +3,11 @@
 use report::apart;
 use rocking_wall::wall::TiePart;
 
-use super::Activation;
-use super::case::Case;
 use super::side_verdict::SideVerdict;
 use super::statement::Statement;
 use super::table::AtActivation;
 use super::verdict::Deciding;
 use crate::code::Subject;
-use crate::error::CheckError;
 use crate::find::Sought;
 
 /// Says what blocks a check of a wall that has the last value of a search.
@@ -32,12 +29,6 @@ pub(super) fn reason(
     if !sought.is_of_tie() {
         return Some(reached);
     }
-    let case = Case::new(statement, subject).ok()?;
-    let untied = || -> Result<f64, CheckError> {
-        let sign = if side == super::Side::Negative { -1.0 } else { 1.0 };
-        Ok(case.at(sign, verdict.hinge, false)?.1.zetas()[which as usize])
-    };
-    let untied = untied().map_or_else(|_| String::new(), |zeta| format!(", untied {zeta:.3}"));
     let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
     let broken = verdict.tie_break.filter(|_| !by_acceleration);
     let share = statement.rules(which.state()).fraction;
@@ -57,10 +48,7 @@ pub(super) fn reason(
         _ if checked.parameters.weaker_part() == Some(TiePart::Anchor) => {
             "the anchor gives way before the bar".into()
         }
-        _ => {
-            let held = if case.activation == Activation::Rigid { "held" } else { "free" };
-            format!("the wall, {held} before it rocks, needs more than the range has")
-        }
+        _ => "the wall needs more than the range has".into(),
     };
-    Some(format!("{reached}{untied}: {why}"))
+    Some(format!("{reached}: {why}"))
 }

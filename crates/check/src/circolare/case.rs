@@ -1,6 +1,5 @@
 //! A wall as the static checks take it, and its checks with the hinge in one place.
 
-use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::{Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
@@ -51,7 +50,7 @@ impl<'a> Case<'a> {
         }
         let activation = activation(&parameters, statement)?;
         stated(&parameters, activation, subject.assumed)?;
-        possible(&parameters, statement)?;
+        set_back_once(&parameters, statement)?;
         let moved = moved_overburden(&parameters, statement)?;
         let is_strip = parameters.mechanism == Mechanism::VerticalSpanning;
         let rule = is_strip.then(|| statement.hinge_of(subject.assumed)).transpose()?;
@@ -188,72 +187,28 @@ impl<'a> Case<'a> {
 fn stated(parameters: &Parameters, activation: Activation, assumed: &[&str]) -> Result<(), CheckError> {
     let is_of_law = activation == Activation::Law && parameters.multilinear.is_none();
     let needed = ["height", "thickness", "density", "a1"];
-    let missing = needed.iter().filter(|name| assumed.contains(name) && (**name != "a1" || is_of_law));
-    let missing: Vec<_> = missing.copied().collect();
-    match missing[..] {
-        [] => Ok(()),
-        ["a1"] => Err(CheckError::wall(
-            "a1 is not stated: with before_activation = \"law\" it makes T0, T0 makes SLD, and SLD raises \
-             SLV; state a1 in [force_law]",
-        )),
-        _ => Err(CheckError::wall(format!(
-            "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1 in \
-             [force_law] with before_activation = \"law\"",
-            missing.join(", ")
-        ))),
-    }
-}
-
-/// Refuses statements that do not go with the wall, and units that cannot be.
-fn possible(parameters: &Parameters, statement: &Statement) -> Result<(), CheckError> {
-    let Parameters { height, tie_stiffness, tie_strength, .. } = *parameters;
-    if statement.masonry.is_some() {
-        let refused = |message: &str| Err(CheckError::value(&["masonry_strength"], message));
-        if has_plateau(parameters) {
-            return refused(
-                "masonry_strength sets the hinges of a straight law back; a trilinear or multilinear law has \
-                 its own",
-            );
-        }
-        if parameters.a3 < 1.0 || parameters.softening != Softening::Parallel {
-            return refused(
-                "masonry_strength sets the hinges back, parallel: leave out a3 and softening of [force_law]",
-            );
-        }
-    }
-    if tie_stiffness == 0.0 {
-        return Ok(());
-    }
-    let weight = parameters.density * parameters.gravity * height * parameters.thickness * parameters.width;
-    let least = 1e-2 * weight / height;
-    if tie_stiffness < least * (1.0 - 1e-9) {
-        let [_, least] = apart([tie_stiffness, least], 6);
-        return Err(CheckError::wall(format!(
-            "tie_stiffness = {tie_stiffness} N/m is below W/(100 h) = {least} N/m: such a tie is none; \
-             give it in N/m"
-        )));
-    }
-    let least = 1e-3 * weight;
-    if tie_strength > 0.0 && tie_strength < least * (1.0 - 1e-9) {
-        let [_, least] = apart([tie_strength, least], 6);
-        return Err(CheckError::wall(format!(
-            "tie_strength = {tie_strength} N is below W/1000 = {least} N: such a tie is none; give it in N"
-        )));
-    }
-    let is_held = match parameters.rocking {
-        _ if statement.table.rocking.is_none() => true,
-        Rocking::TwoSided => true,
-        Rocking::OneSidedPositive => parameters.tie_side != TieSide::Negative,
-        Rocking::OneSidedNegative => parameters.tie_side != TieSide::Positive,
-    };
-    if is_held {
+    let missing = needed.into_iter().filter(|name| assumed.contains(name) && (*name != "a1" || is_of_law));
+    let missing: Vec<_> = missing.collect();
+    if missing.is_empty() {
         return Ok(());
     }
     Err(CheckError::wall(format!(
-        "tie_side = {} does not hold the side to which the wall rocks, rocking = {}; change one of them",
-        parameters.tie_side.name(),
-        parameters.rocking.name()
+        "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1, which makes T0 \
+         and SLD of before_activation = \"law\", in [force_law]",
+        missing.join(", ")
     )))
+}
+
+/// Refuses hinges that are set back by the check and by the law of the wall.
+fn set_back_once(parameters: &Parameters, statement: &Statement) -> Result<(), CheckError> {
+    let has_own =
+        has_plateau(parameters) || parameters.a3 < 1.0 || parameters.softening != Softening::Parallel;
+    if statement.masonry.is_none() || !has_own {
+        return Ok(());
+    }
+    let message = "masonry_strength sets the hinges of a straight law back, parallel: leave out a3 and softening \
+                   of [force_law]; a trilinear or multilinear law has its own";
+    Err(CheckError::value(&["masonry_strength"], message))
 }
 
 fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activation, CheckError> {
@@ -263,20 +218,17 @@ fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activati
     }
     let is_rigid = parameters.multilinear.is_none()
         && parameters.force_law == rocking_wall::variables::ForceLaw::RigidLinear;
-    let refused = |message: &str| Err(CheckError::value(&["before_activation"], message));
     match statement.table.before_activation {
         // transverse walls hold it
         None if parameters.rocking != Rocking::TwoSided && !has_plateau(parameters) => Ok(Activation::Rigid),
-        None => refused(
-            "before_activation is missing: state \"rigid\" (held by transverse walls), \"law\" or \"beam\"",
-        ),
-        Some(Activation::Law) if is_rigid => {
-            refused("law: force_law = rigid_linear has no elastic branch; state \"rigid\" or \"beam\"")
+        Some(Activation::Law) if !is_rigid => Ok(Activation::Law),
+        Some(given @ (Activation::Rigid | Activation::Beam)) if !has_plateau(parameters) => Ok(given),
+        _ => {
+            let message = "before_activation is missing, or does not go with the law of the wall: state \
+                           \"rigid\" (held by transverse walls) or \"beam\"; \"law\" of a law with an elastic \
+                           branch, not rigid_linear, and of a trilinear or multilinear one";
+            Err(CheckError::value(&["before_activation"], message))
         }
-        Some(Activation::Rigid | Activation::Beam) if has_plateau(parameters) => {
-            refused("a trilinear or multilinear law has its own elastic branch; state \"law\"")
-        }
-        Some(activation) => Ok(activation),
     }
 }
 

@@ -6,7 +6,7 @@ use rocking_wall::wall::{Body, Warning};
 
 use super::case::{Case, Demands};
 use super::curve::Curve;
-use super::demand::{Demand, DisplacementDemand};
+use super::demand::Demand;
 use super::floor::Mode;
 use super::side_verdict::{ActivationCheck, DisplacementCheck, TieBreak};
 use super::statement::{Displacements, Statement};
@@ -250,25 +250,18 @@ pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<
         return Ok(0.0);
     }
     let Some(tie) = curve.tie() else { return Ok(0.0) };
-    let refused = |message: String| Err(CheckError::value(&["tie", "at_activation"], message));
-    let Some(strength) = tie.strength else {
-        return refused("at_activation = \"yield\" needs tie_strength, N_y in N, or a bar".into());
-    };
-    if tie.slack > 0.0 {
-        return refused(format!(
-            "at_activation = \"yield\": with tie_slack = {} m the wall rocks before the tie pulls; state \
-             \"none\", or a tight tie",
-            tie.slack
-        ));
-    }
-    let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
-    if yields > limit {
+    let limit = SOFTEST * curve.zero;
+    let yields = tie.strength.map_or(f64::INFINITY, |strength| strength / tie.stiffness / tie.lever);
+    let Some(strength) = tie.strength.filter(|_| tie.slack == 0.0 && yields <= limit) else {
         let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
-        return refused(format!(
-            "at_activation = \"yield\": the tie reaches its strength at u_y = {yields} mm, beyond {SOFTEST} \
-             u_0 = {limit} mm; a tie so soft does not act at the activation"
-        ));
-    }
+        let message = format!(
+            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, that \
+             has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its strength \
+             at u_y = {yields} mm; state \"none\", or another tie",
+            tie.slack
+        );
+        return Err(CheckError::value(&["tie", "at_activation"], message));
+    };
     Ok(tie.lever * strength)
 }
 
@@ -313,8 +306,7 @@ fn displacement(
     }
     let period = Curve::period(period_factor, d, a);
     let t0 = curve.tied_period().min(period);
-    let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
-        demand.displacement(state, [t0, period], given.damping)?;
+    let (acceleration, demand, demand_terms) = demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
     let least = floor.unwrap_or(0.0);
     let raised = least > ratio * given.ag;

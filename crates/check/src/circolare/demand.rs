@@ -29,17 +29,6 @@ pub enum Demand {
     Records(Vec<GroundMotion>),
 }
 
-/// A displacement demand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DisplacementDemand {
-    /// `S_e` or `S_eZ` at the period \[m/s²\].
-    pub(super) acceleration: f64,
-    /// `S_d` \[m\].
-    pub(super) displacement: f64,
-    /// Both terms of [C8.7.1.12] \[m\].
-    pub(super) terms: [Option<f64>; 2],
-}
-
 impl Demand {
     /// The spectrum of the ground by the code, where the demand comes from it.
     pub fn ground(&self) -> Option<&GroundSpectrum> {
@@ -132,18 +121,18 @@ impl Demand {
     }
 
     /// The displacement demand of a limit state of the period T and the damping ξ, of a wall whose elastic
-    /// period is T0.
+    /// period is T0: `S_e` or `S_eZ` at T \[m/s²\], `S_d`, and both terms of [C8.7.1.12] \[m\].
     pub(super) fn displacement(
         &self,
         state: LimitState,
         [t0, period]: [f64; 2],
         xi: f64,
-    ) -> Result<DisplacementDemand, CheckError> {
+    ) -> Result<(f64, f64, [Option<f64>; 2]), CheckError> {
         let (first, second) = self.terms(state, period, xi)?;
         let acceleration = first * (TAU / period).powi(2);
         if matches!(self, Self::Ground(_) | Self::Floor(_)) {
             let displacement = second.map_or(first, |second| first.max(second));
-            return Ok(DisplacementDemand { acceleration, displacement, terms: [Some(first), second] });
+            return Ok((acceleration, displacement, [Some(first), second]));
         }
         // of points and records the largest S_d from T0 to T
         let mut largest = first;
@@ -155,7 +144,7 @@ impl Demand {
         for at in equal.chain(own).filter(|at| *at >= 1e-3) {
             largest = largest.max(self.spectral_displacement(state, at, xi)?);
         }
-        Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
+        Ok((acceleration, largest, [Some(largest), None]))
     }
 }
 

@@ -6,6 +6,7 @@
 //! remembered in the field; its text was not seen.
 
 use ground_motion::columns::{Columns, Fault, Name, Numbers};
+use serde::Deserialize;
 
 use super::ground::{G, Hazard};
 
@@ -220,8 +221,25 @@ fn check(hazards: &[Hazard]) -> Result<(), String> {
     Ok(())
 }
 
-/// Units of `a_g` by their names \[g\].
-pub(super) const UNITS: [(&str, f64); 3] = [("g", 1.0), ("g/10", 0.1), ("m/s2", 1.0 / G)];
+/// Unit of the `a_g` of a grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum GridUnit {
+    #[default]
+    #[serde(rename = "g")]
+    G,
+    #[serde(rename = "g/10")]
+    TenthOfG,
+    #[serde(rename = "m/s2")]
+    MetresPerSecondSquared,
+}
+
+impl GridUnit {
+    /// Returns the unit \[g\].
+    pub(super) fn in_g(self) -> f64 {
+        [1.0, 0.1, 1.0 / G][self as usize]
+    }
+}
 
 fn less(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// g of NTC 3.2.3.2.1 \[m/s²\].
 pub const G: f64 = 9.81;
@@ -11,7 +11,7 @@ pub const G: f64 = 9.81;
 const T_F: f64 = 10.0;
 
 /// Soil of Tab. 3.2.II, for which the code has formulas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Soil {
     /// Rock and very stiff soil.
     A,
@@ -26,14 +26,6 @@ pub enum Soil {
 }
 
 impl Soil {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::A, Self::B, Self::C, Self::D, Self::E];
-
-    /// Returns the letter of the soil.
-    pub fn name(self) -> &'static str {
-        ["A", "B", "C", "D", "E"][self as usize]
-    }
-
     /// `S_S` of Tab. 3.2.IV for F0 `a_g`/g \[-\].
     fn amplification(self, x: f64) -> f64 {
         let ([most, slope, low, high], ..) = SOILS[self as usize];

@@ -63,6 +63,7 @@ pub use checks::LARGEST_LOSS;
 pub use compatibility::{BAND, Compatibility};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use floor::{FloorSpectrum, Mode};
+pub use grid::GridUnit;
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use set_back::SetBack;
 pub use side_verdict::{
@@ -72,7 +73,7 @@ pub use side_verdict::{
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 pub use states::{Source, StateStatement};
 pub use table::{
-    Activation, AtActivation, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
+    Activation, AtActivation, BuildingTable, Category, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
     LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, Topography, UseClass,
 };
 pub use tie::{TieAtLimit, TieState};

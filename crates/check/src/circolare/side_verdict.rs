@@ -204,6 +204,9 @@ pub struct Sensitivity {
     /// `ζ_E` of SLC \[-\].
     #[serde(rename = "SLC")]
     pub slc: Option<f64>,
+    /// `ζ_E` of each check, in the order of [`Deciding::ALL`]; infinite for one that is not made \[-\].
+    #[serde(skip)]
+    pub(super) zetas: [f64; 4],
 }
 
 impl Sensitivity {

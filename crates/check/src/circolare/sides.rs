@@ -30,13 +30,9 @@ pub(super) fn drawn(parameters: &Parameters) -> Result<Wall, CheckError> {
     })?)
 }
 
-/// The checks of a side by a rule on the hinge, and the curve with the hinge of the check that governs.
-fn by_rule(case: &Case<'_>, sign: f64, rule: Option<Hinge>) -> Result<(Curve, Checks), CheckError> {
-    searched(case, sign, rule, hinge::FINE)
-}
-
-/// The same with a search of this fineness; a coarse one is for the checks that decide.
-fn searched(
+/// The checks of a side by a rule on the hinge, searched as finely as stated, and the curve with the hinge of
+/// the check that governs. A coarse search is for the checks that decide.
+fn by_rule(
     case: &Case<'_>,
     sign: f64,
     rule: Option<Hinge>,
@@ -78,7 +74,7 @@ fn searched(
 
 /// Checks a side; returns what the engineer should know of it, too.
 pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<String>), CheckError> {
-    let (curve, checks) = by_rule(case, sign, case.rule)?;
+    let (curve, checks) = by_rule(case, sign, case.rule, hinge::FINE)?;
     let mut warnings = super::warnings::of_curve(&curve, case);
     let beside = case.rule.map(|rule| beside(case, sign, rule, &checks, &mut warnings));
     let least_alpha0 = beside.transpose()?.flatten();
@@ -171,7 +167,7 @@ fn beside(
 ) -> Result<Option<LeastAlpha0>, CheckError> {
     let statement = case.statement;
     let side = case.name(Side::of(sign));
-    let (curve, at_least) = match by_rule(case, sign, Some(Hinge::LeastAlpha0)) {
+    let (curve, at_least) = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
         Err(error) if rule == Hinge::Given => {
             warnings.push(format!("{side}: other hinges could not be searched: {error}"));
             return Ok(None);
@@ -192,7 +188,7 @@ fn beside(
     let worst = match rule {
         Hinge::Worst => *checks,
         _ if by_records => return Ok(Some(found)),
-        Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst)) {
+        Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst), hinge::FINE) {
             Ok((_, checks)) => checks,
             Err(error) => {
                 warnings.push(format!("{side}: other hinges could not be searched: {error}"));
@@ -262,8 +258,10 @@ fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
     };
     let one = |factor: f64| {
         let value = factor * value;
-        let found = searched(&case.with(factor), sign, case.rule, hinge::COARSE);
-        let impossible = Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None };
+        let found = by_rule(&case.with(factor), sign, case.rule, hinge::COARSE);
+        let zetas = [f64::NAN; 4];
+        let impossible =
+            Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None, zetas };
         let Ok((_, checks)) = found else { return impossible };
         let (_, zeta) = checks.governing(statement);
         Sensitivity {
@@ -271,6 +269,7 @@ fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
             passed: Some(zeta >= 1.0),
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
+            zetas: checks.zetas(),
             ..impossible
         }
     };

@@ -10,7 +10,7 @@ use crate::file::lines_of_grid;
 use crate::report::{no_place, return_period};
 
 use super::LimitState;
-use super::grid::{Grid, SiteHazard, UNITS};
+use super::grid::{Grid, SiteHazard};
 use super::table::{CheckTable, SiteTable};
 
 /// The file that was read, `None` where its lines are in the table, and what is to be said of the numbers.
@@ -74,23 +74,12 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
 
 fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHazard, CheckError> {
     let refused = |key, message: String| Err(CheckError::value(&["site", key], format!("site: {message}")));
-    let SiteTable { ag_unit, coordinates, nominal_life, use_coefficient, .. } = site;
+    let SiteTable { ag_unit, coordinates, .. } = site;
     if let Some(message) = no_place(*coordinates) {
         return refused("coordinates", message);
     }
-    for (key, value) in [("nominal_life", *nominal_life), ("use_coefficient", *use_coefficient)] {
-        if !(value > 0.0 && value.is_finite()) {
-            return refused(key, format!("{key} = {value} must be above 0"));
-        }
-    }
-    let unit = UNITS.into_iter().find(|(name, _)| ag_unit.as_deref().unwrap_or("g") == *name);
-    let Some((_, unit)) = unit else {
-        let names = UNITS.map(|(name, _)| format!("{name:?}")).join(", ");
-        let given = ag_unit.as_deref().unwrap_or_default();
-        return refused("ag_unit", format!("ag_unit = {given:?} is none of {names}"));
-    };
     let text = lines_of_grid(&site.grid, folder)?;
-    let grid = Grid::read(&text, unit).map_err(|(line, message)| SceneError::Line {
+    let grid = Grid::read(&text, ag_unit.in_g()).map_err(|(line, message)| SceneError::Line {
         file: file.map_or_else(|| "grid of [check.site]".to_owned(), |file| file.display().to_string()),
         line,
         key: None,

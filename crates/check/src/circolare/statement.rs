@@ -11,8 +11,8 @@ use super::demand::Demand;
 use super::site::{self, FromGrid};
 use super::states::{StateStatement, limit_state};
 use super::table::{
-    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, LEAST_STRENGTH,
-    Method, STRESS_BLOCK,
+    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, Method,
+    STRESS_BLOCK,
 };
 use super::{FEWEST_RECORDS, LimitState};
 
@@ -87,25 +87,12 @@ impl Statement {
     /// Checks the values against each other and the code.
     fn new(table: CheckTable) -> Result<Self, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        let behaviour_factor = at_least(1.0, "behaviour_factor", table.behaviour_factor.unwrap_or(2.0))?;
-        at_least(0.0, "overburden_mass", table.overburden_mass.unwrap_or(0.0))?;
-        if let Some(e) = table.young_modulus.filter(|e| !(*e >= SOFTEST && e.is_finite())) {
-            let doubt = super::warnings::YOUNG_MODULUS.warning(e).map(|doubt| format!("{doubt}; "));
-            let doubt = doubt.unwrap_or_default();
-            let message = format!("{doubt}no masonry has E below {SOFTEST:e} Pa; give young_modulus in Pa");
-            return refused("young_modulus", message);
-        }
-        match (table.before_activation, table.young_modulus) {
-            (Some(Activation::Beam), None) => {
-                return refused("before_activation", "beam needs young_modulus, E in Pa".into());
-            }
-            (Some(Activation::Rigid | Activation::Law) | None, Some(_)) => {
-                return refused(
-                    "young_modulus",
-                    "young_modulus counts only with before_activation = \"beam\"".into(),
-                );
-            }
-            _ => {}
+        let is_beam = table.before_activation == Some(Activation::Beam);
+        if is_beam != table.young_modulus.is_some() {
+            let key = if is_beam { "before_activation" } else { "young_modulus" };
+            let message =
+                "before_activation = \"beam\" and young_modulus, E in Pa, go together; give both or none";
+            return refused(key, message.into());
         }
         let mut states = [const { None }; 3];
         for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
@@ -137,6 +124,7 @@ impl Statement {
             let message = format!("record_range = [{from}, {to}] s must rise from above 0");
             return refused("record_range", message);
         }
+        let behaviour_factor = table.behaviour_factor.unwrap_or(2.0);
         let (records, displacements) = (Records::default(), Displacements::OF_CODE);
         Ok(Self {
             table,
@@ -207,46 +195,21 @@ impl Statement {
     }
 }
 
-/// Refuses a value of the table `[check]` that is below a limit, or not finite.
-fn at_least(limit: f64, key: &str, value: f64) -> Result<f64, CheckError> {
-    if value >= limit && value.is_finite() {
-        return Ok(value);
-    }
-    Err(CheckError::value(&[key], format!("{key} = {value} must be at least {limit}")))
-}
-
 /// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].
 fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, CheckError> {
-    let refused = |key, message: String| Err(CheckError::value(&[key], message));
     let Some(strength) = table.masonry_strength else {
-        let others = [
-            ("masonry_gamma", table.masonry_gamma.is_some()),
-            ("stress_block", table.stress_block.is_some()),
-            ("masonry_over_fc", table.masonry_over_fc.is_some()),
-        ];
-        return match others.into_iter().find(|(_, given)| *given) {
-            Some((key, _)) => refused(key, format!("{key} counts only with masonry_strength, f_m in Pa")),
-            None => Ok(None),
-        };
+        let others = table.masonry_gamma.is_some() || table.stress_block.is_some();
+        if others || table.masonry_over_fc.is_some() {
+            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, f_m \
+                           in Pa; give it, or leave them out";
+            return Err(CheckError::value(&["masonry_strength"], message));
+        }
+        return Ok(None);
     };
-    if !(strength >= LEAST_STRENGTH && strength.is_finite()) {
-        let message = format!(
-            "masonry_strength = {strength} Pa is below {LEAST_STRENGTH} Pa: is it in MPa? give f_m in Pa, \
-             such as 1.5e6"
-        );
-        return refused("masonry_strength", message);
-    }
-    let gamma = at_least(1.0, "masonry_gamma", table.masonry_gamma.unwrap_or(1.0))?;
-    let block = table.stress_block.unwrap_or(STRESS_BLOCK);
-    if !(block > 0.0 && block <= 1.0) {
-        return refused("stress_block", format!("stress_block = {block} must be above 0 and at most 1"));
-    }
+    let (gamma, block) = (table.masonry_gamma.unwrap_or(1.0), table.stress_block.unwrap_or(STRESS_BLOCK));
     let over = if table.masonry_over_fc.unwrap_or(true) { confidence_factor } else { 1.0 };
     Ok(Some(block * strength / (gamma * over)))
 }
-
-/// The softest masonry, E; less is in another unit \[Pa\].
-const SOFTEST: f64 = 1e7;
 
 fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
     let factor = match (table.confidence_factor, table.knowledge_level) {
@@ -254,7 +217,7 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
             let message = "confidence_factor and knowledge_level state the same; leave one out";
             return Err(CheckError::value(&["knowledge_level"], message));
         }
-        (Some(factor), None) => at_least(1.0, "confidence_factor", factor)?,
+        (Some(factor), None) => factor,
         (None, Some(KnowledgeLevel::LC2)) => 1.20,
         (None, Some(KnowledgeLevel::LC3)) => 1.00,
         (None, Some(KnowledgeLevel::LC1) | None) => return Ok(LARGEST_CONFIDENCE_FACTOR),

@@ -1,6 +1,6 @@
 //! The table `[check]` of a scene or a study.
 
-use rocking_wall::scene::{Described, Schema, one_of, with};
+use rocking_wall::scene::{Described, Schema, with};
 use rocking_wall::variables::Rocking;
 use rocking_wall::wall::Bar;
 use rocking_wall::{choices, tables};
@@ -10,7 +10,7 @@ use toml::Spanned;
 
 use super::ENTRY;
 use super::floor::Mode;
-use super::grid::UNITS;
+use super::grid::GridUnit;
 use super::ground::Soil;
 use super::statement::LARGEST_CONFIDENCE_FACTOR;
 
@@ -24,7 +24,7 @@ tables! {
         /// The wall before it rocks: held, elastic as its law, or a beam.
         pub before_activation: Option<Activation>,
         /// E of the masonry \[Pa\], for "beam".
-        #[key(exclusiveMinimum = 0)]
+        #[key(minimum = SOFTEST)]
         pub young_modulus: Option<f64>,
         /// FC (-); below 1.35 only with `compression_considered`.
         #[key(minimum = 1, default = LARGEST_CONFIDENCE_FACTOR)]
@@ -64,8 +64,7 @@ tables! {
         #[key(minimum = 1, default = 2)]
         pub behaviour_factor: Option<f64>,
         /// Soil of NTC 3.2.2.
-        #[key(enum = Soil::ALL.map(Soil::name).to_vec())]
-        pub soil: Option<String>,
+        pub soil: Option<Soil>,
         /// Topography of NTC 3.2.2, or `S_T` (-).
         #[key(default = "T1")]
         pub topography: Option<Topography>,
@@ -125,8 +124,9 @@ tables! {
         /// `TC_T`.
         pub grid: String,
         /// Unit of its `a_g`.
-        #[key(enum = UNITS.map(|(name, _)| name).to_vec(), default = "g")]
-        pub ag_unit: Option<String>,
+        #[serde(default)]
+        #[key(default = "g")]
+        pub ag_unit: GridUnit,
         /// Latitude and longitude \[°\].
         pub coordinates: [f64; 2],
         /// Nominal life `V_N` \[years\], NTC 2.4.1.
@@ -198,7 +198,10 @@ choices!(
     Rocks,
     HeightDemand,
     AtActivation,
-    Polarities
+    Polarities,
+    Category,
+    Soil,
+    GridUnit
 );
 
 /// `hinge_range` unless given \[-\].
@@ -206,13 +209,14 @@ pub(super) const HINGE_RANGE: [f64; 2] = [0.1, 0.9];
 /// κ unless given, NTC 7.8.2.2.3 \[-\].
 pub(super) const STRESS_BLOCK: f64 = 0.85;
 /// The least `f_m`; less is in another unit \[Pa\].
-pub(super) const LEAST_STRENGTH: f64 = 1e5;
+const LEAST_STRENGTH: f64 = 1e5;
+/// The softest masonry, E; less is in another unit \[Pa\].
+const SOFTEST: f64 = 1e7;
 
 impl Described for Topography {
     fn describe(key: &str, tables: &mut Schema) -> Schema {
         let factor = with(with(f64::describe(key, tables), "minimum", 1), "maximum", 1.4);
-        let categories = one_of(CATEGORIES.map(|(name, _)| name));
-        with(Schema::new(), "anyOf", vec![categories, factor])
+        with(Schema::new(), "anyOf", vec![Category::describe(key, tables), factor])
     }
 }
 
@@ -299,17 +303,34 @@ pub enum KnowledgeLevel {
     LC3,
 }
 
-/// Categories of topography with their `S_T`, Tab. 3.2.V.
-pub(super) const CATEGORIES: [(&str, f64); 4] = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)];
+/// Category of topography of Tab. 3.2.V.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs, reason = "names of the code")]
+pub enum Category {
+    T1,
+    T2,
+    T3,
+    T4,
+}
 
 /// Topography: a category of Tab. 3.2.V or `S_T`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(untagged, expecting = "expected \"T1\" to \"T4\", or S_T from 1 to 1.4")]
 pub enum Topography {
     /// `S_T` \[-\].
     Factor(f64),
     /// `T1` to `T4`.
-    Category(String),
+    Category(Category),
+}
+
+impl Topography {
+    /// `S_T` of Tab. 3.2.V \[-\].
+    pub(super) fn factor(self) -> f64 {
+        match self {
+            Self::Factor(factor) => factor,
+            Self::Category(category) => [1.0, 1.2, 1.2, 1.4][category as usize],
+        }
+    }
 }
 
 /// Use class of NTC 2.4.2.

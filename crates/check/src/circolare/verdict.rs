@@ -90,6 +90,11 @@ impl Side {
         if sign < 0.0 { Self::Negative } else { Self::Positive }
     }
 
+    /// The sign of u.
+    pub(super) fn sign(self) -> f64 {
+        [1.0, -1.0][self as usize]
+    }
+
     /// Returns the name of the side in tables, `u > 0` or `u < 0`.
     pub fn name(self) -> &'static str {
         match self {

@@ -246,38 +246,29 @@ pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Strin
         // the runs decide, and no a₁ of theirs is varied
         return Vec::new();
     }
-    let passes = |zeta: f64| zeta >= 1.0;
-    let own = |side: &SideVerdict| side.checks().governing(statement);
     let mut warnings = Vec::new();
     for (name, side) in sides.iter() {
         for (index, varied) in side.sensitivity.iter().enumerate() {
-            let ((_, zeta), Some(other)) = (own(side), varied.zeta) else { continue };
-            if passes(zeta) == passes(other) {
-                continue;
-            }
-            let turned = [
-                (Deciding::Slv, side.slv.map(|check| check.zeta), varied.slv),
-                (Deciding::Slc, side.slc.map(|check| check.zeta), varied.slc),
-            ];
-            let turned = turned.into_iter().filter(|(check, ..)| statement.decides(*check));
-            let mut turned = turned.filter_map(|(check, from, to)| Some((check, from?, to?)));
-            let turned = turned.find(|(_, from, to)| passes(*from) != passes(*to));
-            // else it is SLD, or SLV with q: the least that decides is told
-            let turned = turned.map(|(check, from, to)| (check.name(), from, to));
-            let (name_of_check, from, to) = turned.unwrap_or(("ζ_E", zeta, other));
-            let all = |zeta: fn(&SideVerdict, usize, &Statement) -> f64| {
-                sides.iter().all(|(_, side)| zeta(side, index, statement) >= 1.0)
+            let (own, zetas) = (side.checks().zetas(), varied.zetas);
+            let is_turned = |at: &usize| {
+                statement.decides(Deciding::ALL[*at]) && (own[*at] >= 1.0) != (zetas[*at] >= 1.0)
             };
-            let is_turned = all(|side, _, statement| side.checks().governing(statement).1)
-                != all(|side, index, _| side.sensitivity[index].zeta.unwrap_or(0.0));
+            let passed = side.checks().governing(statement).1 >= 1.0;
+            let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!passed)) else {
+                continue;
+            };
+            let before = sides.iter().all(|(_, side)| side.checks().governing(statement).1 >= 1.0);
+            let after = sides.iter().all(|(_, side)| side.sensitivity[index].passed == Some(true));
             warnings.push(format!(
-                "{}: {} turns the verdict{}: with {} {} goes from {from:.3} to {to:.3}, {}",
+                "{}: {} turns the verdict{}: with {} {} goes from {:.3} to {:.3}, {}",
                 case.name(name),
                 varied.parameter,
-                if is_turned { "" } else { " on this side, not that on the wall" },
+                if before == after { " on this side, not that on the wall" } else { "" },
                 varied.assigned(),
-                name_of_check,
-                if passes(to) { "passed" } else { "not passed" }
+                Deciding::ALL[at].name(),
+                own[at],
+                zetas[at],
+                if passed { "not passed" } else { "passed" }
             ));
         }
     }

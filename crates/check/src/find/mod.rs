@@ -286,18 +286,20 @@ pub fn find(
 }
 
 fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> {
-    let has_tie =
-        parameters.tie_height > 0.0 && (parameters.tie_stiffness > 0.0 || sought == Sought::TieStiffness);
-    let name = sought.name();
-    if sought == Sought::BarDiameter && parameters.bar.is_none() {
-        let message = format!("{name} is sought, but the tie has no bar; give bar in [check.tie] or [tie]");
-        return Err(CheckError::wall(message));
+    let is_held = match sought {
+        Sought::Thickness | Sought::Height => return Ok(()),
+        Sought::TieStiffness => true,
+        Sought::TieStrength => parameters.tie_stiffness > 0.0,
+        Sought::BarDiameter => parameters.bar.is_some(),
+    };
+    if is_held && parameters.tie_height > 0.0 {
+        return Ok(());
     }
-    if sought.is_of_tie() && !has_tie {
-        let message = format!("{name} is sought, but the wall has no tie; set tie_height and tie_stiffness");
-        return Err(CheckError::wall(message));
-    }
-    Ok(())
+    Err(CheckError::wall(format!(
+        "{} is sought, but the wall has no such tie; set tie_height and tie_stiffness, or give its bar in \
+         [check.tie] or [tie]",
+        sought.name()
+    )))
 }
 
 /// The checks of a verdict: the least capacity over demand of all sides.

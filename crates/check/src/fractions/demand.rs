@@ -6,7 +6,7 @@ use ground_motion::{GroundMotion, Maxima, Spectrum};
 use run::sample::sample_median;
 
 use crate::error::CheckError;
-use crate::site::interpolated;
+use crate::site::{interpolated, misplaced};
 
 /// The demand of a check.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,32 +23,20 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError`] of the first whose period does not rise or whose `S_a` is not above 0, and if the first
-    /// is not that of T = 0; `place` names a point by its index.
+    /// [`CheckError`] of the first whose period does not rise from 0 on, or whose `S_a` is not above 0; `place`
+    /// names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
-        let mut before: Option<f64> = None;
-        for (index, &(period, acceleration)) in points.iter().enumerate() {
-            let fault = |expected: String, found: String| {
-                let message = format!("{}: expected {expected}, found {found}", place(index));
-                Err(CheckError::value(&["spectrum"], message))
-            };
-            let rises = before.map_or(period >= 0.0, |before| period > before);
-            if !(rises && period.is_finite()) {
-                let expected = before.map_or_else(
-                    || "a finite period from 0 on".to_owned(),
-                    |before| format!("periods that rise: a finite one above T = {before} s"),
+        match misplaced(&points) {
+            None if !points.is_empty() => Ok(Self(Of::Points(points))),
+            found => {
+                let at = found.map_or_else(
+                    || "found no points".to_owned(),
+                    |index| {
+                        let (period, acceleration) = points[index];
+                        format!("found T = {period} s and Sa = {acceleration} m/s² at {}", place(index))
+                    },
                 );
-                return fault(expected, format!("T = {period} s"));
-            }
-            if !(acceleration.is_finite() && acceleration > 0.0) {
-                return fault("a finite Sa above 0".to_owned(), format!("Sa = {acceleration} m/s²"));
-            }
-            before = Some(period);
-        }
-        match points.first() {
-            Some(first) if first.0 == 0.0 => Ok(Self(Of::Points(points))),
-            _ => {
-                let message = "the spectrum has no T = 0, the peak acceleration; give it with that point";
+                let message = format!("expected T from 0 on that rises, and Sa above 0; {at}");
                 Err(CheckError::value(&["spectrum"], message))
             }
         }

@@ -2,6 +2,7 @@
 
 use ::report::palette::{BLUE, DARK_GREY, RED};
 use ::report::plot::{Axis, Look, Plot, Series};
+use ::report::points::within;
 use rocking_wall::wall::Wall;
 
 use super::demand::Demand;
@@ -22,13 +23,9 @@ pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<F
     let spectrum = demand.drawn(side.secant_period)?;
     let points = curve.iter().chain(&spectrum).filter(|point| point.0 <= right);
     let top = 1.08 * points.map(|point| point.1).fold(0.0, f64::max);
-    let within = |points: &[(f64, f64)]| {
-        let inside = points.iter().take_while(|point| point.0 <= right).count();
-        let mut cut: Vec<_> = points[..inside].to_vec();
-        if let (Some(&(d0, a0)), Some(&(d1, a1))) = (cut.last(), points.get(inside)) {
-            cut.push((right, a0 + (a1 - a0) * (right - d0) / (d1 - d0)));
-        }
-        cut.iter().map(|(d, a)| (1000.0 * d, *a)).collect::<Vec<_>>()
+    let in_mm = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+        let pieces = within(points, [[0.0, right], [0.0, top]]).concat();
+        pieces.into_iter().map(|(d, a)| (1000.0 * d, a)).collect()
     };
     let longest = (right / d_s).min(top / a_s);
     let capacity = 1000.0 * side.displacement_capacity;
@@ -36,8 +33,8 @@ pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<F
     let dashed = |points| Series { look: Look::Dashed, ..Series::stroke(DARK_GREY, 1.3, points) };
     let secant = format!("secant, T = {:.3} s", side.secant_period);
     let series = vec![
-        named("demand", Series::stroke(RED, 1.6, within(&spectrum))),
-        named("capacity curve", Series::stroke(BLUE, 2.0, within(&curve))),
+        named("demand", Series::stroke(RED, 1.6, in_mm(&spectrum))),
+        named("capacity curve", Series::stroke(BLUE, 2.0, in_mm(&curve))),
         named(&secant, dashed(vec![(0.0, 0.0), (1000.0 * longest * d_s, longest * a_s)])),
         named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
     ];

@@ -119,21 +119,9 @@ impl Statement {
             damping: table.damping.unwrap_or(DAMPING),
             records: file.records(table.records.as_ref())?,
         };
+        let of_spectrum = table.unit.is_some() || table.column.is_some();
         match (&table.spectrum, &table.records) {
-            (Some(_), Some(_)) => {
-                let message = "spectrum and records are both the demand; leave one out";
-                Err(CheckError::value(&["records"], message))
-            }
-            (None, None) => {
-                let message = "there is no demand; give spectrum = \"FILE\", or records = { files = [...] }";
-                Err(CheckError::value(&["spectrum"], message))
-            }
-            (None, Some(_)) if table.unit.is_some() || table.column.is_some() => {
-                let key = if table.unit.is_some() { "unit" } else { "column" };
-                let message = format!("{key} is that of a spectrum; records have theirs, records.{key}");
-                Err(CheckError::value(&[key], message))
-            }
-            (None, Some(_)) => Ok(statement),
+            (None, Some(_)) if !of_spectrum => {}
             (Some(SpectrumTable::Points(points)), None) => {
                 let Some(unit) = table.unit else {
                     let message = "unit is missing: state the unit of Sa, m/s2, cm/s2, mm/s2 or g";
@@ -143,13 +131,17 @@ impl Statement {
                 statement.source = format!("{} points, Sa in {}", points.len(), unit.name());
                 let place = |index| format!("point {} of the spectrum", index + 1);
                 statement.spectrum = Some(Demand::of_points(points, place)?);
-                Ok(statement)
             }
             (Some(SpectrumTable::File(name)), None) => {
                 statement.read_spectrum(file.folder().join(name), &table)?;
-                Ok(statement)
+            }
+            _ => {
+                let message = "the demand is spectrum = \"FILE\" with its unit and column, or records = { files = \
+                               [...] }, which have theirs in records.unit and records.column; give one of both";
+                return Err(CheckError::value(&["spectrum"], message));
             }
         }
+        Ok(statement)
     }
 
     /// Reads the spectrum of a file.

@@ -81,19 +81,12 @@ pub(super) fn governing(sides: &[SideCheck], ratio: fn(&SideCheck) -> f64) -> &S
 /// ```
 ///
 /// # Errors
-/// [`CheckError`]: a fraction outside its limits, no secant period, or a period that the demand lacks.
+/// [`CheckError`]: no secant period, or a period that the demand lacks.
 pub fn check(
     wall: &Wall,
     fractions: Fractions,
     demand: impl Fn(f64) -> Result<f64, CheckError>,
 ) -> Result<Vec<SideCheck>, CheckError> {
-    let Fractions { displacement, secant } = fractions;
-    for (key, value) in [("displacement_fraction", displacement), ("secant_fraction", secant)] {
-        if !(value > 0.0 && value <= 1.0) {
-            let message = format!("{key} = {value} must be above 0 and at most 1");
-            return Err(CheckError::value(&[key], message));
-        }
-    }
     wall.sides().map(|sign| check_side(wall, sign, fractions, &demand)).collect()
 }
 

@@ -4,55 +4,24 @@
 /// dates stay: they have more than one point, or follow NTC or a letter, as NTC 8.3, C8.7, 17.1.2018.
 /// Values of keys have commas as all numbers of a sentence have.
 pub(super) fn with_commas(text: &str) -> String {
+    let belongs = |letter: char| letter.is_alphanumeric() || letter == '_';
     let mut written = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(first) = rest.chars().next() {
-        let is_in_word = written.ends_with(|c: char| c.is_alphanumeric() || c == '.' || c == '_');
-        let word = if first.is_ascii_digit() && !is_in_word {
-            let number = number(rest);
-            let is_clause = written.ends_with("NTC ") || followed(&rest[number.len()..]);
-            if is_clause || !number.contains('.') {
-                written += number;
-            } else {
-                written += &number.replacen('.', ",", 1);
-            }
-            number
-        } else if rest.starts_with(", ") && separates(&written, &rest[2..]) {
-            written += "; ";
-            ", "
-        } else {
-            written.push(first);
-            &rest[..first.len_utf8()]
-        };
-        rest = &rest[word.len()..];
+    // whether the word before is a number, and that has decimals
+    let (mut before, mut rest) = (None, text);
+    while let Some(from) = rest.find(belongs) {
+        let (between, word) = rest.split_at(from);
+        let word = &word[..word.find(|letter| !belongs(letter) && letter != '.').unwrap_or(word.len())];
+        let word = word.trim_end_matches('.');
+        let is_clause = between.starts_with(' ') && written.ends_with("NTC") || word.matches('.').count() > 1;
+        let is_number = word.starts_with(|letter: char| letter.is_ascii_digit()) && !is_clause;
+        let own = is_number.then(|| word.contains('.'));
+        let is_list = before.is_some() && own.is_some() && before.max(own) == Some(true);
+        let is_comma = between.trim_end_matches(['-', '−']) == ", ";
+        written += &if is_list && is_comma { between.replacen(',', ";", 1) } else { between.to_owned() };
+        written += &if is_number { word.replacen('.', ",", 1) } else { word.to_owned() };
+        (before, rest) = (own, &rest[from + word.len()..]);
     }
-    written
-}
-
-/// The digits with which a text begins, with one point between digits.
-fn number(text: &str) -> &str {
-    let digits = |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    let whole = digits(text);
-    let decimals = text[whole..].strip_prefix('.').map_or(0, digits);
-    if decimals == 0 { &text[..whole] } else { &text[..whole + 1 + decimals] }
-}
-
-/// Whether a number is only the beginning of a clause or of a date.
-fn followed(rest: &str) -> bool {
-    rest.strip_prefix('.').is_some_and(|rest| rest.starts_with(char::is_alphanumeric))
-}
-
-/// Whether a comma stands between two numbers, one of them with decimals.
-fn separates(before: &str, after: &str) -> bool {
-    let after = after.trim_start_matches(['-', '−']);
-    let next = number(after);
-    let last = before.trim_end_matches(|c: char| c.is_ascii_digit());
-    let is_decimal =
-        last.strip_suffix(',').is_some_and(|whole| whole.ends_with(|c: char| c.is_ascii_digit()));
-    let is_in_word = last.ends_with(|c: char| c.is_alphabetic() || c == '_');
-    let is_number =
-        last.len() < before.len() && !is_in_word && !next.is_empty() && !followed(&after[next.len()..]);
-    is_number && (is_decimal || next.contains('.'))
+    written + rest
 }
 
 #[cfg(test)]

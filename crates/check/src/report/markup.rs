@@ -1,5 +1,6 @@
 //! Tables, formulas and calculations as markup.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use ::report::escaped;
@@ -112,45 +113,108 @@ fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
 }
 
 /// A calculation: lines of what is computed, by which equation, from which numbers.
-#[derive(Default)]
-pub(crate) struct Calculation(String);
+#[derive(Clone, Default)]
+pub(crate) struct Calculation {
+    lines: String,
+    /// Symbols and parts of formulas, such as `(W + O)`, with their numbers as they are put in.
+    known: BTreeMap<String, String>,
+}
 
 impl Calculation {
-    /// Adds a line: words and source of the formula, the formula, the numbers put in, result and unit. Empty
-    /// parts are left out.
-    pub(crate) fn line(
+    /// Makes symbols known, in the units in which formulas take them.
+    pub(crate) fn know(&mut self, symbols: &[(&str, f64)]) {
+        for (symbol, value) in symbols {
+            let number = shown(*value).replace('-', "−");
+            let number = if *value < 0.0 { format!("({number})") } else { number };
+            self.known.insert((*symbol).to_owned(), number);
+        }
+    }
+
+    /// The number of a known symbol; empty of another.
+    pub(crate) fn number(&self, symbol: &str) -> &str {
+        self.known.get(symbol).map_or("", String::as_str)
+    }
+
+    /// Adds a line: words and source of the formula, the formula, its numbers, result and unit; empty sources
+    /// and units are left out. Numbers are put in where every symbol behind the last `=` is known; what stands
+    /// in braces, such as a power of ten between units, is for them alone. From then on the symbols before the
+    /// `=` are known.
+    pub(crate) fn line(&mut self, words: [&str; 2], formula: &str, result: (f64, &str)) {
+        let (left, right) = formula.rsplit_once(" = ").unwrap_or(("", formula));
+        let put = self.put(right).filter(|put| *put != shown(result.0)).unwrap_or_default();
+        for symbol in left.split(" = ").filter(|symbol| !symbol.is_empty()) {
+            self.know(&[(symbol, result.0)]);
+        }
+        let mut bare = formula.to_owned();
+        while let Some((from, to)) = bare.find('{').zip(bare.find('}')) {
+            bare = bare[..from].trim_end().to_owned() + &bare[to + 1..];
+        }
+        self.line_of(words, [&bare, &put], result);
+    }
+
+    /// Adds a line whose numbers are put in already; none if empty.
+    pub(crate) fn line_of(
         &mut self,
         [words, source]: [&str; 2],
-        [left, numbers]: [&str; 2],
+        [left, put]: [&str; 2],
         (value, unit): (f64, &str),
     ) {
-        let source =
-            if source.is_empty() { String::new() } else { format!(" <small>{}</small>", escaped(source)) };
-        let numbers =
-            if numbers.is_empty() { String::new() } else { format!(" = {}", raised(&escaped(numbers))) };
-        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let some = |text: &str, shown: String| if text.is_empty() { String::new() } else { shown };
+        let source = some(source, format!(" <small>{}</small>", escaped(source)));
+        let put = some(put, format!(" = {}", raised(&escaped(put))));
+        let unit = some(unit, format!(" {unit}"));
+        let (left, value) = (formula(left), shown(value));
         let _ = writeln!(
-            self.0,
-            "<tr><td>{words}{source}</td><td>{}{numbers} = <b>{}</b>{unit}</td></tr>",
-            formula(left),
-            shown(value)
+            self.lines,
+            "<tr><td>{words}{source}</td><td>{left}{put} = <b>{value}</b>{unit}</td></tr>"
         );
+    }
+
+    /// A formula with the numbers of its symbols; `None` where one is not known.
+    fn put(&self, formula: &str) -> Option<String> {
+        let (mut text, mut rest) = (String::new(), formula);
+        while let Some(first) = rest.chars().next() {
+            let goes_on = |next: char| next.is_alphabetic() || next.is_ascii_digit() || next == '_';
+            let is_whole =
+                |symbol: &str| rest.strip_prefix(symbol).is_some_and(|after| !after.starts_with(goes_on));
+            let known = self.known.iter().filter(|(symbol, _)| is_whole(symbol));
+            if let Some((symbol, number)) = known.max_by_key(|(symbol, _)| symbol.len()) {
+                text += number;
+                rest = &rest[symbol.len()..];
+                continue;
+            }
+            let word = leading(rest, char::is_alphabetic);
+            let (part, after) = rest.split_at(word.len().max(first.len_utf8()));
+            let is_symbol = word.chars().count() == 1 && word != "π" || after.starts_with('_');
+            if !word.is_empty() && is_symbol {
+                return None;
+            }
+            let is_sign = |letter: char| "+−=·;π".contains(letter);
+            text += match first {
+                '{' | '}' => "",
+                // a product, unless it is the space around a sign
+                ' ' if !(text.ends_with(is_sign) || after.starts_with(is_sign)) => " · ",
+                _ => part,
+            };
+            rest = after;
+        }
+        Some(text)
     }
 
     /// Adds a line of words.
     pub(crate) fn say(&mut self, words: &str, said: &str) {
-        let _ = writeln!(self.0, "<tr><td>{words}</td><td>{said}</td></tr>");
+        let _ = writeln!(self.lines, "<tr><td>{words}</td><td>{said}</td></tr>");
     }
 
     /// The lines as a table.
     pub(crate) fn table(self) -> String {
-        format!("<table class=\"calculation\">\n{}</table>\n", self.0)
+        format!("<table class=\"calculation\">\n{}</table>\n", self.lines)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{formula, shown};
+    use super::{Calculation, formula, shown};
 
     #[test]
     fn zeros_are_digits_of_rounded_numbers() {
@@ -158,6 +222,24 @@ mod tests {
         for (value, text) in numbers {
             assert_eq!(shown(value), text);
         }
+    }
+
+    #[test]
+    fn known_numbers_are_put_in() {
+        let mut lines = Calculation::default();
+        lines.know(&[("a_0", 2.0), ("d", 30.0), ("d_0", 150.0), ("c", -0.5), ("(W + O)", 7.0), ("(W", 1.0)]);
+        for (formula, put) in [
+            ("a_0 (1 − d/d_0)", Some("2 · (1 − 30/150)")),
+            ("max(0; (W + O) c)", Some("max(0; 7 · (−0.5))")),
+            ("2π √(d {10⁻³}/a_0)", Some("2π √(30 · 10⁻³/2)")),
+            ("1.68 π d_0²", Some("1.68 π 150²")),
+            ("a_0 d_1", None),
+            ("a_0 e", None),
+        ] {
+            assert_eq!(lines.put(formula).as_deref(), put, "{formula}");
+        }
+        lines.line(["d", ""], "u_0 = d {10³}", (30.0, "mm"));
+        assert!(lines.table().contains("<sub>0</sub> = <i>d</i> = 30 · 10³ = <b>30</b> mm"));
     }
 
     #[test]

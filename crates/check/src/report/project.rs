@@ -103,41 +103,14 @@ impl ReportTable {
     /// Takes from the site what is not given here.
     ///
     /// # Errors
-    /// The key that both have with different values, and why that cannot be.
-    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (&'static str, String)> {
-        let same = |key, own: String, of_site: String| {
-            let message = format!(
-                "{key} = {own} differs from {of_site} of [check.site]; leave it out here, or make both equal"
-            );
-            if own == of_site { Ok(()) } else { Err((key, message)) }
-        };
-        for (key, own, of_site) in [
-            ("nominal_life", &mut self.nominal_life, site.nominal_life),
-            ("use_coefficient", &mut self.use_coefficient, site.use_coefficient),
-        ] {
-            if let Some((own, of_site)) = own.zip(of_site) {
-                same(key, own.to_string(), of_site.to_string())?;
-            }
-            *own = own.or(of_site);
-        }
-        if let Some((own, of_site)) = self.coordinates.zip(site.coordinates) {
-            same("coordinates", format!("{own:?}"), format!("{of_site:?}"))?;
-        }
-        self.coordinates = self.coordinates.or(site.coordinates);
-        Ok(())
-    }
-
-    /// Says which key has a number that cannot be, and why.
-    pub(crate) fn fault(&self) -> Option<(&'static str, String)> {
+    /// The key of coordinates that are no place, or of what differs from the site, and why that cannot be.
+    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (Vec<String>, String)> {
         if let Some(message) = self.coordinates.and_then(no_place) {
-            return Some(("coordinates", message));
+            return Err((vec!["coordinates".to_owned()], message));
         }
-        let positive = [("nominal_life", self.nominal_life), ("use_coefficient", self.use_coefficient)];
-        let bad = |value: f64| !(value > 0.0 && value.is_finite());
-        let (key, value) =
-            positive.into_iter().find_map(|(key, value)| Some((key, value.filter(|v| bad(*v))?)))?;
-        let such = if key == "nominal_life" { "50 (years)" } else { "1.0" };
-        Some((key, format!("{key} = {value} must be above 0, such as {such}")))
+        taken("coordinates", &mut self.coordinates, site.coordinates)?;
+        taken("nominal_life", &mut self.nominal_life, site.nominal_life)?;
+        taken("use_coefficient", &mut self.use_coefficient, site.use_coefficient)
     }
 
     /// The data of the project as a table, without those that are not given; empty without any.
@@ -175,6 +148,27 @@ impl ReportTable {
             }));
         }
         if rows.is_empty() { String::new() } else { table(&[], &rows) }
+    }
+}
+
+/// Takes a value of the site where there is none; refuses two that differ.
+fn taken<T: PartialEq + std::fmt::Debug>(
+    key: &str,
+    own: &mut Option<T>,
+    of_site: Option<T>,
+) -> Result<(), (Vec<String>, String)> {
+    match (own.take(), of_site) {
+        (Some(given), Some(of_site)) if given != of_site => {
+            let message = format!(
+                "{key} = {given:?} differs from {of_site:?} of [check.site]; leave it out here, or make both \
+                 equal"
+            );
+            Err((vec![key.to_owned()], message))
+        }
+        (given, of_site) => {
+            *own = given.or(of_site);
+            Ok(())
+        }
     }
 }
 

@@ -285,7 +285,7 @@ fn spectra() {
         let displacements = [3.0, 7.0, 11.0].map(|period| ground.displacement(period, 0.08));
         let found = found.into_iter().chain(accelerations).chain(displacements);
         for (found, expected) in found.zip(factors.into_iter().chain(at_5).chain(at_8)) {
-            near(found, expected, soil.name());
+            near(found, expected, &format!("{soil:?}"));
         }
         near(ground.t_d, 2.6, "T_D");
     }

@@ -178,7 +178,7 @@ fn a_side_without_a_tie_blocks() {
     assert!(found.text().contains("u < 0: the side without a tie governs"), "{}", found.text());
     // a bar is sought by its diameter; a wall without one has none to seek
     let error = find(&*code, (&scene).into(), Sought::BarDiameter, &mut |_, _| {}).unwrap_err().to_string();
-    assert!(error.contains("the tie has no bar"), "{error}");
+    assert!(error.contains("bar_diameter is sought, but the wall has no such tie"), "{error}");
     let bar = "rocking = \"one_sided_positive\"\ntie = { at_activation = \"yield\", bar = { diameter = \
                0.016, length = 6, yield_stress = 235e6, ultimate_strain = 0.06, spacing = 3 } }";
     let text = facade("", bar);

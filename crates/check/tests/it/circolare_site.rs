@@ -110,9 +110,9 @@ fn a_report_is_about_the_site_of_the_check() {
     for (given, words) in [
         (
             "nominal_life = 100",
-            "line 6: [report] nominal_life = 100 differs from 50 of [check.site]; leave it",
+            "line 6: [report] nominal_life = 100.0 differs from 50.0 of [check.site]; leave it",
         ),
-        ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1 of [check.site]"),
+        ("use_coefficient = 1.5", "use_coefficient = 1.5 differs from 1.0 of [check.site]"),
         ("coordinates = [42.1, 13.03]", "coordinates = [42.1, 13.03] differs from [42.02, 13.03] of"),
     ] {
         let told = report(&format!("[report]\n{given}")).unwrap_err();
@@ -127,7 +127,7 @@ fn sites_that_cannot_be_are_refused() {
         (both("42.02, 13.03", "13.03, 42.02"), "in no cell of the grid; the nearest node is at lon"),
         (both("42.02", "142.02"), "coordinates = [142.02, 13.03] must be latitude and longitude"),
         (both("nominal_life = 50", "nominal_life = 0"), "nominal_life = 0 must be above 0"),
-        (both("g/10", "gal"), "ag_unit = \"gal\" is none of \"g\", \"g/10\", \"m/s2\""),
+        (both("g/10", "gal"), "ag_unit = \"gal\" is not one of \"g\", \"g/10\", \"m/s2\""),
         (both("ag_unit = \"g/10\", ", ""), "grid.csv, line 2: a_g = 5 g is above 1.5 g"),
         (both("grid.csv", "none.csv"), "none.csv: cannot be read"),
         (format!("{SITE}\nSLV = {{ F0 = 2.4 }}"), "gives ag, F0 and TC together; state all or none"),

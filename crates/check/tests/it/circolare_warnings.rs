@@ -64,22 +64,19 @@ fn spectra_and_sites_that_contradict_themselves_are_refused() {
     let scaled = "SLV = { ag = 0.15, spectrum = [[0, 0.2], [4, 0.01]], spectrum_damping = 0.08 }\n\
                   method = \"dynamic\"\nrecord_scale = \"spectrum\"\nrecords = { synthetic = { count = 3 } }";
     for (text, message) in [
-        (slv(spectrum), "SLV: state spectrum_damping, the ratio of that spectrum"),
-        (
-            slv(&format!("{spectrum}, spectrum_damping = 0.08, F0 = 2.45, TC = 0.3")),
-            "SLV: give F0 and TC, or a spectrum, not both",
-        ),
-        (
-            slv("ag = 0.15, F0 = 2.45, TC = 0.3, spectrum_damping = 0.08"),
-            "SLV: spectrum_damping is that of a spectrum; leave it out",
-        ),
+        (slv(spectrum), "or ag with a spectrum and spectrum_damping"),
+        (slv(&format!("{spectrum}, spectrum_damping = 0.08, F0 = 2.45, TC = 0.3")), "SLV: needs its site"),
+        (slv("ag = 0.15, F0 = 2.45, TC = 0.3, spectrum_damping = 0.08"), "SLV: needs its site"),
         (parapet("", height), "SLV: a_Z = 0: the wall stands on the ground; leave [check.building] out"),
         (parapet("", &records), "record_range = [2, 0.15] s must rise from above 0"),
         (
             parapet("", scaled),
             "record_scale = \"spectrum\" needs S of F0 and TC; give them, or record_scale = \"none\"",
         ),
-        (slv(&format!("{}, building_period = 0", &SITE[2..SITE.len() - 2])), "building_period = 0 s must be"),
+        (
+            slv(&format!("{}, building_period = 0", &SITE[2..SITE.len() - 2])),
+            "SLV.building_period = 0 must be",
+        ),
     ] {
         refuses(&text, message);
     }

@@ -57,7 +57,6 @@ pub fn of_cells(maps: &[Map]) -> Table {
 /// Style of heat maps.
 const MAPS: &str = "figure svg, svg.scale { font-size: 12px; }
 svg.scale { display: block; width: 100%; max-width: 460px; }
-.frame { pointer-events: none; }
 rect:hover { stroke: #000; }";
 
 /// Writes the page.

@@ -124,13 +124,13 @@ fn a_check_that_cannot_be_made_leaves_the_run() {
     let loaded = json!({ "overburden": "5000", "u_start": "0" });
     let rigid = json!({ "force_law": "rigid_linear", "damping_model": "none", "impact": "restitution" });
     for (parameters, more, field, message) in [
-        (json!({}), json!({ "SLV.ag": "15" }), "SLV.ag", "give it in g"),
+        (json!({}), json!({ "SLV.ag": "15" }), "SLV.ag", "at most 1: a_g on rigid ground [g]"),
         (json!({}), json!({ "SLV.ag": "much" }), "SLV.ag", "expected a number"),
-        (json!({}), json!({ "SLV.F0": "2" }), "SLV.F0", "is below 2.2"),
+        (json!({}), json!({ "SLV.F0": "2" }), "SLV.F0", "must be at least 2.2"),
         (json!({ "a1": "0.6" }), json!({ "SLV.F0": "24" }), "check", "F0 = 24 is unusual"),
         (json!({}), undamped, "SLV.building_damping", "state building_damping"),
         (json!({}), json!({ "confidence_factor": "1.2" }), "confidence_factor", "FC of LC1"),
-        (rigid, json!({}), "before_activation", "no elastic branch"),
+        (rigid, json!({}), "before_activation", "with an elastic branch, not rigid_linear"),
         (loaded, json!({ "overburden_mass": "" }), "overburden_mass", "is missing"),
         (json!({}), json!({ "SLV.ag": "", "SLV.F0": null, "SLV.TC": null }), "SLV.ag", "needs its site"),
         (json!({ "a1": "0.6" }), json!({}), "check", "the elastic branch ends at d_y"),

@@ -97,7 +97,7 @@ impl<'a> Classes<'a> {
             plot.line(&line, "fit", looks[model].0);
         }
         let axis = self.manifest.contents.axis();
-        let svg = plot.svg(&format!("class{}", self.plots.len()), [&axis, "probability"]);
+        let svg = plot.svg([&axis, "probability"]);
         // writing to a String cannot fail
         let _ = write!(
             self.plots,

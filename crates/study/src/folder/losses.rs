@@ -143,8 +143,7 @@ impl<'a> Losses<'a> {
             plot.line(&line, "fit", looks[model].0);
         }
         let axis = self.manifest.contents.axis();
-        let number = self.plots.iter().map(Vec::len).sum::<usize>();
-        let svg = plot.svg(&format!("loss{number}"), [&axis, "mean loss ratio"]);
+        let svg = plot.svg([&axis, "mean loss ratio"]);
         self.plots[usize::from(!is_class)].push((name.to_owned(), svg));
     }
 

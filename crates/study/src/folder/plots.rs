@@ -51,7 +51,7 @@ pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
 
 /// Draws the observations, as steps or as marks at the levels of stripes, and the fit of each model.
 pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
-    let Shown { manifest, wall, results } = shown;
+    let Shown { manifest, results, .. } = shown;
     let unit = manifest.contents.unit;
     let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
     for (StateResults { summary, sample, .. }, (color, mark)) in
@@ -84,7 +84,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
             }
         }
     }
-    plot.svg(&format!("f{wall}-{place}"), [&manifest.contents.axis(), "probability"])
+    plot.svg([&manifest.contents.axis(), "probability"])
 }
 
 /// Draws the collapse fragility of a wall for a file, with the wall's name.
@@ -97,7 +97,7 @@ pub(crate) fn panel(manifest: &Manifest, wall: usize, results: &WallResults) -> 
 
 /// Draws the runs of one model, intensity over demand: a curve for each record, or the points of stripes.
 pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
-    let Shown { manifest, wall, results } = shown;
+    let Shown { manifest, results, .. } = shown;
     let (all, unit) = (results.curves(model), manifest.contents.unit);
     let (color, _) = looks(manifest)[model];
     let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
@@ -121,7 +121,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
             plot.line(points, class, color);
         }
     }
-    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &manifest.contents.axis()])
+    plot.svg(["u_max / u_ins", &manifest.contents.axis()])
 }
 
 /// Returns the points of a curve up to its collapse, where it becomes flat.

@@ -67,7 +67,7 @@ impl Population {
                 html,
                 "<figure><figcaption>Medians of u<sub>max</sub>/u<sub>ins</sub> {}</figcaption>{}</figure>",
                 if *fraction < 1.0 { format!("&gt; {fraction}") } else { "≥ 1: collapse".to_owned() },
-                distribution(manifest, &medians, &format!("m{place}"), &measure)
+                distribution(manifest, &medians, &measure)
             );
         }
         let dispersions: Vec<_> =
@@ -76,7 +76,7 @@ impl Population {
             html,
             "<figure><figcaption>Dispersions β at {}</figcaption>{}</figure></div></section>\n{}",
             manifest.report.fractions[self.last],
-            distribution(manifest, &dispersions, "beta", "β"),
+            distribution(manifest, &dispersions, "β"),
             self.tables(manifest)
         );
         html
@@ -147,7 +147,7 @@ fn sorted(values: &[f64], convert: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// Draws sorted values of each model as distributions.
-fn distribution(manifest: &Manifest, values: &[Vec<f64>], id: &str, label: &str) -> String {
+fn distribution(manifest: &Manifest, values: &[Vec<f64>], label: &str) -> String {
     let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
     let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
     let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
@@ -161,5 +161,5 @@ fn distribution(manifest: &Manifest, values: &[Vec<f64>], id: &str, label: &str)
         let marked = points.iter().filter(|point| [0.16, 0.5, 0.84].contains(&point[1])).copied();
         plot.marks(&marked.collect::<Vec<_>>(), mark, color);
     }
-    plot.svg(id, [label, "fraction of the walls"])
+    plot.svg([label, "fraction of the walls"])
 }

@@ -144,9 +144,8 @@ impl<'a> Rates<'a> {
             plot.line(&line, "fit", looks[model].0);
             plot.marks(&line, looks[model].1, looks[model].0);
         }
-        let id = format!("rate{}", self.plots.len());
         let axis = self.manifest.contents.axis();
-        self.plots.push((name.to_owned(), plot.svg(&id, [&axis, "share of the rate up to there"])));
+        self.plots.push((name.to_owned(), plot.svg([&axis, "share of the rate up to there"])));
     }
 
     /// Says how many rates may lie beyond the hazard curve for a good part.

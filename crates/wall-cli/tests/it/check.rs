@@ -86,18 +86,18 @@ fn a_check_refuses_what_it_cannot_use() {
         of_fractions(&folder, "spectrum = \"spectrum.csv\"\nunit = \"g\"");
         refused(&folder, &["check", "scene.toml"], words);
     };
-    refuses("T,Sa\n0.1,1\n2,0.5\n", &["scene.toml, line 3", "no T = 0"]);
-    let rise = "line 3: expected periods that rise: a finite one above T = 1 s, found T = 0.5 s";
+    refuses("T,Sa\n0.1,1\n2,0.5\n", &["scene.toml, line 3", "T from 0 on", "T = 0.1 s"]);
+    let rise = "expected T from 0 on that rises, and Sa above 0; found T = 0.5 s and Sa = ";
     refuses("0,1\n1,0.5\n0.5,0.3\n", &[rise]);
-    refuses("0,1\n1,-0.5\n", &["line 2: expected a finite Sa above 0, found Sa = -"]);
+    refuses("0,1\n1,-0.5\n", &["found T = 1 s and Sa = -4.9", "line 2"]);
     refuses("0,1\n1,0.5\n", &["has no T = 1.4"]);
     refuses("0,1.0\n1\n", &["line 2: expected 2 values"]);
     for (more, words) in [
-        ("", "there is no demand"),
+        ("", "the demand is spectrum"),
         ("spectrum = [[0, 1], [4, 1]]", "unit is missing"),
         ("spectrum = [[0, 1], [4, 1]]\nunit = \"g\"\nsecant_fraction = 2", "above 0 and at most 1"),
         ("records = { synthetic = { count = 1 } }\nunit = \"g\"", "records.unit"),
-        ("spectrum = \"s.csv\"\nrecords = { synthetic = { count = 1 } }", "leave one out"),
+        ("spectrum = \"s.csv\"\nrecords = { synthetic = { count = 1 } }", "give one of both"),
     ] {
         of_fractions(&folder, more);
         refused(&folder, &["check", "scene.toml"], &["scene.toml, line", words]);
@@ -337,7 +337,7 @@ fn the_smallest_wall_that_passes_is_found() {
         let chart = content(&folder, "find.svg");
         assert!(chart.contains(">ζ<tspan") && chart.contains(&format!("{sought} (")), "{sought}");
     }
-    let words = ["tie_strength is sought, but the wall has no tie"];
+    let words = ["tie_strength is sought, but the wall has no such tie"];
     refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);
     fails(&folder, &[&arguments[..], &["--find", "width"]].concat(), &["expected thickness, height"]);
 }

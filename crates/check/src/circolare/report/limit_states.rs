@@ -7,12 +7,10 @@ use crate::circolare::{
 };
 use rocking_wall::wall::Parameters;
 
+use super::calculation;
 use super::spectrum::gives;
 use crate::circolare::warnings::LONGEST_PERIOD;
-use crate::report::markup::{Calculation, formula, kilonewtons, millimetres, result, shown as n, side_head};
-
-/// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
-const BEYOND: f64 = 1.1;
+use crate::report::markup::{Calculation, formula, result, shown as n, side_head};
 
 /// The sections of all checks that are made.
 pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
@@ -34,17 +32,15 @@ fn one(case: &Checked<'_>, check: Deciding) -> String {
         return String::new();
     };
     let xi = case.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
-    let activated = |side, check, q| activation((case, side), (given, demand, xi), check, q);
     let mut text = String::new();
-    for (name, _, side) in case.sides() {
-        let displaced =
-            || side.displacement(given.state).map(|found| displacement((case, side), (given, demand), found));
+    for (name, of, side) in case.sides() {
+        let lines = || calculation(case, of, side);
+        let activated = |check, q| activation(lines(), side, (given, demand, xi), (check, q));
+        let displaced = |check| displacement(case, lines(), side, (given, demand), check);
         let calculation = match check {
-            Deciding::Sld => side.sld.map(|found| activated(side, found, 1.0)),
-            Deciding::SlvWithQ => {
-                side.slv_q.map(|found| activated(side, found, case.statement.behaviour_factor))
-            }
-            Deciding::Slv | Deciding::Slc => displaced(),
+            Deciding::Sld => side.sld.map(|check| activated(check, 1.0)),
+            Deciding::SlvWithQ => side.slv_q.map(|check| activated(check, case.statement.behaviour_factor)),
+            Deciding::Slv | Deciding::Slc => side.displacement(given.state).map(displaced),
         };
         let Some(calculation) = calculation else { continue };
         let head = if case.outcome.alike { String::new() } else { side_head(name) };
@@ -55,54 +51,44 @@ fn one(case: &Checked<'_>, check: Deciding) -> String {
 
 /// A check of accelerations, with a factor q.
 fn activation(
-    (case, side): (&Checked<'_>, &SideVerdict),
+    mut lines: Calculation,
+    side: &SideVerdict,
     (given, demand, xi): (&StateStatement, &Demand, f64),
-    check: ActivationCheck,
-    q: f64,
+    (check, q): (ActivationCheck, f64),
 ) -> String {
     let held = check.t0 == 0.0;
-    let mut lines = Calculation::default();
     own_hinge(&mut lines, side, check.hinge);
-    let factor = n(case.statement.confidence_factor);
     let is_tied = side.activation.force > 0.0;
-    let (symbol, source) = match (is_tied, held) {
-        (true, true) => ("a", "[C8.7.1.8]"),
-        (true, false) => ("a", "[C8.7.1.9]"),
-        (false, true) => ("a_0", "[C8.7.1.8]"),
-        (false, false) => ("a_y", "[C8.7.1.9]"),
+    let symbol = match (is_tied, held) {
+        (true, _) => "a",
+        (false, true) => "a_0",
+        (false, false) => "a_y",
     };
+    let source = if held { "[C8.7.1.8]" } else { "[C8.7.1.9]" };
     let words = if is_tied { "Capacity with the tie at its strength, with FC" } else { "Capacity, with FC" };
-    let value = n(check.acceleration);
-    let (left, put) = if q == 1.0 {
-        (format!("{symbol}/FC"), format!("{value}/{factor}"))
-    } else {
-        (format!("q {symbol}/FC"), format!("{} · {value}/{factor}", n(q)))
-    };
-    lines.line([words, source], [&left, &put], (check.capacity, "m/s²"));
-    let [at_left, at_put] = super::spectrum::of(demand, ("T0", check.t0), xi);
+    lines.know(&[(symbol, check.acceleration)]);
+    let formula_of = if q == 1.0 { format!("{symbol}/FC") } else { format!("q {symbol}/FC") };
+    lines.line([words, source], &formula_of, (check.capacity, "m/s²"));
     let at_t0 =
-        || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(check.t0), formula("ξ"), n(100.0 * xi));
-    let (words, source, left, put) = match demand {
-        Demand::Ground(ground) if held => {
-            let put = format!("{} · {}", n(ground.a_g), n(ground.s));
-            ("Demand".to_owned(), "[3.2.2], T = 0", "a_g S", put)
+        format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(check.t0), formula("ξ"), n(100.0 * xi));
+    let of_t0 = super::spectrum::of(&mut lines, demand, ("T0", check.t0), xi);
+    let (words, source, formula_of) = match demand {
+        Demand::Ground(_) if held => ("Demand", "[3.2.2], T = 0", "a_g S"),
+        Demand::Ground(_) => (&*at_t0, "[3.2.2]", &*of_t0),
+        Demand::Floor(floor) if floor.ground_governs(check.t0, xi) && held => {
+            ("Demand: the ground governs, above the a_Z of the height", "[3.2.2]", "a_g S")
         }
-        Demand::Ground(_) => (at_t0(), "[3.2.2]", &*at_left, at_put),
         Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
-            let ground = floor.ground();
-            let put = format!("{} · {}", n(ground.a_g), n(ground.s));
-            let of_height = if held { "a_Z" } else { "S_eZ" };
-            let words = format!("Demand: the ground governs, above the {of_height} of the height");
-            (words, "[3.2.2]", "a_g S", put)
+            ("Demand: the ground governs, above the S_eZ of the height", "[3.2.2]", "a_g S")
         }
-        Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),
-        Demand::Floor(_) => (at_t0(), "[C7.2.6]", &*at_left, at_put),
-        Demand::Points(..) => (at_t0(), "the spectrum given", "S_e(T0, ξ)", String::new()),
-        Demand::Records(_) => (at_t0(), "the records", "S_e(T0, ξ)", String::new()),
+        Demand::Floor(_) if held => ("Demand", "[C7.2.8]", "a_Z"),
+        Demand::Floor(_) => (&*at_t0, "[C7.2.6]", &*of_t0),
+        Demand::Points(..) => (&*at_t0, "the spectrum given", "S_e(T0, ξ)"),
+        Demand::Records(_) => (&*at_t0, "the records", "S_e(T0, ξ)"),
     };
-    lines.line([&words, source], [left, &put], (check.demand, "m/s²"));
+    lines.line([words, source], formula_of, (check.demand, "m/s²"));
     let put = format!("{}/{}", n(check.capacity), n(check.demand));
-    lines.line(["Safety index", "NTC 8.3"], ["ζ_E", &put], (check.ratio, ""));
+    lines.line_of(["Safety index", "NTC 8.3"], ["ζ_E", &put], (check.ratio, ""));
     end(&mut lines, given, check.ratio, check.ag);
     lines.table()
 }
@@ -110,48 +96,46 @@ fn activation(
 /// Says where the hinge of a check is that is not that of its side: its numbers are of that hinge.
 fn own_hinge(lines: &mut Calculation, side: &SideVerdict, hinge: Option<f64>) {
     if let Some(hinge) = hinge.filter(|_| hinge != side.hinge) {
-        lines.line(["Hinge of this check, with its own curve", ""], ["h_1/h", ""], (hinge, ""));
+        lines.line_of(["Hinge of this check, with its own curve", ""], ["h_1/h", ""], (hinge, ""));
     }
 }
 
 /// The last lines of a check: `a_g` and the result.
 fn end(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
-    let put = format!("{} · {}", n(zeta), n(given.ag));
-    lines.line(["Acceleration that it bears", ""], ["a_g,cap = ζ_E a_g", &put], (ag, "g"));
+    lines.know(&[("ζ_E", zeta), ("a_g", given.ag)]);
+    lines.line(["Acceleration that it bears", ""], "a_g,cap = ζ_E a_g", (ag, "g"));
     lines.say("Result", result(zeta >= 1.0));
 }
 
 /// A check of displacements.
 fn displacement(
-    (case, side): (&Checked<'_>, &SideVerdict),
+    case: &Checked<'_>,
+    mut lines: Calculation,
+    side: &SideVerdict,
     (given, demand): (&StateStatement, &Demand),
     check: DisplacementCheck,
 ) -> String {
-    let mut lines = Calculation::default();
     own_hinge(&mut lines, side, check.hinge);
     let state = given.state;
     let source = if state == LimitState::Slc { "[C8.7.1.11]" } else { "[C8.7.1.10]" };
     let Displacements { fraction: share, period_factor: factor } = case.statement.rules(state);
-    let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
     let of_curve = share * check.d0;
-    let of_u = |u: &str| {
-        let put = format!("{} · {}", n(side.d_per_u), millimetres(check.d / side.d_per_u));
-        (format!("{d} = (d/u) {u}"), put)
-    };
-    let (words, (left, put)) = if check.limited_by_tie {
-        ("Capacity, where the tie breaks", of_u("u_r"))
+    let u = 1e3 * check.d / side.d_per_u;
+    lines.know(&[("d", 1e3 * check.d), ("u_r", u), ("u", u), ("d_0", 1e3 * check.d0)]);
+    let (words, capacity) = if check.limited_by_tie {
+        ("Capacity, where the tie breaks", "(d/u) u_r".to_owned())
     } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
-        ("Capacity, at the local instability stated", of_u("u"))
+        ("Capacity, at the local instability stated", "(d/u) u".to_owned())
     } else {
-        ("Capacity", (format!("{d} = {share:.2} d_0"), format!("{share:.2} · {}", millimetres(check.d0))))
+        ("Capacity", format!("{share:.2} d_0"))
     };
-    lines.line([words, "C8.7.1.2.1.6"], [&left, &put], (1e3 * check.d, "mm"));
-    let [of_curve, put] = on_curve(case, side.at(check.hinge), &check);
-    let left = format!("{a}{of_curve}");
-    lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&left, &put], (check.a, "m/s²"));
-    let put = format!("{factor} π √({} · 10⁻³/{})", millimetres(check.d), n(check.a));
-    let left = format!("{t} = {factor} π √({d}/a)");
-    lines.line(["Period", source], [&left, &put], (check.period, "s"));
+    lines.line([words, "C8.7.1.2.1.6"], &format!("d_{state} = {capacity}"), (1e3 * check.d, "mm"));
+    let of_curve = on_curve(case, &mut lines, side.at(check.hinge), &check);
+    let words = ["The curve there, with FC", "[C8.7.1.3]"];
+    lines.line(words, &format!("a(d_{state}){of_curve}"), (check.a, "m/s²"));
+    lines.know(&[("a", check.a)]);
+    let formula_of = format!("T_{state} = {factor} π √(d_{state} {{10⁻³}}/a)");
+    lines.line(["Period", source], &formula_of, (check.period, "s"));
     if check.period > LONGEST_PERIOD && matches!(demand, Demand::Ground(_) | Demand::Floor(_)) {
         lines.say(
             "Range of the spectra <small>NTC 3.2.3.2</small>",
@@ -159,50 +143,48 @@ fn displacement(
         );
     }
     demanded(&mut lines, given, demand, &check);
-    let put = format!("{}/{}", millimetres(check.d), millimetres(check.demand));
-    lines.line(["Capacity over demand", ""], [&format!("{d}/S_d"), &put], (check.ratio, ""));
+    lines.know(&[("S_d", 1e3 * check.demand)]);
+    lines.line(["Capacity over demand", ""], &format!("d_{state}/S_d"), (check.ratio, ""));
     if check.raised {
-        let left = format!("ζ_E = a_g,SLD/a_g,{state}");
-        let put = format!("{}/{}", n(check.ag), n(given.ag));
+        lines.know(&[("a_g,SLD", check.ag), (&format!("a_g,{state}"), given.ag)]);
         let words = format!("The acceleration of activation at SLD is larger than {} g and replaces it", {
             n(check.ratio * given.ag)
         });
-        lines.line([&words, "C8.7.1.2.1.8"], [&left, &put], (check.zeta, ""));
+        lines.line([&words, "C8.7.1.2.1.8"], &format!("ζ_E = a_g,SLD/a_g,{state}"), (check.zeta, ""));
     } else {
-        lines.line(["Safety index", "NTC 8.3"], [&format!("ζ_E = {d}/S_d"), ""], (check.zeta, ""));
+        lines.line_of(["Safety index", "NTC 8.3"], [&format!("ζ_E = d_{state}/S_d"), ""], (check.zeta, ""));
     }
     end(&mut lines, given, check.zeta, check.ag);
     lines.table()
 }
 
-/// a(d) of the line of the wall with the force of its tie: the formula behind `a(d)`, and the numbers put in;
-/// empty where a law of another form has the curve.
-fn on_curve(case: &Checked<'_>, side: &SideVerdict, check: &DisplacementCheck) -> [String; 2] {
-    let (factor, d) = (case.statement.confidence_factor, check.d);
-    let own = side.a0 * (1.0 - d / side.d0);
-    let [a_0, d_of, d_0, fc] = [n(side.a0), millimetres(d), millimetres(side.d0), n(factor)];
-    let line = format!("{a_0} · (1 − {d_of}/{d_0})");
+/// The formula behind `a(d)` of the line of the wall with the force of its tie; empty where a law of another
+/// form has the curve.
+fn on_curve(
+    case: &Checked<'_>,
+    lines: &mut Calculation,
+    side: &SideVerdict,
+    check: &DisplacementCheck,
+) -> &'static str {
+    let factor = case.statement.confidence_factor;
+    let own = side.a0 * (1.0 - check.d / side.d0);
+    lines.know(&[("a_0", side.a0), ("d_0", 1e3 * side.d0)]);
     if gives(own / factor, check.a) {
-        return [" = a_0 (1 − d/d_0)/FC".to_owned(), format!("{line}/{fc}")];
+        return " = a_0 (1 − d/d_0)/FC";
     }
-    let Some(tie) = check.tie else { return [const { String::new() }; 2] };
     let Parameters { tie_height, height, gravity, .. } = case.parameters;
-    let lever = 2.0 * tie_height / height;
-    let pull = lever * tie.force * gravity / side.pushed_weight;
-    if !gives((own + pull) / factor, check.a) {
-        return [const { String::new() }; 2];
-    }
-    let [y, h, g] = [tie_height, height, gravity].map(n);
-    let (force, pushed) = (kilonewtons(tie.force), kilonewtons(side.pushed_weight));
-    let put = format!("[{line} + 2 · {y}/{h} · {force} · {g}/{pushed}]/{fc}");
-    [" = [a_0 (1 − d/d_0) + (2 y/h) N g/((W + 2 r O) e*)]/FC".to_owned(), put]
+    let force = check.tie.map_or(0.0, |tie| tie.force);
+    let pull = 2.0 * tie_height / height * force * gravity / side.pushed_weight;
+    lines.know(&[("N", 1e-3 * force)]);
+    let is_tied = gives((own + pull) / factor, check.a);
+    if is_tied { " = [a_0 (1 − d/d_0) + (2 y/h) N g/((W + 2 r O) e*)]/FC" } else { "" }
 }
 
 /// The demand of displacement: both terms where there are two.
 fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, check: &DisplacementCheck) {
     let t = format!("T_{}", given.state);
-    let (period, xi) = (n(check.period), n(100.0 * given.damping));
-    let words = format!("Spectrum at {} and {} = {xi} %", formula(&t), formula("ξ"));
+    let xi = given.damping;
+    let words = format!("Spectrum at {} and {} = {} %", formula(&t), formula("ξ"), n(100.0 * xi));
     let source = match demand {
         Demand::Ground(_) => "[3.2.2]",
         Demand::Floor(_) => "[C7.2.6]",
@@ -210,36 +192,34 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
         Demand::Records(records) if records.len() >= MEAN_COUNTS_FROM => "mean of the records",
         Demand::Records(_) => "envelope of the records",
     };
-    let [left, put] = super::spectrum::of(demand, (&t, check.period), given.damping);
-    lines.line([&words, source], [&left, &put], (check.acceleration, "m/s²"));
-    let put = format!("{} · {period}²/(4π²) · 10³", n(check.acceleration));
-    let (words, source, left, put) = match (demand, check.demand_terms) {
+    let formula_of = super::spectrum::of(lines, demand, (&t, check.period), xi);
+    lines.line([&words, source], &formula_of, (check.acceleration, "m/s²"));
+    let symbol = if demand.floor().is_some() { "S_eZ" } else { "S_e" };
+    let at_period = format!("{symbol}({t})");
+    let first_term = format!("{at_period} {t}²/(4π²) {{10³}}");
+    lines.know(&[(&at_period, check.acceleration)]);
+    let (words, source, formula_of) = match (demand, check.demand_terms) {
         (Demand::Points(..) | Demand::Records(_), _) => {
             let words = format!("Demand: the largest from {} to {}", formula("T0"), formula(&t));
-            (words, "C8.7.1.2.1.8", "S_d = max S_e T²/(4π²)".to_owned(), String::new())
+            (words, "C8.7.1.2.1.8", "S_d = max S_e T²/(4π²)".to_owned())
         }
         (Demand::Floor(floor), [Some(first), Some(second)]) => {
-            let left = format!("S_eZ({t}) {t}²/(4π²)");
-            lines.line(["Demand, first term", "[C8.7.1.12]"], [&left, &put], (1e3 * first, "mm"));
+            lines.line(["Demand, first term", "[C8.7.1.12]"], &first_term, (1e3 * first, "mm"));
             let t1 = floor.first_period();
-            let at_first = floor.acceleration(t1, given.damping);
-            let [left, of_first] = super::spectrum::of(demand, ("T_1", t1), given.damping);
-            lines.line(["Spectrum at T_1", "[C7.2.6]"], [&left, &of_first], (at_first, "m/s²"));
-            let put = format!("{} · {BEYOND}² · {}²/(4π²) · 10³", n(at_first), n(t1));
-            let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
-            lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (1e3 * second, "mm"));
-            ("Demand, the larger".to_owned(), "", "S_d".to_owned(), String::new())
+            let at_first = floor.acceleration(t1, xi);
+            let formula_of = super::spectrum::of(lines, demand, ("T_1", t1), xi);
+            lines.line(["Spectrum at T_1", "[C7.2.6]"], &formula_of, (at_first, "m/s²"));
+            lines.know(&[("S_eZ(T_1)", at_first)]);
+            let formula_of = "S_eZ(T_1) (1.1 T_1)²/(4π²) {10³}";
+            lines.line(["Demand, second term", "[C8.7.1.12]"], formula_of, (1e3 * second, "mm"));
+            ("Demand, the larger".to_owned(), "", "S_d".to_owned())
         }
-        (Demand::Floor(_), _) => {
-            ("Demand".to_owned(), "[C8.7.1.12]", format!("S_d = S_eZ({t}) {t}²/(4π²)"), put)
-        }
+        (Demand::Floor(_), _) => ("Demand".to_owned(), "[C8.7.1.12]", format!("S_d = {first_term}")),
         (Demand::Ground(ground), _) if check.period > ground.t_e => {
             let words = format!("Demand, beyond {}", formula("T_E"));
-            (words, "[3.2.11], [3.2.12]", format!("S_d = S_De({t}, ξ)"), String::new())
+            (words, "[3.2.11], [3.2.12]", format!("S_d = S_De({t}, ξ)"))
         }
-        (Demand::Ground(_), _) => {
-            ("Demand".to_owned(), "[3.2.10]", format!("S_d = S_e({t}) {t}²/(4π²)"), put)
-        }
+        (Demand::Ground(_), _) => ("Demand".to_owned(), "[3.2.10]", format!("S_d = {first_term}")),
     };
-    lines.line([&words, source], [&left, &put], (1e3 * check.demand, "mm"));
+    lines.line([&words, source], &formula_of, (1e3 * check.demand, "mm"));
 }

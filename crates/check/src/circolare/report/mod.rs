@@ -12,11 +12,14 @@ mod spectrum;
 pub(super) mod symbols;
 mod ties;
 
+use rocking_wall::variables::EccentricityMode;
+use rocking_wall::wall::{Body, Parameters, Statics};
+
 use super::side_verdict::SideVerdict;
 use super::table::{Activation, Hinge};
 use super::verdict::{Checked, Side};
 use crate::error::CheckError;
-use crate::report::markup::side_head;
+use crate::report::markup::{Calculation, side_head};
 use crate::report::{Origin, the_wall};
 
 /// What is to be said of each side, under its name where they differ; nothing of one is left out.
@@ -30,6 +33,73 @@ fn by_side(case: &Checked<'_>, say: impl Fn(Side, &SideVerdict) -> String) -> St
         text += &own;
     }
     text
+}
+
+/// A calculation that knows the wall, and the numbers of a side with its hinge: forces in kN, displacements in
+/// mm.
+fn calculation(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> Calculation {
+    let (parameters, body) = (&case.parameters, body_of(case, verdict));
+    let (w, o, h1) = (1e-3 * body.weight, 1e-3 * body.overburden, body.hinge_height);
+    let pushed = 1e-3 * verdict.pushed_weight;
+    let above = w * (1.0 - h1 / body.height) + o;
+    let mut lines = Calculation::default();
+    lines.know(&[
+        ("ρ", parameters.density),
+        ("g", parameters.gravity),
+        ("h", body.height),
+        ("b", parameters.thickness),
+        ("l", parameters.width),
+        ("h_1", h1),
+        ("h_2", body.height - h1),
+        ("r", case.statement.table.overburden_mass.unwrap_or(0.0)),
+        ("c", eccentricity(case, side)),
+        ("W", w),
+        ("O", o),
+        ("(W + O)", w + o),
+        ("(W_2 + O)", above),
+        ("(W + 2 r O)", pushed),
+        ("((W + 2 r O) e*)", pushed),
+        ("[(W + 2 r O) e*]", pushed),
+        ("(W + 2 r O) e*", pushed),
+        ("F0", 1e-3 * body.strength.of(side.sign())),
+        ("F_act", 1e-3 * verdict.acting_force),
+        ("e*", verdict.e_star),
+        ("α0", verdict.alpha0),
+        ("a_0", verdict.a0),
+        ("a_y", verdict.ay),
+        ("d_y", 1e3 * verdict.dy),
+        ("(d/u)", verdict.d_per_u),
+        ("d_0", 1e3 * verdict.d0),
+        ("u_0", 1e3 * verdict.d0 / verdict.d_per_u),
+        ("k_0", 1e-3 * verdict.acting_force * verdict.d_per_u / verdict.d0),
+        ("T0", verdict.t0),
+        ("h_1/h", verdict.hinge.unwrap_or(f64::NAN)),
+        ("t_b", 1e3 * verdict.set_back.base),
+        ("t_m", 1e3 * verdict.set_back.middle),
+        ("t_t", 1e3 * verdict.set_back.top),
+        ("FC", case.statement.confidence_factor),
+        ("q", case.statement.behaviour_factor),
+        ("K", 1e-3 * parameters.tie_stiffness),
+        ("N_y", 1e-3 * parameters.tie_strength),
+        ("g_0", 1e3 * parameters.tie_slack),
+        ("e_p", 1e3 * parameters.tie_ultimate),
+        ("y", parameters.tie_height),
+    ]);
+    lines
+}
+
+/// The eccentricity of the overburden, positive towards the side that it loads least \[m\].
+fn eccentricity(case: &Checked<'_>, side: Side) -> f64 {
+    let Parameters { eccentricity_mode, overburden_eccentricity, .. } = case.parameters;
+    let follows = eccentricity_mode == EccentricityMode::FollowsPivot;
+    if follows { overburden_eccentricity } else { side.sign() * overburden_eccentricity + 0.0 }
+}
+
+/// The body of the wall, with the hinge of a strip where the side has it.
+fn body_of(case: &Checked<'_>, side: &SideVerdict) -> Body {
+    let hinge_ratio = side.hinge.unwrap_or(case.parameters.hinge_ratio);
+    let parameters = Parameters { hinge_ratio, ..case.parameters.clone() };
+    Statics::new(&parameters).map_or_else(|_| case.wall.body().clone(), |statics| statics.body().clone())
 }
 
 /// The groups of parameters that the static check uses, and those that only runs use.

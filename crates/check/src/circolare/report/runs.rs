@@ -3,6 +3,8 @@
 use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM, Side};
 use ::report::escaped;
 
+use super::spectrum::gives;
+
 use crate::report::markup::{Calculation, formula, millimetres, result, shown, table};
 use crate::report::project::as_written;
 
@@ -48,26 +50,22 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     }
     let few = case.statement.records.named.len() < MEAN_COUNTS_FROM;
     let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };
-    lines.line([words, "NTC 7.3.5"], ["d", ""], (1e3 * judged.d, "mm"));
+    lines.line([words, "NTC 7.3.5"], "d", (1e3 * judged.d, "mm"));
     // with sides of different thresholds the ratio is no quotient of these numbers
-    let put = match thresholds[..] {
-        [threshold] if (threshold / judged.d - judged.ratio).abs() < 1e-9 * judged.ratio => {
-            format!("{}/{}", millimetres(threshold), millimetres(judged.d))
-        }
-        _ => String::new(),
-    };
-    lines.line(
-        ["Threshold over it, each side by its own", ""],
-        [&format!("d_{name}/d"), &put],
-        (judged.ratio, ""),
-    );
+    if let [threshold] = thresholds[..]
+        && gives(threshold / judged.d, judged.ratio)
+    {
+        lines.know(&[(&format!("d_{name}"), 1e3 * threshold), ("d", 1e3 * judged.d)]);
+    }
+    let words = ["Threshold over it, each side by its own", ""];
+    lines.line(words, &format!("d_{name}/d"), (judged.ratio, ""));
     for (words, count) in [
         ("Runs beyond the zero of the curve", judged.beyond_d0),
         ("Runs at the strength of the tie", judged.at_strength),
     ] {
         lines.say(words, &format!("<b>{count}</b>/{}", state.runs.len()));
     }
-    lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
+    lines.line(["Lowest factor on all records that fails", "NTC 8.3"], "ζ_E", (state.zeta, ""));
     lines.say("Result", result(judged.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
     let factor = if case.statement.table.record_scale == crate::circolare::RecordScale::Ag {

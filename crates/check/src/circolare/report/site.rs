@@ -108,14 +108,13 @@ pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
 
 /// Soil and topography.
 fn ground_of(case: &Checked<'_>) -> String {
-    let CheckTable { soil, topography, .. } = &case.statement.table;
-    let Some(soil) = soil else { return String::new() };
+    let CheckTable { soil: Some(soil), topography, .. } = &case.statement.table else { return String::new() };
     let topography = match topography {
         None => "T1 (default)".to_owned(),
-        Some(Topography::Category(name)) => name.clone(),
+        Some(Topography::Category(category)) => format!("{category:?}"),
         Some(Topography::Factor(factor)) => shown(*factor),
     };
-    format!("<p>{}.</p>\n", ::report::escaped(&format!("Soil {soil}, topography {topography}")))
+    format!("<p>Soil {soil:?}, topography {topography}.</p>\n")
 }
 
 /// Describes where the wall stands.
