@@ -60,6 +60,16 @@ pub struct WallClass {
     pub weights: Vec<f64>,
 }
 
+impl ReportOptions {
+    /// Returns the places of the limit states from the first to be exceeded to the last, each once.
+    pub(crate) fn rising(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..self.fractions.len()).collect();
+        places.sort_by(|&a, &b| self.fractions[a].total_cmp(&self.fractions[b]));
+        places.dedup_by_key(|place| self.fractions[*place]);
+        places
+    }
+}
+
 tables! {
     /// What the results show.
     #[derive(Debug)]

@@ -158,9 +158,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     let every = runs.div_ceil(MOST_POINTS).max(1);
     let contents = &manifest.contents;
     let note = &contents.walls[wall];
-    let last = (0..manifest.report.fractions.len())
-        .max_by(|a, b| manifest.report.fractions[*a].total_cmp(&manifest.report.fractions[*b]));
-    let top_of_collapses = last.map_or(1.0, |place| top(shown, place));
+    let top_of_collapses = manifest.report.rising().pop().map_or(1.0, |last| top(shown, last));
     let mut html = format!(
         "<section><h2>Wall {}</h2><p class=\"subtitle\">{}; e = {:.3}</p><div class=\"row pair\">",
         escaped(&note.name),

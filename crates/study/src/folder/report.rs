@@ -26,6 +26,19 @@ use super::store::{Folder, PAGE};
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
+/// The page, which is there only where all other files are complete, and the files that follow from options
+/// of a report.
+const OPTIONAL: [&str; 9] = [
+    PAGE,
+    "rates.csv",
+    "rate_shares.csv",
+    "losses.csv",
+    "vulnerability.csv",
+    "vulnerability.xml",
+    "samples.csv",
+    "sensitivity.csv",
+    "fragilities.svg",
+];
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 
@@ -48,7 +61,8 @@ pub struct Report {
 pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result<Report, FolderError> {
     let runs = survey(folder)?;
     folder.sweep();
-    file::remove(&folder.path().join(PAGE))?;
+    // an earlier report may have had what this one lacks
+    OPTIONAL.iter().try_for_each(|name| file::remove(&folder.path().join(name)))?;
     let (fitting, mut output) = (folder.manifest().fitting(), Output::new(folder, runs)?);
     let fitted = |_, curves: &[Curve]| {
         let results = fitting.results(curves.to_vec());
@@ -113,7 +127,7 @@ impl<'a> Output<'a> {
             tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
             names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
-            sampled: Sampled::new(folder.path(), folder.manifest())?,
+            sampled: Sampled::new(folder.manifest()),
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
@@ -210,11 +224,8 @@ impl<'a> Output<'a> {
         for (_, rows) in self.tables {
             files.push(rows.commit()?);
         }
-        let path = self.folder.path().join("fragilities.svg");
-        if self.panels.is_empty() {
-            // one that an earlier report has left
-            file::remove(&path)?;
-        } else {
+        if !self.panels.is_empty() {
+            let path = self.folder.path().join("fragilities.svg");
             let title = format!("{}: collapse fragilities", manifest.title);
             let sheet = legend::file(manifest, &title, &self.panels, SIZE);
             file::to_file(&path, sheet.as_bytes())?;
