@@ -39,7 +39,7 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
             Polarity::Both => "Each record is run as it is and reversed, as two records. ",
             Polarity::Worst => "At each level the sign of a record counts that demands more. ",
         },
-        if contents.collapse_is == Collapse::Falls.name() {
+        if contents.collapse_is == Collapse::Falls {
             "A wall has overturned if it ends beyond u<sub>ins</sub>; one that comes back has not"
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"

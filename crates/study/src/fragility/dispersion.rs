@@ -1,5 +1,6 @@
 //! Dispersions of the limit states of the same runs, and curves that do not cross.
 
+use rocking_wall::choices;
 use serde::{Deserialize, Serialize};
 
 use super::fit::{FitError, Lognormal, fit_from, fit_one};
@@ -18,11 +19,7 @@ pub enum Dispersion {
     Ordered,
 }
 
-impl Dispersion {
-    /// Every variant, with the words of study files.
-    pub const ALL: [(&str, Self); 3] =
-        [("own", Self::Own), ("common", Self::Common), ("ordered", Self::Ordered)];
-}
+choices!(Dispersion);
 
 /// What is fitted to the limit states of a wall.
 #[derive(Clone, Debug)]
