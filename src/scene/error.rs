@@ -86,7 +86,7 @@ impl<'a> Place<'a> {
     }
 
     /// Returns an error that names the file and a line of it.
-    pub(super) fn error_on(&self, line: usize, message: impl Into<String>) -> SceneError {
+    pub fn error_on(&self, line: usize, message: impl Into<String>) -> SceneError {
         let key = self.text.lines().nth(line - 1).and_then(|text| text.split_once('='));
         let key = key.map(|(key, _)| key.trim().to_owned());
         SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }

@@ -78,15 +78,9 @@ impl HazardEntry {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let table =
-                    read(&text, measure, (to_si, has_unit), site).map_err(|error| match error.line {
-                        Some(line) => {
-                            SceneError::Line { file: name.clone(), line, key: None, message: error.message }
-                        }
-                        None => SceneError::File { file: name.clone(), reason: error.message },
-                    })?;
+                let (curve, warnings) = read(&Place::new(&name, &text), measure, (to_si, has_unit), site)?;
                 inputs.push(path);
-                (table.curve, table.warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
+                (curve, warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
             }
         };
         Ok((Hazard { curve, years, target }, warnings))

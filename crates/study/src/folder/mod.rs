@@ -11,6 +11,7 @@
 //! | `error` | errors |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
+//! | `tables` | the rows of the tables of all studies |
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
 //! | `merge` | takes together the parts of several folders |
@@ -51,6 +52,7 @@ mod samples;
 mod shown;
 mod store;
 mod subject;
+pub(crate) mod tables;
 
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};

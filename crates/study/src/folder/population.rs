@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use crate::results::WallResults;
-use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
@@ -12,6 +11,7 @@ use run::sample::fractile;
 use super::contents::Manifest;
 use super::legend::looks;
 use super::plots::{POINTS, SIZE, marked_line};
+use super::tables::OF_INTENSITY;
 
 /// Fractiles that the tables list.
 const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];

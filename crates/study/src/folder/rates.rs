@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use crate::fragility::{CONFIDENCE, Interval};
 use crate::hazard::{Hazard, Rate, probability};
 use crate::ida::IntensityUnit;
-use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::table::{Column, Digits, Table};
 
@@ -16,6 +15,7 @@ use super::error::FolderError;
 use super::rows::Rows;
 use super::shown::Shown;
 use super::subject::{State, Subject};
+use super::tables::OF_INTENSITY;
 
 /// Part of the rates that may lie beyond the last point without a word.
 const MOST_BEYOND: f64 = 0.05;

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use crate::document::WallClass;
 use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Lognormal};
 use crate::results::WallResults;
-use crate::tables::OF_INTENSITY;
 
 use super::contents::Manifest;
 use super::error::FolderError;
@@ -19,6 +18,7 @@ use super::rates::Rates;
 use super::rows::Rows;
 use super::shown::Shown;
 use super::subject::{Fragilities, State, Subject};
+use super::tables::OF_INTENSITY;
 use report::table::{Cell, Digits, Table};
 use report::{counted, escaped};
 
@@ -133,14 +133,17 @@ impl<'a> Risk<'a> {
                 let members: Option<Vec<_>> = members.collect();
                 let shares = class.shares(walls.len());
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
-                told.extend(function.as_ref().map(|function| self.line(class, model, function)));
                 models.push(Fragilities::of_class(self.manifest, function, resamples));
             }
             let (name, parameters) = (&*class.name, "");
             self.write(&Subject { name, class: Some(walls.len()), parameters, models })?;
         }
+        let table = self.shown.table();
+        let mut section = self.section(&table);
+        if !table.rows.is_empty() {
+            told += &format!("curves of classes of walls, and the parts of their beta\n{}", table.text());
+        }
         told.push_str(&self.words());
-        let mut section = self.section();
         let mut paths = vec![self.table.commit()?];
         paths.extend(self.xml.map(Nrml::finish).transpose()?);
         paths.extend(self.pelicun.map(Pelicun::finish).transpose()?.into_iter().flatten());
@@ -277,8 +280,8 @@ impl<'a> Risk<'a> {
     }
 
     /// Returns the section of a page about the classes; empty without classes.
-    fn section(&mut self) -> String {
-        let (report, table) = (&self.manifest.report, self.shown.table());
+    fn section(&self, table: &Table) -> String {
+        let report = &self.manifest.report;
         if table.rows.is_empty() {
             return String::new();
         }
@@ -331,28 +334,6 @@ impl<'a> Risk<'a> {
             counted(without.len(), "wall"),
             if without.len() == 1 { "has" } else { "have" },
         )
-    }
-
-    /// Describes the result of a class.
-    fn line(&self, class: &WallClass, model: usize, function: &FragilityFunction) -> String {
-        let Manifest { contents, report, .. } = self.manifest;
-        let unit = contents.unit;
-        let state = |(k, place): (usize, usize)| {
-            let curve = function.states[k];
-            format!(
-                "{} {} to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
-                OF_INTENSITY.of(unit.of(curve.median)),
-                unit.name(),
-                report.fractions[place],
-                function.dispersion(k),
-                curve.beta_records,
-                curve.beta_walls,
-                function.beta_modelling
-            )
-        };
-        let states: Vec<_> = report.rising().into_iter().enumerate().map(state).collect();
-        let model = &contents.models[model].name;
-        format!("class {:?} with {model}: theta {}\n", class.name, states.join("; "))
     }
 }
 
