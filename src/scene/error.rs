@@ -82,7 +82,11 @@ impl<'a> Place<'a> {
 
     /// Returns an error that names the file and the line of a byte range.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
-        let line = self.line(span);
+        self.error_on(self.line(span), message)
+    }
+
+    /// Returns an error that names the file and a line of it.
+    pub fn error_on(&self, line: usize, message: impl Into<String>) -> SceneError {
         let key = self.text.lines().nth(line - 1).and_then(|text| text.split_once('='));
         let key = key.map(|(key, _)| key.trim().to_owned());
         SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }

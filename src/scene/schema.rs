@@ -231,7 +231,8 @@ describe! { |key, tables|
     @T Option<T>, true => T::describe(key, tables);
     @T Spanned<T> => T::describe(key, tables);
     @T Vec<T> => list(T::describe(key, tables));
-    @T [T; 2] => pair(T::describe(key, tables));
+    @T [T; 2] => several(2, T::describe(key, tables));
+    @T [T; 3] => several(3, T::describe(key, tables));
     Bar => bar();
     Group, true => object(parameters(key));
 }
@@ -249,8 +250,8 @@ fn list(items: Schema) -> Schema {
     with(one("type", "array"), "items", items)
 }
 
-fn pair(items: Schema) -> Schema {
-    with(with(list(items), "minItems", 2), "maxItems", 2)
+fn several(count: i64, items: Schema) -> Schema {
+    with(with(list(items), "minItems", count), "maxItems", count)
 }
 
 /// Describes the parameters of a group, and what only scenes know: kinematics, and a law of points.
@@ -270,7 +271,7 @@ pub fn parameters(group: &str) -> Schema {
     if let Some(laws) = laws {
         laws.push(MULTILINEAR.into());
         let text = "Corners [u/u_ins, F/F0] of a multilinear law after the origin.";
-        let points = with(list(pair(one("type", "number"))), "minItems", 2);
+        let points = with(list(several(2, one("type", "number"))), "minItems", 2);
         members.insert(POINTS.into(), with(points, "description", text).into());
     }
     members

@@ -13,7 +13,6 @@
 //! | [`document`] | study files |
 //! | [`loaded`] | studies read from files, with their scenes and records |
 //! | [`results`] | the curves and the fragilities of each wall of a study |
-//! | [`tables`] | the rows of a study's tables, for CSV and Python |
 //! | [`folder`] | a study in a folder: runs in parts, tables and a page |
 //! | [`reliability`] | how safe a wall is that just passes a check by a code |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
@@ -33,7 +32,6 @@ pub mod loaded;
 pub mod reliability;
 pub mod results;
 pub mod spectrum;
-pub mod tables;
 pub mod tie;
 pub mod uncertain;
 

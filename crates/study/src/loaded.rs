@@ -13,6 +13,7 @@ use run::walls::{Ignored, NamedWall, WallSource, assumed, check_unique, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
+use crate::uncertain::Uncertain;
 use report::counted;
 
 /// Largest study file that is read.
@@ -36,7 +37,7 @@ pub struct LoadedStudy {
     pub warnings: Vec<String>,
     /// Text of the study file.
     text: String,
-    /// Its walls where each of them stands for samples.
+    /// Its walls where each of them stands for samples; empty of other studies.
     sampled: Vec<NamedWall>,
     /// Probability of a fall for which the numbers of a code are sought \[-\].
     target: f64,
@@ -71,16 +72,13 @@ impl LoadedStudy {
             let found = found.into_iter().map(|wall| NamedWall { entry: place, ..wall });
             all.extend(found.map(|wall| if is_scene { wall.without_damping() } else { wall }));
         }
-        let walls = Walls::of(&name, &mut file, all, &mut warnings)?;
-        warn(&walls.told(), &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
         open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
-        let study = Self::assemble(&name, text, file, walls, records)?;
+        let study = Self::assemble(&name, text, file, (all, records), &ignored)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
-        warnings.extend(alike(&study.study));
-        Ok(Self { inputs, warnings, ..study })
+        Ok(Self { inputs, warnings: [study.warnings, warnings].concat(), ..study })
     }
 
     /// Makes a study of walls and records that no file names, and of the other keys of a study file.
@@ -96,11 +94,8 @@ impl LoadedStudy {
         let mut file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
-        let walls = Walls::of(name, &mut file, walls, &mut warnings)?;
-        warn(&walls.told(), &[], (&file.models, &file.measure), &mut warnings);
-        let study = Self::assemble(name, text, file, walls, records)?;
-        warnings.extend(alike(&study.study));
-        Ok(Self { warnings, ..study })
+        let study = Self::assemble(name, text, file, (walls, records), &[])?;
+        Ok(Self { warnings: [warnings, study.warnings].concat(), ..study })
     }
 
     /// Returns the text of the study file.
@@ -140,100 +135,90 @@ impl LoadedStudy {
     /// [`SceneError`] if they are not those of [`Self::sent`].
     pub fn received(sent: Sent) -> Result<Self, SceneError> {
         let name = "a study that was sent";
-        let mut file = StudyFile::parse(name, &sent.text)?;
+        let file = StudyFile::parse(name, &sent.text)?;
         let wall = |(name, text, unstated): (String, String, Vec<String>)| {
             let assumed = assumed(|_, name| unstated.iter().all(|other| other != name));
             Ok::<_, SceneError>(NamedWall { assumed, ..wall_of_text(name, &text)? })
         };
         let walls = sent.walls.into_iter().map(wall).collect::<Result<_, _>>()?;
-        let walls = Walls::of(name, &mut file, walls, &mut Vec::new())?;
         let record = |(name, step, samples)| {
             let motion = GroundMotion::new(step, samples);
             let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
             Ok(NamedRecord { name, motion: motion.map_err(refused)? })
         };
         let records = sent.records.into_iter().map(record).collect::<Result<_, SceneError>>()?;
-        Self::assemble(name, sent.text, file, walls, records)
+        // they were told where it was sent
+        let study = Self::assemble(name, sent.text, file, (walls, records), &[])?;
+        Ok(Self { warnings: Vec::new(), ..study })
     }
 
     fn assemble(
         name: &str,
         text: String,
-        file: StudyFile,
-        Walls { walls, sampled }: Walls,
-        records: Vec<NamedRecord>,
+        mut file: StudyFile,
+        (given, records): (Vec<NamedWall>, Vec<NamedRecord>),
+        ignored: &[Ignored],
     ) -> Result<Self, SceneError> {
-        let StudyFile { title, models, measure, select, levels, tail, collapse, report, target, .. } = file;
-        let polarity = file.polarity;
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
-        check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
+        for class in &file.report.classes {
+            class.check(given.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
+        }
+        check_unique("walls", given.iter().map(|wall| &wall.name)).map_err(in_file)?;
+        let mut warnings = Vec::new();
+        let (walls, sampled) = match file.uncertain.take() {
+            Some((uncertain, told)) => {
+                warnings.extend(told.iter().map(|warning| format!("{name}: {warning}")));
+                (sampled(&uncertain, &given, &mut file.report).map_err(in_file)?, given)
+            }
+            None => (given, Vec::new()),
+        };
+        // of samples the first of each wall
+        let every = walls.len().checked_div(sampled.len()).unwrap_or(1).max(1);
+        warn(walls.iter().step_by(every), ignored, (&file.models, &file.measure), &mut warnings);
+        let StudyFile { title, models, measure, select, levels, report, target, .. } = file;
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
             None => records,
         };
         let study = Study::new(walls, records, models, measure, levels)
-            .and_then(|study| study.with_tail(tail))
+            .and_then(|study| study.with_tail(file.tail))
             .map_err(|error| in_file(error.to_string()))?
-            .with_collapse(collapse)
-            .with_polarity(polarity);
+            .with_collapse(file.collapse)
+            .with_polarity(file.polarity);
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
-        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text, target, sampled })
+        warnings.extend(alike(&study));
+        Ok(Self { title, study, report, inputs: Vec::new(), warnings, text, target, sampled })
     }
 }
 
-/// The walls of a study, and those of its file where each of them stands for samples.
-struct Walls {
-    walls: Vec<NamedWall>,
-    sampled: Vec<NamedWall>,
-}
-
-impl Walls {
-    /// Checks the classes against the walls of a file, and makes the samples of its uncertain parameters: the
-    /// samples of a wall are the walls of its classes, and a class of its name.
-    fn of(
-        name: &str,
-        file: &mut StudyFile,
-        walls: Vec<NamedWall>,
-        warnings: &mut Vec<String>,
-    ) -> Result<Self, SceneError> {
-        let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
-        let report = &mut file.report;
-        for class in &report.classes {
-            class.check(walls.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
-        }
-        let Some((uncertain, told)) = file.uncertain.take() else {
-            return Ok(Self { walls, sampled: Vec::new() });
-        };
-        let count = walls.len() * uncertain.samples;
-        if count > MOST_WALLS {
-            let samples = uncertain.samples;
-            let walls = counted(walls.len(), "wall");
-            return Err(in_file(format!(
-                "[uncertain] samples = {samples} of {walls} are {count} walls; at most {MOST_WALLS} are taken"
-            )));
-        }
-        warnings.extend(told.iter().map(|warning| format!("{name}: {warning}")));
-        check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
-        let samples = uncertain.samples(&walls).map_err(in_file)?;
-        let classes = report.classes.iter().map(|class| class.of_samples(&samples));
-        let of_wall = |wall: &NamedWall| {
-            let class =
-                WallClass { name: wall.name.clone(), walls: vec![wall.name.clone()], weights: Vec::new() };
-            class.of_samples(&samples)
-        };
-        report.classes = classes.chain(walls.iter().map(of_wall)).collect();
-        let all = samples.of_walls(&walls).map_err(|error| in_file(error.to_string()))?;
-        let names = all.iter().map(|wall| &wall.name).chain(report.classes.iter().map(|class| &class.name));
-        check_unique("samples and classes", names).map_err(in_file)?;
-        report.samples = Some(samples);
-        Ok(Self { walls: all, sampled: walls })
+/// Makes the samples of the uncertain parameters of walls: the samples of a wall are the walls of its classes,
+/// and a class of its name.
+fn sampled(
+    uncertain: &Uncertain,
+    walls: &[NamedWall],
+    report: &mut ReportOptions,
+) -> Result<Vec<NamedWall>, String> {
+    let count = walls.len() * uncertain.samples;
+    if count > MOST_WALLS {
+        return Err(format!(
+            "[uncertain] samples = {} of {} are {count} walls; at most {MOST_WALLS} are taken",
+            uncertain.samples,
+            counted(walls.len(), "wall")
+        ));
     }
-
-    /// Returns the walls that are warned of: of samples the first of each wall.
-    fn told(&self) -> Vec<NamedWall> {
-        let every = self.walls.len().checked_div(self.sampled.len()).unwrap_or(1);
-        self.walls.iter().step_by(every.max(1)).cloned().collect()
-    }
+    let samples = uncertain.samples(walls)?;
+    let of_wall = |NamedWall { name, .. }: &NamedWall| WallClass {
+        name: name.clone(),
+        walls: vec![name.clone()],
+        weights: Vec::new(),
+    };
+    report.classes.extend(walls.iter().map(of_wall));
+    report.classes.iter_mut().for_each(|class| *class = class.of_samples(&samples));
+    let all = samples.of_walls(walls).map_err(|error| error.to_string())?;
+    let names = all.iter().map(|wall| &wall.name).chain(report.classes.iter().map(|class| &class.name));
+    check_unique("samples and classes", names)?;
+    report.samples = Some(samples);
+    Ok(all)
 }
 
 /// Returns the `count` records whose spectra fit that of the site best, in their order; of two that fit alike
@@ -298,8 +283,8 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
 
 /// Adds the warnings of each wall, by its name: what is ignored of its scene, improbable numbers, parameters
 /// without effect. Then those of the intensity measure and the models.
-fn warn(
-    walls: &[NamedWall],
+fn warn<'a>(
+    walls: impl Iterator<Item = &'a NamedWall>,
     ignored: &[Ignored],
     (models, measure): (&[Model], &IntensityMeasure),
     warnings: &mut Vec<String>,

@@ -1,5 +1,6 @@
 //! The table `[hazard]`: annual rates of intensities, and what is asked of a limit state.
 
+use std::ops::Bound;
 use std::path::{Path, PathBuf};
 
 use toml::Spanned;
@@ -10,6 +11,7 @@ use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
 
 use super::levels::to_si;
+use super::within;
 
 /// Largest file of a hazard curve that is read.
 const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -76,15 +78,9 @@ impl HazardEntry {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let table =
-                    read(&text, measure, (to_si, has_unit), site).map_err(|error| match error.line {
-                        Some(line) => {
-                            SceneError::Line { file: name.clone(), line, key: None, message: error.message }
-                        }
-                        None => SceneError::File { file: name.clone(), reason: error.message },
-                    })?;
+                let (curve, warnings) = read(&Place::new(&name, &text), measure, (to_si, has_unit), site)?;
                 inputs.push(path);
-                (table.curve, table.warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
+                (curve, warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
             }
         };
         Ok((Hazard { curve, years, target }, warnings))
@@ -99,13 +95,7 @@ pub(super) fn hazard(
 ) -> Result<HazardEntry, SceneError> {
     let HazardTable { points, file, site, unit, years, target } = table.get_ref();
     let to_si = to_si(measure, unit.as_ref(), place)?;
-    let positive = |name: &str, value: &Spanned<f64>| {
-        let number = *value.get_ref();
-        if number > 0.0 && number.is_finite() {
-            return Ok(number);
-        }
-        Err(place.error(value.span(), format!("{name} = {number} must be positive and finite")))
-    };
+    let positive = || (Bound::Excluded(0.0), Bound::Excluded(f64::INFINITY));
     let curve = match (points, file) {
         (Some(points), None) => {
             if let Some(site) = site {
@@ -126,7 +116,10 @@ pub(super) fn hazard(
     };
     Ok(HazardEntry {
         curve,
-        years: years.as_ref().map_or(Ok(YEARS), |years| positive("years", years))?,
-        target: target.as_ref().map(|target| positive("target", target)).transpose()?,
+        years: within("years", years.as_ref(), YEARS, positive(), place)?,
+        target: target
+            .as_ref()
+            .map(|target| within("target", Some(target), 0.0, positive(), place))
+            .transpose()?,
     })
 }

@@ -74,17 +74,23 @@ pub(super) fn measure(
             "select takes the records that fit the spectrum of the site; it needs measure = \"code\"";
         return Err(place.error(select.span(), message));
     }
-    match (spec.measure.get_ref().as_str(), spec.period, &spec.periods) {
-        ("PGA", None, None) => Ok(IntensityMeasure::Pga),
-        ("PGV", None, None) => Ok(IntensityMeasure::Pgv),
-        ("PGD", None, None) => Ok(IntensityMeasure::Pgd),
-        ("Arias", None, None) => Ok(IntensityMeasure::Arias),
-        ("CAV", None, None) => Ok(IntensityMeasure::Cav),
-        ("Housner", None, None) => Ok(IntensityMeasure::Housner),
-        ("PGA" | "PGV" | "PGD" | "Arias" | "CAV", ..) => {
-            refuse(&format!("{} has no periods; leave them out", spec.measure.get_ref()))
+    let name = spec.measure.get_ref().as_str();
+    let without_periods = [
+        ("PGA", IntensityMeasure::Pga),
+        ("PGV", IntensityMeasure::Pgv),
+        ("PGD", IntensityMeasure::Pgd),
+        ("Arias", IntensityMeasure::Arias),
+        ("CAV", IntensityMeasure::Cav),
+        // it has periods of its own
+        ("Housner", IntensityMeasure::Housner),
+    ];
+    if let Some((_, measure)) = without_periods.into_iter().find(|(own, _)| *own == name) {
+        if spec.period.is_some() || spec.periods.is_some() {
+            return refuse(&format!("{name} takes no periods; leave them out"));
         }
-        ("Housner", ..) => refuse("Housner has the periods 0.1 to 2.5 s; leave them out"),
+        return Ok(measure);
+    }
+    match (name, spec.period, &spec.periods) {
         ("Sa", Some(period), None) => Ok(IntensityMeasure::Sa { period }),
         ("Sa", ..) => refuse("Sa needs one period in s, such as period = 0.5"),
         ("AvgSA", None, None) => Ok(IntensityMeasure::default()),

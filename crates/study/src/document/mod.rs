@@ -21,6 +21,9 @@ mod model;
 mod report;
 mod uncertain;
 
+use std::fmt::Display;
+use std::ops::{Bound, RangeBounds};
+
 use rocking_wall::scene::{
     DEFAULT_TAIL, Place, SceneError, Schema, StoreyTable, SupportsTable, file_schema, parse_toml, with,
 };
@@ -37,7 +40,7 @@ use crate::uncertain::Uncertain;
 use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
-use report::{ClassTable, ReliabilityTable, ReportTable, chosen, report, target};
+use report::{ClassTable, ReliabilityTable, ReportTable, TARGET, report};
 use uncertain::{UncertainTable, uncertain};
 
 pub use hazard::HazardEntry;
@@ -89,12 +92,12 @@ tables! {
         #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_TAIL)]
         tail: Option<Spanned<f64>>,
         /// Which runs have collapsed: those that exceed `u_ins`, or those that fall and do not come back.
-        #[key(enum = Collapse::ALL.map(|(name, _)| name).to_vec(), default = "exceeds")]
-        collapse_is: Option<Spanned<String>>,
+        #[key(default = "exceeds")]
+        collapse_is: Option<Spanned<Collapse>>,
         /// The signs with which records are run: as they are, reversed, both as two records, or at each level
         /// the one that demands more of the wall.
-        #[key(enum = Polarity::ALL.map(|(name, _)| name).to_vec(), default = "as_recorded")]
-        polarity: Option<Spanned<String>>,
+        #[key(default = "as_recorded")]
+        polarity: Option<Polarity>,
         /// Intensity measure by which records are scaled.
         intensity: Option<Spanned<IntensityTable>>,
         /// Levels of intensity.
@@ -152,22 +155,18 @@ impl StudyFile {
             }
         }
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
-        let tail = document.tail.as_ref().map_or(DEFAULT_TAIL, |tail| *tail.get_ref());
-        if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=LONGEST_TAIL).contains(&tail)) {
-            return Err(
-                place.error(given.span(), format!("tail = {tail} s must be from 0 to {LONGEST_TAIL} s"))
-            );
-        }
+        let tail = within("tail", document.tail.as_ref(), DEFAULT_TAIL, 0.0..=LONGEST_TAIL, place)?;
         let measure = measure(document.intensity.as_ref(), place)?;
         let levels = levels(&document.levels, &measure, place)?;
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
-            && word.get_ref() == Collapse::Falls.name()
+            && *word.get_ref() == Collapse::Falls
         {
             let message = "collapse_is = \"falls\" has no part in a cloud: its regression takes a demand of \
                            u_ins and more as a collapse; leave it out, or give levels of another method, \
                            such as \"hunt\"";
             return Err(place.error(word.span(), message));
         }
+        let target = document.reliability.as_ref().and_then(|table| table.get_ref().probability.as_ref());
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -179,25 +178,44 @@ impl StudyFile {
                 .unwrap_or_default(),
             select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
             tail,
-            collapse: document
-                .collapse_is
-                .as_ref()
-                .map(|word| chosen("collapse_is", word, &Collapse::ALL, place))
-                .transpose()?
-                .unwrap_or_default(),
-            polarity: document
-                .polarity
-                .as_ref()
-                .map(|word| chosen("polarity", word, &Polarity::ALL, place))
-                .transpose()?
-                .unwrap_or_default(),
+            collapse: document.collapse_is.map(Spanned::into_inner).unwrap_or_default(),
+            polarity: document.polarity.unwrap_or_default(),
             hazard: document.hazard.as_ref().map(|table| hazard(table, &measure, place)).transpose()?,
             uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
-            target: target(document.reliability.as_ref(), place)?,
+            target: within(
+                "probability",
+                target,
+                TARGET,
+                (Bound::Excluded(0.0), Bound::Excluded(1.0)),
+                place,
+            )?,
             levels,
             models,
             measure,
         })
     }
+}
+
+/// Returns a number that is given, or else the usual one.
+fn within<T: Copy + Display + PartialOrd>(
+    key: &str,
+    given: Option<&Spanned<T>>,
+    usual: T,
+    limits: impl RangeBounds<T>,
+    place: &Place<'_>,
+) -> Result<T, SceneError> {
+    let Some(given) = given else { return Ok(usual) };
+    let value = *given.get_ref();
+    if limits.contains(&value) {
+        return Ok(value);
+    }
+    let words = |bound: Bound<&T>, [included, excluded]: [&str; 2]| match bound {
+        Bound::Included(limit) => format!("{included} {limit}"),
+        Bound::Excluded(limit) => format!("{excluded} {limit}"),
+        Bound::Unbounded => "a number".to_owned(),
+    };
+    let least = words(limits.start_bound(), ["at least", "above"]);
+    let most = words(limits.end_bound(), ["at most", "below"]);
+    Err(place.error(given.span(), format!("{key} = {value} must be {least} and {most}")))
 }

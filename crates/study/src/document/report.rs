@@ -7,6 +7,8 @@ use crate::fragility::Dispersion;
 use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
 use crate::uncertain::Samples;
+
+use super::within;
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
 use rocking_wall::tables;
@@ -60,6 +62,16 @@ pub struct WallClass {
     pub weights: Vec<f64>,
 }
 
+impl ReportOptions {
+    /// Returns the places of the limit states from the first to be exceeded to the last, each once.
+    pub(crate) fn rising(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..self.fractions.len()).collect();
+        places.sort_by(|&a, &b| self.fractions[a].total_cmp(&self.fractions[b]));
+        places.dedup_by_key(|place| self.fractions[*place]);
+        places
+    }
+}
+
 tables! {
     /// What the results show.
     #[derive(Debug)]
@@ -71,21 +83,20 @@ tables! {
         reference: Option<Spanned<String>>,
         /// Dispersions: one for each limit state (own), one for all (common), or one for each with which
         /// curves do not cross (ordered).
-        #[key(enum = Dispersion::ALL.map(|(name, _)| name).to_vec(), default = "own")]
-        beta: Option<Spanned<String>>,
+        #[key(default = "own")]
+        beta: Option<Spanned<Dispersion>>,
         /// Which exceedance of a record counts where a wall stands again above it: the first, the last, or at
         /// each level the fraction of the records; by default the fraction on a grid, else the first.
-        #[key(enum = Crossing::ALL.map(|(name, _)| name).to_vec())]
-        collapse: Option<Spanned<String>>,
+        collapse: Option<Spanned<Crossing>>,
         /// Number of resamples of the bootstrap.
         #[key(minimum = 100, maximum = MOST_RESAMPLES, default = RESAMPLES)]
-        resamples: Option<u32>,
+        resamples: Option<Spanned<u32>>,
         /// Seed of the resamples.
         #[key(default = 1)]
         seed: Option<u64>,
         /// Dispersion due to modelling, for the fragilities of risk engines \[-\].
         #[key(minimum = 0, maximum = MOST_UNCERTAINTY, default = 0)]
-        modelling_uncertainty: Option<f64>,
+        modelling_uncertainty: Option<Spanned<f64>>,
         /// Loss as a part of the value of a wall, for each of the fractions (-).
         #[key(minItems = 1)]
         loss_ratios: Option<Spanned<Vec<f64>>>,
@@ -107,7 +118,7 @@ tables! {
 }
 
 /// Probability of a fall that is not stated.
-const TARGET: f64 = 0.10;
+pub(super) const TARGET: f64 = 0.10;
 
 tables! {
     /// What a study of reliability asks.
@@ -115,21 +126,8 @@ tables! {
     pub(super) struct ReliabilityTable {
         /// Probability of a fall, of a wall that just passes, for which the numbers of the code are sought.
         #[key(exclusiveMinimum = 0, exclusiveMaximum = 1, default = TARGET)]
-        probability: Option<f64>,
+        pub(super) probability: Option<Spanned<f64>>,
     }
-}
-
-/// Reads the probability for which the numbers of a code are sought.
-pub(super) fn target(
-    table: Option<&Spanned<ReliabilityTable>>,
-    place: &Place<'_>,
-) -> Result<f64, SceneError> {
-    let Some(table) = table else { return Ok(TARGET) };
-    let target = table.get_ref().probability.unwrap_or(TARGET);
-    if target > 0.0 && target < 1.0 {
-        return Ok(target);
-    }
-    Err(place.error(table.span(), format!("probability = {target} must be above 0 and below 1")))
 }
 
 impl WallClass {
@@ -214,32 +212,19 @@ pub(super) fn report(
         }
         report.reference.clone_from(reference.get_ref());
     }
-    if let Some(beta) = &spec.beta {
-        report.beta = chosen("beta", beta, &Dispersion::ALL, place)?;
-    }
-    if let Some(collapse) = &spec.collapse {
-        report.collapse = chosen("collapse", collapse, &Crossing::ALL, place)?;
-    }
-    if let Some(resamples) = spec.resamples {
-        if !(100..=MOST_RESAMPLES).contains(&resamples) {
-            return refused(format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}"));
-        }
-        report.resamples = resamples;
-    }
-    if let Some(beta) = spec.modelling_uncertainty {
-        if !(0.0..=MOST_UNCERTAINTY).contains(&beta) {
-            return refused(format!("modelling_uncertainty = {beta} must be from 0 to {MOST_UNCERTAINTY}"));
-        }
-        report.modelling_uncertainty = beta;
-    }
     if matches!(levels, Levels::Cloud { .. }) {
-        let given = [("beta", &spec.beta), ("collapse", &spec.collapse)];
-        if let Some((key, Some(word))) = given.into_iter().find(|(_, word)| word.is_some()) {
+        let beta = spec.beta.as_ref().map(|word| ("beta", word.span()));
+        if let Some((key, span)) = beta.or(spec.collapse.as_ref().map(|word| ("collapse", word.span()))) {
             let message =
                 format!("{key} has no part in a cloud, whose regression has one beta; leave it out");
-            return Err(place.error(word.span(), message));
+            return Err(place.error(span, message));
         }
     }
+    report.beta = spec.beta.as_ref().map_or(report.beta, |beta| *beta.get_ref());
+    report.collapse = spec.collapse.as_ref().map_or(report.collapse, |collapse| *collapse.get_ref());
+    let (resamples, beta) = (spec.resamples.as_ref(), spec.modelling_uncertainty.as_ref());
+    report.resamples = within("resamples", resamples, RESAMPLES, 100..=MOST_RESAMPLES, place)?;
+    report.modelling_uncertainty = within("modelling_uncertainty", beta, 0.0, 0.0..=MOST_UNCERTAINTY, place)?;
     report.seed = spec.seed.unwrap_or(report.seed);
     if let Some(ratios) = &spec.loss_ratios {
         check_losses(&report.fractions, ratios.get_ref())
@@ -264,21 +249,6 @@ fn check_losses(fractions: &[f64], ratios: &[f64]) -> Result<(), String> {
     falls.map_or(Ok(()), |pair| {
         let [(low, less), (high, more)] = [pair[0], pair[1]];
         Err(format!("loss_ratios: {more} at {high} u_ins must not be below {less} at {low} u_ins"))
-    })
-}
-
-/// Returns the variant that a word names.
-pub(super) fn chosen<T: Copy>(
-    key: &str,
-    word: &Spanned<String>,
-    all: &[(&str, T)],
-    place: &Place<'_>,
-) -> Result<T, SceneError> {
-    let found = all.iter().find(|(name, _)| name == word.get_ref());
-    found.map(|(_, variant)| *variant).ok_or_else(|| {
-        let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
-        let message = format!("{key} = {:?} is not one of {}", word.get_ref(), names.join(", "));
-        place.error(word.span(), message)
     })
 }
 

@@ -1,13 +1,18 @@
 //! Uncertain parameters of a study: names, distributions, correlations.
 
+use std::collections::BTreeMap;
+
 use fmu_export::{Kind, VariableId};
-use rocking_wall::scene::{Group, Place, SceneError, Schema, number, object, suggestion, with};
+use report::counted;
+use rocking_wall::scene::{Described, Place, SceneError, Schema, object, suggestion, with};
 use rocking_wall::tables;
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{Bar, COMPUTED};
 use run::walls::wall_parameters;
+use serde::Deserialize;
 use toml::{Spanned, Value};
 
+use super::within;
 use crate::uncertain::{Distribution, Shape, Uncertain, range};
 
 /// Samples of a table that states no number.
@@ -16,15 +21,6 @@ const SAMPLES: u32 = 100;
 const MOST_SAMPLES: u32 = 100_000;
 /// Part of a distribution that limits may cut off without a word.
 const MOST_CUT: f64 = 1e-3;
-/// Keys of a distribution, one of which it has, with what each holds.
-const SHAPES: [(&str, &str); 5] = [
-    ("normal", "[mean, standard deviation]"),
-    ("lognormal", "[median, standard deviation of the logarithm]"),
-    ("uniform", "[lower end, upper end]"),
-    ("triangular", "[lower end, mode, upper end]"),
-    ("values", "[value, …], with weights = [weight, …] where they are not equal"),
-];
-
 tables! {
     /// Parameters of the walls that are not known: each wall stands for samples of them.
     #[derive(Debug)]
@@ -36,12 +32,44 @@ tables! {
         #[key(default = 1)]
         seed: Option<u64>,
         /// Distributions of parameters by their names.
-        #[key(properties = distributions())]
-        parameters: Spanned<Group>,
+        parameters: Spanned<Parameters>,
         /// Two parameters and Spearman's correlation of their ranks, as lists.
         #[serde(default)]
         #[key(items = correlation())]
         correlation: Vec<Spanned<Value>>,
+    }
+
+    /// The distribution of a parameter: one of normal to values, within limits.
+    #[derive(Debug)]
+    struct DistributionTable {
+        /// Mean and standard deviation.
+        normal: Option<[f64; 2]>,
+        /// Median and standard deviation of the logarithm.
+        lognormal: Option<[f64; 2]>,
+        /// Lower and upper end.
+        uniform: Option<[f64; 2]>,
+        /// Lower end, mode and upper end.
+        triangular: Option<[f64; 3]>,
+        /// Values that are taken.
+        #[key(minItems = 1)]
+        values: Option<Vec<f64>>,
+        /// Weights of the values; by default equal.
+        #[key(minItems = 1)]
+        weights: Option<Vec<f64>>,
+        /// Limits, lower and upper.
+        within: Option<[f64; 2]>,
+    }
+}
+
+/// Distributions by the names of their parameters.
+#[derive(Debug, Deserialize)]
+#[serde(transparent)]
+struct Parameters(BTreeMap<Spanned<String>, Spanned<DistributionTable>>);
+
+impl Described for Parameters {
+    fn describe(key: &str, tables: &mut Schema) -> Schema {
+        let table = DistributionTable::describe(key, tables);
+        object(names().map(|name| (name.to_owned(), table.clone().into())).collect())
     }
 }
 
@@ -60,29 +88,6 @@ fn limits(name: &str) -> Option<[f64; 2]> {
     Some([if least == COMPUTED { 0.0 } else { least }, max.unwrap_or(f64::MAX)])
 }
 
-fn list(count: Option<usize>) -> Schema {
-    let numbers = with(Schema::new(), "type", "array");
-    let item = with(Schema::new(), "type", "number");
-    let numbers = with(numbers, "items", item);
-    let size =
-        |list: Schema, word: &str, count: usize| with(list, word, i64::try_from(count).unwrap_or(i64::MAX));
-    let least = size(numbers, "minItems", count.unwrap_or(1));
-    count.map_or(least.clone(), |count| size(least, "maxItems", count))
-}
-
-fn distributions() -> Schema {
-    let mut keys: Schema = SHAPES
-        .map(|(key, holds)| {
-            let count = (key != "values").then(|| holds.split(", ").count());
-            (key.to_owned(), with(list(count), "description", holds).into())
-        })
-        .into_iter()
-        .collect();
-    keys.insert("weights".into(), list(None).into());
-    keys.insert("within".into(), with(list(Some(2)), "description", "Limits, lower and upper.").into());
-    names().map(|name| (name.to_owned(), Value::Table(object(keys.clone())))).collect()
-}
-
 fn correlation() -> Schema {
     let list = with(Schema::new(), "type", "array");
     with(with(list, "minItems", 3), "maxItems", 3)
@@ -94,17 +99,14 @@ pub(super) fn uncertain(
     place: &Place<'_>,
 ) -> Result<(Uncertain, Vec<String>), SceneError> {
     let UncertainTable { samples, seed, parameters, correlation } = table.get_ref();
-    let count = samples.as_ref().map_or(SAMPLES, |samples| *samples.get_ref());
-    if let Some(samples) = samples.as_ref().filter(|_| !(2..=MOST_SAMPLES).contains(&count)) {
-        let message = format!("samples = {count} must be from 2 to {MOST_SAMPLES}");
-        return Err(place.error(samples.span(), message));
-    }
-    if parameters.get_ref().is_empty() {
+    let count = within("samples", samples.as_ref(), SAMPLES, 2..=MOST_SAMPLES, place)?;
+    let Parameters(given) = parameters.get_ref();
+    if given.is_empty() {
         let message = "no parameter is uncertain; give one, such as height = { normal = [3.0, 0.1] }";
         return Err(place.error(parameters.span(), message));
     }
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
-    for (key, value) in parameters.get_ref() {
+    for (key, value) in given {
         let name = key.get_ref();
         let Some(limits) = limits(name).filter(|_| names().any(|known| known == name)) else {
             let meant = suggestion(name, names());
@@ -142,71 +144,51 @@ pub(super) fn uncertain(
 }
 
 /// Reads a distribution of a parameter with limits.
-fn distribution(value: &Value, [least, most]: [f64; 2]) -> Result<Distribution, String> {
-    let keys: Vec<_> = SHAPES.iter().map(|(key, holds)| format!("{key} = {holds}")).collect();
-    let expected = || format!("expected a table with one of {}", keys.join("; "));
-    let table = value.as_table().ok_or_else(expected)?;
-    let known = || SHAPES.iter().map(|(key, _)| *key).chain(["weights", "within"]);
-    if let Some(key) = table.keys().find(|key| known().all(|known| known != *key)) {
-        return Err(format!("unknown key {key:?}{}; {}", suggestion(key, known()), expected()));
-    }
-    let mut shapes = SHAPES.iter().filter(|(key, _)| table.contains_key(*key));
-    let (Some((shape, holds)), None) = (shapes.next(), shapes.next()) else { return Err(expected()) };
-    let numbers = |key: &str, holds: &str| -> Result<Vec<f64>, String> {
-        let list = table.get(key).and_then(Value::as_array);
-        let list = list.and_then(|list| list.iter().map(number).collect());
-        list.ok_or_else(|| format!("{key} must be a list of numbers {holds}"))
-    };
-    let given = numbers(shape, holds)?;
-    let words = format!("{shape} = {given:?}");
-    let shape = match (*shape, &*given) {
-        ("normal", &[mean, deviation]) => Shape::Normal { mean, deviation },
-        ("lognormal", &[median, beta]) => Shape::Lognormal { median, beta },
-        ("uniform", &[low, high]) => Shape::Uniform([low, high]),
-        ("triangular", &[low, mode, high]) => Shape::Triangular([low, mode, high]),
-        ("values", values) => {
-            let weights = match table.get("weights") {
-                Some(_) => numbers("weights", "")?,
-                None => vec![1.0; values.len()],
-            };
-            if weights.len() != values.len() {
-                return Err(format!("{words} needs as many weights, found {}", weights.len()));
-            }
-            Shape::Values(values.iter().zip(weights).map(|(value, weight)| [*value, weight]).collect())
+fn distribution(table: &DistributionTable, [least, most]: [f64; 2]) -> Result<Distribution, String> {
+    let DistributionTable { normal, lognormal, uniform, triangular, values, weights, within } = table;
+    let values = values.as_ref().map(|values| {
+        let weights = weights.clone().unwrap_or_else(|| vec![1.0; values.len()]);
+        if weights.len() != values.len() {
+            let (values, weights) = (counted(values.len(), "value"), counted(weights.len(), "weight"));
+            return Err(format!("{values} and {weights}; give as many"));
         }
-        _ => return Err(format!("{words}: expected {holds}")),
-    };
-    if table.contains_key("weights") && !matches!(shape, Shape::Values(_)) {
+        Ok(Shape::Values(values.iter().zip(weights).map(|(value, weight)| [*value, weight]).collect()))
+    });
+    if values.is_none() && weights.is_some() {
         return Err("weights belong to values; leave them out".to_owned());
     }
-    let within = match table.get("within") {
-        Some(_) => numbers("within", "[lower limit, upper limit]")?,
-        None => vec![least, most],
+    let shapes = [
+        normal.map(|[mean, deviation]| Shape::Normal { mean, deviation }),
+        lognormal.map(|[median, beta]| Shape::Lognormal { median, beta }),
+        uniform.map(Shape::Uniform),
+        triangular.map(Shape::Triangular),
+        values.transpose()?,
+    ];
+    let mut shapes = shapes.into_iter().flatten();
+    let (Some(shape), None) = (shapes.next(), shapes.next()) else {
+        return Err("expected one of normal, lognormal, uniform, triangular and values".to_owned());
     };
-    let [low, high] = *within else { return Err("within must be [lower limit, upper limit]".to_owned()) };
+    let [low, high] = within.unwrap_or([least, most]);
     if !(least <= low && low < high && high <= most) {
         let limits = range([least, most]);
         return Err(format!("within = [{low}, {high}] must rise, and lie within the limits ({limits})"));
     }
-    Distribution::new(shape, [low, high]).map_err(|reason| format!("{words}: {reason}"))
+    Distribution::new(shape, [low, high])
 }
 
 /// Reads the places of two parameters, and the correlation of their ranks.
 fn pair(value: &Value, parameters: &[(String, Distribution)]) -> Result<([usize; 2], f64), String> {
-    let shape = || "expected [\"height\", \"thickness\", 0.5]: two parameters and a number".to_owned();
-    let [one, other, correlation] = value.as_array().map(Vec::as_slice).unwrap_or_default() else {
-        return Err(shape());
-    };
-    let place = |value: &Value| {
-        let name = value.as_str().ok_or_else(shape)?;
+    let read = value.clone().try_into::<(String, String, f64)>();
+    let (one, other, correlation) = read
+        .map_err(|_| "expected [\"height\", \"thickness\", 0.5]: two parameters and a number".to_owned())?;
+    let place = |name: &str| {
         let known = || parameters.iter().map(|(name, _)| name.as_str());
         let found = known().position(|known| known == name);
         found.ok_or_else(|| {
             format!("{name:?} is not among [uncertain.parameters]{}", suggestion(name, known()))
         })
     };
-    let places = [place(one)?, place(other)?];
-    let correlation = number(correlation).ok_or_else(shape)?;
+    let places = [place(&one)?, place(&other)?];
     if places[0] == places[1] {
         return Err("a parameter has no correlation with itself; name two".to_owned());
     }

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use crate::fragility::Interval;
 use crate::results::WallResults;
-use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::palette::sign;
 
 use super::contents::Manifest;
 use super::legend::looks;
+use super::tables::OF_INTENSITY;
 
 /// Height of the lane of a model \[px\].
 const LANE: usize = 13;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
+use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
 use crate::results::Fitting;
 use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
@@ -31,8 +31,8 @@ pub struct Contents {
     /// Levels where all records share them, in SI units.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
-    /// Which runs have overturned, by the word of study files.
-    pub(crate) collapse_is: String,
+    /// Which runs have overturned.
+    pub(crate) collapse_is: Collapse,
     /// The signs with which records are run.
     #[serde(default)]
     pub(crate) polarity: Polarity,
@@ -165,7 +165,7 @@ impl Contents {
             is_cloud: matches!(study.levels(), Levels::Cloud { .. }),
             grid: study.levels().shared(),
             tail_s: study.tail(),
-            collapse_is: study.collapse().name().to_owned(),
+            collapse_is: study.collapse(),
             polarity: study.polarity(),
             part_size: study.part_size(),
             walls: walls.collect(),
@@ -230,36 +230,15 @@ impl Contents {
 
     /// Describes the first line in which two contents differ.
     pub(crate) fn difference(&self, other: &Self) -> String {
-        let lines = |contents: &Self| {
-            let Self { program, sources, measure_details, levels, tail_s, part_size, .. } = contents;
-            let (collapse_is, unit) = (&contents.collapse_is, contents.unit.si());
-            let head = format!(
-                "program {program}\nsources {sources}\nintensity {measure_details}\nlevels: {levels}\n\
-                 tail of {tail_s} s\ncollapse is {collapse_is}\npolarity {}\nparts of {part_size}",
-                contents.polarity.name()
-            );
-            let models =
-                contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));
-            let records = contents.records.iter().map(|record| {
-                let RecordNote { name, fingerprint, points, step_s, intensity, .. } = record;
-                format!(
-                    "record {name}, {points} points of {step_s} s, intensity {intensity} {unit}, \
-                     fingerprint {fingerprint}"
-                )
-            });
-            let walls = contents.walls.iter().flat_map(|wall| {
-                let WallNote { name, parameters, restitution, xi, .. } = wall;
-                let xi: Vec<_> = xi.iter().map(f64::to_string).collect();
-                let text = format!("wall {name}\n{parameters}e = {restitution}\nxi = {}", xi.join(", "));
-                text.lines().map(str::to_owned).collect::<Vec<_>>()
-            });
-            let head: Vec<_> = head.lines().map(str::to_owned).collect();
-            head.into_iter().chain(models).chain(records).chain(walls).collect::<Vec<_>>()
-        };
-        let pair = lines(self).into_iter().zip(lines(other)).find(|(mine, theirs)| mine != theirs);
+        // a table of parameters is one text with many lines
+        let [mine, theirs] = [self, other].map(|contents| {
+            let text = serde_json::to_string_pretty(contents);
+            text.unwrap_or_else(|error| unreachable!("plain data: {error}")).replace("\\n", "\n")
+        });
+        let pair = mine.lines().zip(theirs.lines()).find(|(mine, theirs)| mine != theirs);
         pair.map_or_else(
             || "one has more lines than the other".to_owned(),
-            |(mine, theirs)| format!("found {}, expected {}", trimmed(&mine), trimmed(&theirs)),
+            |(mine, theirs)| format!("found {}, expected {}", trimmed(mine), trimmed(theirs)),
         )
     }
 }
@@ -272,5 +251,5 @@ fn json(value: &impl Serialize) -> String {
 /// Shortens a line.
 fn trimmed(line: &str) -> String {
     const LONGEST: usize = 160;
-    line.trim().chars().take(LONGEST).collect()
+    line.trim().trim_end_matches(',').chars().take(LONGEST).collect()
 }

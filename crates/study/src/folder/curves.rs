@@ -4,13 +4,13 @@ use std::collections::VecDeque;
 use std::convert::Infallible;
 
 use crate::ida::Curve;
-use crate::tables::{Names, collapses, levels};
 use report::table::Table;
 use run::parallel;
 
 use super::contents::Contents;
 use super::error::FolderError;
 use super::store::Folder;
+use super::tables::{collapses, levels};
 
 /// Walls of which each thread makes something before it is taken.
 const WALLS_AT_ONCE: usize = 4;
@@ -72,28 +72,14 @@ pub(crate) fn each_wall<T: Send>(
 /// [`FolderError`] if parts are missing.
 pub fn curve_tables(folder: &Folder) -> Result<[Table; 2], FolderError> {
     let contents = folder.contents();
-    let (names, mut curves) = (names(folder), Curves::of(folder));
-    let mut all = [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2];
+    let (mut curves, mut all) = (Curves::of(folder), <[Table; 2]>::default());
     for wall in 0..contents.walls.len() {
         let own = curves.next_wall()?;
         for (all, table) in all.iter_mut().zip([levels, collapses]) {
-            let Table { columns, rows } = table(&names, wall, &own);
+            let Table { columns, rows } = table(folder.manifest(), wall, &own);
             all.columns = columns;
             all.rows.extend(rows);
         }
     }
     Ok(all)
-}
-
-/// Returns the names that the tables of a folder state.
-pub(crate) fn names(folder: &Folder) -> Names<'_> {
-    let Contents { walls, models, records, unit, .. } = folder.contents();
-    Names {
-        walls: walls.iter().map(|wall| &*wall.name).collect(),
-        models: models.iter().map(|model| &*model.name).collect(),
-        records: records.iter().map(|record| &*record.name).collect(),
-        fractions: &folder.manifest().report.fractions,
-        unit: *unit,
-        has_yielding_ties: folder.contents().has_yielding_ties(),
-    }
 }

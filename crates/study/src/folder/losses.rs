@@ -2,32 +2,24 @@
 //! what the page and the terminal show of them.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{CONFIDENCE, Interval, Lognormal, TAIL};
 use crate::hazard::Hazard;
 use crate::ida::IntensityUnit;
 use report::escaped;
-use report::many_lines::ManyLines;
 use report::table::{Digits, Table};
-use run::file::{self, Draft};
 
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::legend::looks;
-use super::nrml::{self, limit_states};
-use super::plots::SIZE;
-use super::rates::{Fitted, between};
-use super::report::MOST_WALLS;
+use super::nrml::Nrml;
+use super::rates::between;
 use super::rows::Rows;
+use super::shown::Shown;
+use super::subject::{State, Subject};
 
-/// Names of the files.
-const FILES: [&str; 3] = ["vulnerability.csv", "vulnerability.xml", "losses.csv"];
 /// Intensities of a curve, equally spaced by their logarithms.
 const POINTS: u32 = 41;
-/// Most plots.
-const MOST_PLOTS: usize = 12;
 
 /// The files under construction.
 pub(crate) struct Losses<'a> {
@@ -35,14 +27,10 @@ pub(crate) struct Losses<'a> {
     /// Loss ratios of the limit states, which rise.
     ratios: Vec<f64>,
     curves: Rows,
-    xml: Option<(Draft, nrml::Names)>,
+    xml: Option<Nrml>,
     /// Average annual losses, of a study with a hazard.
     annual: Option<(&'a Hazard, Rows)>,
-    /// Rows of the classes and of the walls that are shown.
-    shown: [Table; 2],
-    /// Plots of classes and of walls by names, and the lines of the one under construction, model by model.
-    plots: [Vec<(String, String)>; 2],
-    lines: Vec<(usize, Vec<[f64; 2]>)>,
+    shown: Shown<'a>,
 }
 
 /// The loss at an intensity \[g\]: its mean, its standard deviation, and the probability of each loss ratio,
@@ -64,150 +52,91 @@ struct Annual {
 }
 
 impl<'a> Losses<'a> {
-    /// Begins the files in a folder; `None` for a study without loss ratios.
-    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
-        let paths = FILES.map(|name| folder.join(name));
-        let report = &manifest.report;
-        // those that an earlier study has left
-        let is_written = [true, nrml::measure(&manifest.contents.measure).is_some(), report.hazard.is_some()];
-        for (path, is_written) in paths.iter().zip(is_written) {
-            if !(is_written && report.loss_ratios.is_some()) {
-                file::remove(path)?;
-            }
-        }
-        let Some(ratios) = &report.loss_ratios else { return Ok(None) };
-        let [curves, xml, annual] = paths;
-        let xml = nrml::vulnerability(manifest)
-            .map(|(names, text)| Ok::<_, FolderError>((Draft::new(&xml, text.as_bytes())?, names)));
-        let annual = report.hazard.as_ref().map(|hazard| Ok::<_, FolderError>((hazard, Rows::new(&annual)?)));
-        Ok(Some(Self {
+    /// Begins the files in a folder, with the loss ratios of the limit states.
+    pub(crate) fn new(folder: &Path, manifest: &'a Manifest, ratios: &[f64]) -> Result<Self, FolderError> {
+        let more = "loss ratios of limit states, which are fractions of the static instability displacement";
+        let annual = manifest.report.hazard.as_ref();
+        let annual =
+            annual.map(|hazard| Ok::<_, FolderError>((hazard, Rows::new(&folder.join("losses.csv"))?)));
+        Ok(Self {
             manifest,
-            ratios: limit_states(report).into_iter().map(|(place, _)| ratios[place]).collect(),
-            curves: Rows::new(&curves)?,
-            xml: xml.transpose()?,
+            ratios: manifest.report.rising().into_iter().map(|place| ratios[place]).collect(),
+            curves: Rows::new(&folder.join("vulnerability.csv"))?,
+            xml: Nrml::new(&folder.join("vulnerability.xml"), manifest, "vulnerabilityModel", more)?,
             annual: annual.transpose()?,
-            shown: [const { Table { columns: Vec::new(), rows: Vec::new() } }; 2],
-            plots: Default::default(),
-            lines: Vec::new(),
-        }))
+            shown: Shown::new(manifest, "mean loss ratio"),
+        })
     }
 
-    /// Adds a wall or a class with one model; limit states rise. One without all curves has no losses.
-    pub(crate) fn add(
-        &mut self,
-        name: &str,
-        is_class: bool,
-        model: usize,
-        states: &[Fitted],
-    ) -> Result<(), FolderError> {
-        let unit = self.manifest.contents.unit;
-        let curves: Option<Vec<_>> = states.iter().map(|state| state.curve).collect();
-        let points = curves.map_or_else(Vec::new, |curves| points(&self.ratios, &curves, unit));
-        let model_name = &self.manifest.contents.models[model].name;
-        self.curves.add(&of_points(name, model_name, unit, &points))?;
-        if let Some((draft, names)) = self.xml.as_mut().filter(|_| !points.is_empty()) {
-            let id = names.id(name, model_name);
-            let function = self.manifest.function(&id, &self.ratios, &points);
-            draft.write(|file| file.write_all(function.as_bytes()))?;
+    /// Adds a wall or a class. With a model without all curves it has no losses.
+    pub(crate) fn add(&mut self, subject: &Subject<'_>) -> Result<(), FolderError> {
+        let contents = &self.manifest.contents;
+        let (mut lines, mut annuals) = (Vec::new(), Vec::new());
+        for (of_model, model) in subject.models.iter().zip(&contents.models) {
+            let curves: Option<Vec<_>> = of_model.states.iter().map(|state| state.curve).collect();
+            let points = curves.map_or_else(Vec::new, |curves| points(&self.ratios, &curves, contents.unit));
+            self.curves.add(&of_points([subject.name, &model.name], contents.unit, &points))?;
+            if let Some(xml) = self.xml.as_mut().filter(|_| !points.is_empty()) {
+                let head = format!("id=\"{}\" dist=\"PM\"", escaped(&xml.id(subject.name, &model.name)));
+                xml.write(&format!(
+                    "    <vulnerabilityFunction {head}>\n{}    </vulnerabilityFunction>\n",
+                    function(&xml.measure, &self.ratios, &points)
+                ))?;
+            }
+            lines.push(points.iter().map(|point| [point.intensity, point.mean]).collect::<Vec<_>>());
+            let annual = self.annual.as_ref();
+            let annual = annual.and_then(|(hazard, _)| annual_loss(hazard, &self.ratios, &of_model.states));
+            annuals.extend(annual.map(|annual| (&*model.name, annual)));
         }
-        let mut rows = Vec::new();
-        if let Some((hazard, file)) = &mut self.annual {
-            rows.extend(annual(hazard, &self.ratios, states));
-            file.add(&of_year(name, model_name, &rows))?;
+        let table = of_year(subject.name, &annuals);
+        if let Some((_, file)) = &mut self.annual {
+            file.add(&table)?;
         }
-        if is_class || self.manifest.contents.walls.len() <= MOST_WALLS {
-            let table = shown(name, model_name, &rows);
-            self.shown[0].columns = table.columns;
-            self.shown[usize::from(!is_class)].rows.extend(table.rows);
-            self.draw(name, is_class, model, &points);
+        if subject.is_shown(self.manifest) {
+            let ends = lines.iter().flatten().map(|point| point[0]);
+            let ends = ends.fold([f64::INFINITY, 0.0], |[low, high], x| [low.min(x), high.max(x)]);
+            self.shown.add(subject, table, (ends, &lines));
         }
         Ok(())
     }
 
-    /// Adds a curve to the plot of a wall or class.
-    fn draw(&mut self, name: &str, is_class: bool, model: usize, points: &[Point]) {
-        let line: Vec<_> = points.iter().map(|point| [point.intensity, point.mean]).collect();
-        self.lines.push((model, line));
-        if model + 1 < self.manifest.contents.models.len() {
-            return;
-        }
-        let lines: Vec<_> = self.lines.drain(..).filter(|(_, line)| !line.is_empty()).collect();
-        let ends = lines.iter().flat_map(|(_, line)| [line[0][0], line[line.len() - 1][0]]);
-        let ends = ends.fold([f64::INFINITY, 0.0], |[low, high], x| [low.min(x), high.max(x)]);
-        if lines.is_empty() {
-            return;
-        }
-        let mut plot = ManyLines::new(SIZE, ends, [0.0, 1.0]);
-        let looks = looks(self.manifest);
-        for (model, line) in lines {
-            plot.line(&line, "fit", looks[model].0);
-        }
-        let axis = self.manifest.contents.axis();
-        let svg = plot.svg([&axis, "mean loss ratio"]);
-        self.plots[usize::from(!is_class)].push((name.to_owned(), svg));
-    }
-
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
     pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let Self { curves, xml, annual, shown: [mut shown, walls], plots, .. } = self;
-        shown.rows.extend(walls.rows);
+        let Self { curves, xml, annual, mut shown, .. } = self;
         let mut paths = vec![curves.commit()?];
-        if let Some((mut draft, _)) = xml {
-            draft.write(|file| file.write_all(nrml::VULNERABILITY_END.as_bytes()))?;
-            paths.push(draft.commit(true)?);
-        }
-        let has_hazard = annual.is_some();
-        if let Some((_, file)) = annual {
-            paths.push(file.commit()?);
-        }
+        paths.extend(xml.map(Nrml::finish).transpose()?);
+        paths.extend(annual.map(|(_, file)| file.commit()).transpose()?);
         let (mut told, mut html) = (String::new(), "<section><h2>Losses</h2>".to_owned());
-        if has_hazard && !shown.rows.is_empty() {
+        let table = shown.table();
+        if !table.rows.is_empty() {
             let words = format!(
                 "average annual loss, of the value of the wall, with {:.0} % intervals of the records; \"at \
                  most\" adds what may lie outside the hazard curve",
                 100.0 * CONFIDENCE
             );
-            told = format!("{words}\n{}", shown.text());
+            told = format!("{words}\n{}", table.text());
             let _ = write!(
                 html,
                 "<p class=\"subtitle\">{words}.</p><div class=\"scroll\">{}</div>",
-                shown.html()
+                table.html()
             );
         }
-        html.push_str("<h3>Mean loss ratio by intensity</h3><div class=\"row\">");
-        let all = plots.iter().map(Vec::len).sum::<usize>();
-        for (name, svg) in plots.iter().flatten().take(MOST_PLOTS) {
-            let _ = write!(html, "<figure><figcaption>{}</figcaption>{svg}</figure>", escaped(name));
-        }
-        html.push_str("</div>");
-        if all > MOST_PLOTS {
-            let [file, ..] = FILES;
-            let _ = write!(html, "<p>These are {MOST_PLOTS} of {all}, classes first; {file} has all.</p>");
-        }
-        html.push_str("</section>\n");
+        html += &format!("<h3>Mean loss ratio by intensity</h3>{}</section>\n", shown.plots());
         Ok((paths, told, html))
     }
 }
 
-impl Manifest {
-    /// Returns a function of NRML: the probability of each loss ratio at each intensity.
-    fn function(&self, id: &str, ratios: &[f64], points: &[Point]) -> String {
-        let list = |values: &mut dyn Iterator<Item = f64>| {
-            values.map(|value| format!("{value:?}")).collect::<Vec<_>>().join(" ")
-        };
-        let measure = nrml::measure(&self.contents.measure).unwrap_or_default();
-        let imls = list(&mut points.iter().map(|point| point.intensity));
-        let mut text = format!(
-            "    <vulnerabilityFunction id=\"{}\" dist=\"PM\">\n      \
-             <imls imt=\"{measure}\">{imls}</imls>\n",
-            escaped(id)
-        );
-        for (place, ratio) in [0.0].iter().chain(ratios).enumerate() {
-            let masses = list(&mut points.iter().map(|point| point.masses[place]));
-            let _ = writeln!(text, "      <probabilities lr=\"{ratio:?}\">{masses}</probabilities>");
-        }
-        text + "    </vulnerabilityFunction>\n"
+/// Returns a function of NRML: the probability of each loss ratio at each intensity.
+fn function(measure: &str, ratios: &[f64], points: &[Point]) -> String {
+    let list = |value: &dyn Fn(&Point) -> f64| {
+        points.iter().map(|point| format!("{:?}", value(point))).collect::<Vec<_>>().join(" ")
+    };
+    let mut text = format!("      <imls imt=\"{measure}\">{}</imls>\n", list(&|point| point.intensity));
+    for (place, ratio) in [0.0].iter().chain(ratios).enumerate() {
+        let masses = list(&|point| point.masses[place]);
+        let _ = writeln!(text, "      <probabilities lr=\"{ratio:?}\">{masses}</probabilities>");
     }
+    text
 }
 
 /// Returns the loss from where the first curve rises to where the last one ends. Where curves cross, a limit
@@ -237,7 +166,7 @@ fn points(ratios: &[f64], curves: &[[f64; 2]], unit: IntensityUnit) -> Vec<Point
 }
 
 /// Returns Σ (`r_k` − `r_k−1`) `λ_k`, with the rates of the limit states; `None` without all curves.
-fn annual(hazard: &Hazard, ratios: &[f64], states: &[Fitted]) -> Option<Annual> {
+fn annual_loss(hazard: &Hazard, ratios: &[f64], states: &[State]) -> Option<Annual> {
     let before = [0.0].into_iter().chain(ratios.iter().copied());
     let steps: Vec<f64> = ratios.iter().zip(before).map(|(ratio, before)| ratio - before).collect();
     let curves = states.iter().map(|state| state.curve).collect::<Option<Vec<_>>>()?;
@@ -258,7 +187,7 @@ fn annual(hazard: &Hazard, ratios: &[f64], states: &[Fitted]) -> Option<Annual> 
     Some(Annual { within, range, resamples: count, most })
 }
 
-fn of_points(name: &str, model: &str, unit: IntensityUnit, points: &[Point]) -> Table {
+fn of_points([name, model]: [&str; 2], unit: IntensityUnit, points: &[Point]) -> Table {
     Table::over(points)
         .text("wall", "", |_| name.to_owned())
         .text("model", "", |_| model.to_owned())
@@ -268,26 +197,18 @@ fn of_points(name: &str, model: &str, unit: IntensityUnit, points: &[Point]) -> 
         .done()
 }
 
-fn of_year(name: &str, model: &str, rows: &[Annual]) -> Table {
-    Table::over(rows)
-        .text("wall", "", |_| name.to_owned())
-        .text("model", "", |_| model.to_owned())
-        .value("average_annual_loss", |row| row.within)
-        .value("average_annual_loss_low", |row| Some(row.range[0]).filter(|loss| loss.is_finite()))
-        .value("average_annual_loss_high", |row| Some(row.range[1]).filter(|loss| loss.is_finite()))
-        .value("resamples", |row| row.resamples)
-        .value("average_annual_loss_most", |row| row.most)
-        .done()
-}
-
-fn shown(name: &str, model: &str, rows: &[Annual]) -> Table {
+fn of_year(name: &str, rows: &[(&str, Annual)]) -> Table {
     let two = Digits::Exponent(2);
+    let finite = |loss: f64| Some(loss).filter(|loss| loss.is_finite());
     Table::over(rows)
-        .text("", "wall or class", |_| name.to_owned())
-        .text("", "model", |_| model.to_owned())
-        .number("", "annual loss", two, |row| row.within)
-        .number("", "interval", two, |row| between(row.range))
-        .number("", "at most", two, |row| row.most)
+        .text("wall", "wall or class", |_| name.to_owned())
+        .text("model", "model", |(model, _)| (*model).to_owned())
+        .number("average_annual_loss", "annual loss", two, |(_, row)| row.within)
+        .value("average_annual_loss_low", |(_, row)| finite(row.range[0]))
+        .value("average_annual_loss_high", |(_, row)| finite(row.range[1]))
+        .number("", "interval", two, |(_, row)| between(row.range))
+        .value("resamples", |(_, row)| row.resamples)
+        .number("average_annual_loss_most", "at most", two, |(_, row)| row.most)
         .done()
 }
 
@@ -319,8 +240,17 @@ mod tests {
         let points = [[0.5, 1e-2], [8.0, 1e-5]];
         let hazard = Hazard { curve: HazardCurve::new(points.to_vec()).unwrap(), years: 50.0, target: None };
         let (ratios, curves) = ([0.1, 0.4, 1.0], [[1.0, 0.4], [2.0, 0.4], [3.0, 0.4]]);
-        let states = curves.map(|curve| Fitted { curve: Some(curve), resamples: vec![curve; 3] });
-        let found = annual(&hazard, &ratios, &states).unwrap();
+        let known = Interval::new(0.0, [], CONFIDENCE);
+        let states = curves.map(|curve| State {
+            fraction: 1.0,
+            curve: Some(curve),
+            resamples: vec![curve; 3],
+            theta: known,
+            beta: known,
+            covariance: None,
+            misfit: None,
+        });
+        let found = annual_loss(&hazard, &ratios, &states).unwrap();
         let (width, k) = ((16.0_f64).ln(), (1e3_f64).ln() / (16.0_f64).ln());
         let step = width / 4000.0;
         let at = |index: i32| {

@@ -11,6 +11,7 @@
 //! | `error` | errors |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
+//! | `tables` | the rows of the tables of all studies |
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
 //! | `merge` | takes together the parts of several folders |
@@ -18,17 +19,17 @@
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
+//! | `subject` | walls and classes, with their fragilities |
+//! | `shown` | their tables and plots on the page, classes first |
 //! | `nrml` | fragility functions in the format of risk engines |
 //! | `rates` | annual rates of walls and classes |
 //! | `losses` | losses of walls and classes |
-//! | `classes` | the section of a page about classes |
 //! | `samples` | samples of uncertain parameters, and what they explain |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
 
-mod classes;
 mod comparison;
 mod compute;
 mod contents;
@@ -48,7 +49,10 @@ mod report;
 mod risk;
 mod rows;
 mod samples;
+mod shown;
 mod store;
+mod subject;
+pub(crate) mod tables;
 
 pub use compute::{ComputeError, compute};
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};

@@ -2,25 +2,22 @@
 //! has for the measure, which is that of all results.
 
 use std::collections::BTreeSet;
-use std::io::{self, Write};
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use crate::document::ReportOptions;
 use crate::fragility::{FragilityFunction, TAIL};
 use crate::ida::IntensityUnit;
 use report::escaped;
+use run::file::{Draft, FileError};
 
 use super::contents::Manifest;
 
 /// What risk engines refuse in the name of a function.
 const REFUSED: [char; 3] = ['#', '\'', '"'];
 
-/// Returns the limit states from the first to be exceeded to the last: place in the report, and name.
-pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
-    let mut states: Vec<_> = report.fractions.iter().copied().enumerate().collect();
-    states.sort_by(|a, b| a.1.total_cmp(&b.1));
-    states.dedup_by_key(|(_, fraction)| *fraction);
-    let named = |(place, fraction): (usize, f64)| (place, format!("u_ins_{fraction}").replace('.', "_"));
-    states.into_iter().map(named).collect()
+/// Returns the name of a limit state.
+pub(crate) fn state_name(fraction: f64) -> String {
+    format!("u_ins_{fraction}").replace('.', "_")
 }
 
 /// Returns the name in NRML of an intensity measure, as `OpenQuake` has it: `PGA`, `PGV`, `PGD`, `SA(T)`,
@@ -38,34 +35,6 @@ pub(crate) fn measure(name: &str) -> Option<String> {
 pub(crate) fn period(name: &str) -> Option<&str> {
     name.strip_prefix("Sa(")?.strip_suffix(" s)")
 }
-
-/// What precedes the functions of a model: the kind of model, more than its description, and its end.
-fn head(manifest: &Manifest, model: &str, more: &str) -> String {
-    let periods = match &manifest.contents.measure[..] {
-        "AvgSA" => format!("; {}", manifest.contents.measure_details),
-        _ => String::new(),
-    };
-    format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
-         <{model} id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n    \
-         <description>{}: {more}; intensities in {}{}</description>\n",
-        escaped(&manifest.title),
-        manifest.contents.unit.name(),
-        escaped(&periods)
-    )
-}
-
-/// Returns what precedes vulnerability functions, and their names; `None` if NRML has no name for the
-/// study's measure.
-pub(crate) fn vulnerability(manifest: &Manifest) -> Option<(Names, String)> {
-    measure(&manifest.contents.measure)?;
-    let more = "loss ratios of limit states, which are fractions of the static instability displacement";
-    Some((Names::of(manifest), head(manifest, "vulnerabilityModel", more)))
-}
-
-/// What follows vulnerability functions.
-pub(crate) const VULNERABILITY_END: &str = "  </vulnerabilityModel>\n</nrml>\n";
 
 /// Names of functions, each of which occurs once.
 pub(crate) struct Names {
@@ -93,78 +62,85 @@ impl Names {
     }
 }
 
-/// Writes the functions of a study one by one.
-pub(crate) struct Writer {
-    measure: String,
-    unit: IntensityUnit,
-    states: Vec<(usize, String)>,
+/// A file of functions under construction.
+pub(crate) struct Nrml {
+    draft: Draft,
+    model: &'static str,
+    pub(crate) measure: String,
     names: Names,
 }
 
-impl Writer {
-    /// Writes what precedes the functions; `None` if NRML cannot state the study's measure.
-    pub(crate) fn new(manifest: &Manifest) -> Option<(Self, String)> {
-        let measure = measure(&manifest.contents.measure)?;
-        let states = limit_states(&manifest.report);
-        let names: Vec<_> = states.iter().map(|(_, name)| name.as_str()).collect();
-        let more = "a limit state is named by its fraction of the static instability displacement";
-        let head = head(manifest, "fragilityModel", more);
-        let text = format!("{head}    <limitStates>{}</limitStates>\n", names.join(" "));
-        let unit = manifest.contents.unit;
-        Some((Self { measure, unit, states, names: Names::of(manifest) }, text))
+impl Nrml {
+    /// Begins a file with a kind of model, and more than its description; `None` if NRML cannot state the
+    /// study's measure.
+    pub(crate) fn new(
+        path: &Path,
+        manifest: &Manifest,
+        model: &'static str,
+        more: &str,
+    ) -> Result<Option<Self>, FileError> {
+        let contents = &manifest.contents;
+        let Some(measure) = measure(&contents.measure) else { return Ok(None) };
+        let periods = match &contents.measure[..] {
+            "AvgSA" => format!("; {}", contents.measure_details),
+            _ => String::new(),
+        };
+        let head = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+             <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
+             <{model} id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n    \
+             <description>{}: {more}; intensities in {}{}</description>\n",
+            escaped(&manifest.title),
+            contents.unit.name(),
+            escaped(&periods)
+        );
+        let draft = Draft::new(path, head.as_bytes())?;
+        Ok(Some(Self { draft, model, measure, names: Names::of(manifest) }))
     }
 
-    /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
-    /// `minIML` and `noDamageLimit` each limit state has a probability of less than 1e-4, above `maxIML` of
-    /// more than 1 − 1e-4.
-    pub(crate) fn function(
-        &mut self,
-        out: &mut dyn Write,
-        [name, model]: [&str; 2],
-        function: &FragilityFunction,
-    ) -> io::Result<bool> {
-        let curves = function.states.iter().enumerate();
-        let curves: Vec<_> =
-            curves.map(|(k, curve)| (self.unit.of(curve.median), function.dispersion(k))).collect();
-        let end = |sign: f64| curves.iter().map(move |(median, beta)| median * libm::exp(sign * TAIL * beta));
-        let (least, most) = (end(-1.0).fold(f64::INFINITY, f64::min), end(1.0).fold(0.0, f64::max));
-        let params: Vec<_> = curves.iter().map(|(median, beta)| moments(*median, *beta)).collect();
-        let mut numbers = params.iter().flatten().chain([&least, &most]);
-        if !numbers.all(|number| number.is_finite() && *number > 0.0) {
-            return Ok(false);
-        }
-        writeln!(
-            out,
-            "    <fragilityFunction id=\"{}\" format=\"continuous\" shape=\"logncdf\">\n      \
-             <imls imt=\"{}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" maxIML=\"{most:e}\"/>",
-            escaped(&self.names.id(name, model)),
-            self.measure
-        )?;
-        for ((_, state), [mean, deviation]) in self.states.iter().zip(&params) {
-            writeln!(out, "      <params ls=\"{state}\" mean=\"{mean:e}\" stddev=\"{deviation:e}\"/>")?;
-        }
-        writeln!(out, "    </fragilityFunction>")?;
-        Ok(true)
+    /// Writes text.
+    pub(crate) fn write(&mut self, text: &str) -> Result<(), FileError> {
+        self.draft.write(|file| file.write_all(text.as_bytes()))
     }
 
-    /// Writes in a comment what is known of a function that is not written.
-    pub(crate) fn note(
-        &self,
-        out: &mut dyn Write,
-        name: &str,
-        thetas: &[(String, String)],
-    ) -> io::Result<()> {
-        let thetas: Vec<_> = thetas.iter().map(|(state, theta)| format!("{state} {theta}")).collect();
-        // a comment must not have two dashes
-        let text =
-            format!("{name}: theta in {} of {}", self.unit.name(), thetas.join(", ")).replace("--", "- -");
-        writeln!(out, "    <!-- no function of {} -->", escaped(&text))
+    /// Makes the name of a wall or class with a model that no other function has.
+    pub(crate) fn id(&mut self, name: &str, model: &str) -> String {
+        self.names.id(name, model)
     }
 
-    /// Writes what follows the functions.
-    pub(crate) fn finish(out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "  </fragilityModel>\n</nrml>")
+    /// Completes the file, and returns its path.
+    pub(crate) fn finish(mut self) -> Result<PathBuf, FileError> {
+        self.write(&format!("  </{}>\n</nrml>\n", self.model))?;
+        self.draft.commit(true)
     }
+}
+
+/// Returns what a fragility function holds, but `None` with a number that would be 0 or infinite. `states` are
+/// the fractions of the limit states. Below `minIML` and `noDamageLimit` each limit state has a probability of
+/// less than 1e-4, above `maxIML` of more than 1 − 1e-4.
+pub(crate) fn fragility(
+    function: &FragilityFunction,
+    states: impl Iterator<Item = f64>,
+    measure: &str,
+    unit: IntensityUnit,
+) -> Option<String> {
+    let curves = function.states.iter().enumerate();
+    let curves: Vec<_> = curves.map(|(k, curve)| (unit.of(curve.median), function.dispersion(k))).collect();
+    let end = |sign: f64| curves.iter().map(move |(median, beta)| median * libm::exp(sign * TAIL * beta));
+    let (least, most) = (end(-1.0).fold(f64::INFINITY, f64::min), end(1.0).fold(0.0, f64::max));
+    let params: Vec<_> = curves.iter().map(|(median, beta)| moments(*median, *beta)).collect();
+    let mut numbers = params.iter().flatten().chain([&least, &most]);
+    if !numbers.all(|number| number.is_finite() && *number > 0.0) {
+        return None;
+    }
+    let imls = format!(
+        "      <imls imt=\"{measure}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" maxIML=\"{most:e}\"/>\n"
+    );
+    let of_state = |(fraction, [mean, deviation]): (f64, &[f64; 2])| {
+        let name = state_name(fraction);
+        format!("      <params ls=\"{name}\" mean=\"{mean:e}\" stddev=\"{deviation:e}\"/>\n")
+    };
+    Some(imls + &states.zip(&params).map(of_state).collect::<String>())
 }
 
 /// Returns the mean and the standard deviation of a lognormal variable, θ exp(β²/2) and mean √(exp β² − 1).
@@ -191,14 +167,11 @@ mod tests {
 
     #[test]
     fn a_function_of_infinite_numbers_is_left_out() {
-        let states = vec![(0, "u_ins_1".to_owned())];
-        let names = Names { has_models: false, ids: BTreeSet::new() };
-        let mut writer = Writer { measure: "PGA".into(), unit: IntensityUnit::Gravity, states, names };
         for (beta, is_written) in [(0.5, true), (50.0, false)] {
             let curve = crate::fragility::Lognormal { median: 3.0, dispersion: beta };
-            let (function, mut out) = (FragilityFunction::new(&[curve], 0.0), Vec::new());
-            assert_eq!(writer.function(&mut out, ["wall", "CR"], &function).unwrap(), is_written);
-            assert_eq!(out.is_empty(), !is_written);
+            let function = FragilityFunction::new(&[curve], 0.0);
+            let text = fragility(&function, [1.0].into_iter(), "PGA", IntensityUnit::Gravity);
+            assert_eq!(text.is_some_and(|text| text.contains("<params ls=\"u_ins_1\"")), is_written);
         }
     }
 
@@ -219,7 +192,7 @@ mod tests {
 
     #[test]
     fn limit_states_rise_and_have_plain_names() {
-        let report = ReportOptions {
+        let report = crate::document::ReportOptions {
             fractions: vec![0.4, 0.1, 1.0, 0.4],
             reference: String::new(),
             beta: crate::fragility::Dispersion::Own,
@@ -232,7 +205,8 @@ mod tests {
             loss_ratios: None,
             samples: None,
         };
-        let expected = [(1, "u_ins_0_1"), (0, "u_ins_0_4"), (2, "u_ins_1")];
-        assert_eq!(limit_states(&report), expected.map(|(place, name)| (place, name.to_owned())));
+        assert_eq!(report.rising(), [1, 0, 2]);
+        let names = report.rising().into_iter().map(|place| state_name(report.fractions[place]));
+        assert_eq!(names.collect::<Vec<_>>(), ["u_ins_0_1", "u_ins_0_4", "u_ins_1"]);
     }
 }

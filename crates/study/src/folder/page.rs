@@ -2,20 +2,19 @@
 
 use std::fmt::Write;
 
-use crate::fragility::{Dispersion, Interval};
+use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
 use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
-use crate::results::{StateResults, WallResults};
-use crate::tables::{OF_INTENSITY, OF_RATIO};
+use crate::results::WallResults;
 use report::counted;
 use report::escaped;
 use report::many_lines::STYLE;
-use report::palette::sign;
 use report::table::{Cell, Column, Digits, Table};
 use report::template;
 
 use super::contents::{Contents, Manifest};
-use super::legend::{key, looks, spelled_out};
+use super::legend::{key, spelled_out};
 use super::plots::{Shown, curves, fragility, top};
+use super::tables::{OF_INTENSITY, OF_RATIO, with_ends};
 
 /// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
@@ -39,7 +38,7 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
             Polarity::Both => "Each record is run as it is and reversed, as two records. ",
             Polarity::Worst => "At each level the sign of a record counts that demands more. ",
         },
-        if contents.collapse_is == Collapse::Falls.name() {
+        if contents.collapse_is == Collapse::Falls {
             "A wall has overturned if it ends beyond u<sub>ins</sub>; one that comes back has not"
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
@@ -158,9 +157,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     let every = runs.div_ceil(MOST_POINTS).max(1);
     let contents = &manifest.contents;
     let note = &contents.walls[wall];
-    let last = (0..manifest.report.fractions.len())
-        .max_by(|a, b| manifest.report.fractions[*a].total_cmp(&manifest.report.fractions[*b]));
-    let top_of_collapses = last.map_or(1.0, |place| top(shown, place));
+    let top_of_collapses = manifest.report.rising().pop().map_or(1.0, |last| top(shown, last));
     let mut html = format!(
         "<section><h2>Wall {}</h2><p class=\"subtitle\">{}; e = {:.3}</p><div class=\"row pair\">",
         escaped(&note.name),
@@ -256,75 +253,58 @@ fn collapses(shown: Shown<'_>) -> String {
 fn table(shown: Shown<'_>, collapse: usize) -> String {
     let Shown { manifest, wall, results } = shown;
     let (contents, report) = (&manifest.contents, &manifest.report);
-    let unit = contents.unit;
-    let mut html = format!(
-        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median ({1})</th><th>θ ({1})</th><th>β</th>\
-         <th>median / {0}</th><th>θ / {0}</th>{2}</tr></thead><tbody>",
-        escaped(&report.reference),
-        unit.name(),
-        if contents.is_cloud {
-            "<th>overturned</th>".to_owned()
-        } else {
-            format!(
-                "<th>censored</th><th>stands again</th><th>misfit</th>\
-                 <th>θ ({}) of the first, last, fraction</th>",
-                unit.name()
-            )
-        }
-    );
-    for (model, (state, (color, mark))) in results.states(collapse).iter().zip(looks(manifest)).enumerate() {
-        let StateResults { summary, by_crossing, .. } = state;
-        let xi = contents.walls[wall].xi[model];
-        let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
-        let reference = contents.models[model].name == report.reference;
-        let ratio =
-            |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0, OF_RATIO) };
-        let crosses =
-            (0..report.fractions.len()).any(|state| results.summary(state, model).crossing.is_some());
-        let sign_of_doubt = match report.beta {
-            Dispersion::Common if summary.contradicted => " *",
-            Dispersion::Own if crosses => " †",
+    let (unit, reference) = (contents.unit, &report.reference);
+    let ratio = |model: usize, of: &Interval| match contents.models[model].name == *reference {
+        true => "1".to_owned(),
+        false => with_ends(of, 1.0, OF_RATIO),
+    };
+    let sign_of_doubt = |model: usize| {
+        let mut summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
+        match report.beta {
+            Dispersion::Common if results.is_contradicted(model) => " *",
+            Dispersion::Own if summaries.any(|one| one.crossing.is_some()) => " †",
             _ => "",
-        };
-        let thetas = by_crossing.iter().map(|curve| {
-            curve.as_ref().map_or("–".to_owned(), |curve| OF_INTENSITY.of(unit.of(curve.median)))
+        }
+    };
+    let beta = |model: usize, summary: &Summary| match summary.fitted {
+        Ok(_) => with_ends(&summary.beta, 1.0, Digits::Decimals(2)) + sign_of_doubt(model),
+        Err(error) => error.to_string(),
+    };
+    let xi = Column::number("", "ξ\n[%]", Digits::Decimals(2)).shown(100.0);
+    let table = Table::over(results.states(collapse).iter().enumerate())
+        .text("", "model", |(model, _)| contents.models[*model].name.clone())
+        .column(xi, |(model, _)| Some(contents.walls[wall].xi[*model]).filter(|xi| *xi > 0.0))
+        .number("", format!("median\n[{}]", unit.name()), OF_INTENSITY, |(_, one)| {
+            with_ends(&one.summary.median, unit.size(), OF_INTENSITY)
+        })
+        .number("", format!("θ\n[{}]", unit.name()), OF_INTENSITY, |(_, one)| {
+            with_ends(&one.summary.theta, unit.size(), OF_INTENSITY)
+        })
+        .number("", "β", OF_RATIO, |(model, one)| beta(*model, &one.summary))
+        .number("", format!("median /\n{reference}"), OF_RATIO, |(model, one)| {
+            ratio(*model, &one.summary.median_ratio)
+        })
+        .number("", format!("θ /\n{reference}"), OF_RATIO, |(model, one)| {
+            ratio(*model, &one.summary.theta_ratio)
         });
-        let more = if contents.is_cloud {
-            String::new()
-        } else {
-            format!(
-                "<td>{again}</td><td>{}</td><td>{}</td>",
-                summary.misfit.map_or("–".to_owned(), |misfit| format!("{misfit:.2}")),
-                thetas.collect::<Vec<_>>().join("<br>"),
-            )
-        };
-        let _ = write!(
-            html,
-            "<tr><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
-             <td>{}</td><td>{}</td><td>{}</td>{more}</tr>",
-            escaped(&contents.models[model].name),
-            sign(color, mark),
-            if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
-            words(&summary.median, unit.size(), OF_INTENSITY),
-            words(&summary.theta, unit.size(), OF_INTENSITY),
-            match summary.fitted {
-                Ok(_) => {
-                    let [estimate, low, high] = summary.beta.texts(1.0, Digits::Decimals(2));
-                    format!("{estimate}{sign_of_doubt}<br><small>{low} … {high}</small>")
-                }
-                Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
-            },
-            ratio(&summary.median_ratio),
-            ratio(&summary.theta_ratio),
-            summary.censored,
-        );
+    if contents.is_cloud {
+        return table.number("", "overturned", OF_RATIO, |(_, one)| one.summary.censored).done().html();
     }
-    html.push_str("</tbody></table>");
-    html
-}
-
-/// An estimate over its interval.
-fn words(interval: &Interval, size: f64, digits: Digits) -> String {
-    let [estimate, low, high] = interval.texts(size, digits).map(|text| escaped(&text));
-    format!("{estimate}<br><small>{low} … {high}</small>")
+    let again = |model: usize| results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
+    table
+        .number("", "censored", OF_RATIO, |(_, one)| one.summary.censored)
+        .number("", "stands\nagain", OF_RATIO, |(model, _)| again(*model))
+        .number("", "misfit", Digits::Decimals(2), |(_, one)| one.summary.misfit)
+        .number(
+            "",
+            format!("θ of the first,\nlast, fraction [{}]", unit.name()),
+            OF_INTENSITY,
+            |(_, one)| {
+                let theta = |curve: &Lognormal| OF_INTENSITY.of(unit.of(curve.median));
+                let thetas = one.by_crossing.each_ref().map(|curve| curve.as_ref().map_or("–".into(), theta));
+                thetas.join(", ")
+            },
+        )
+        .done()
+        .html()
 }

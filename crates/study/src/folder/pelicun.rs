@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::FragilityFunction;
 use report::table::Table;
-use run::file::{self, Draft};
+use run::file::Draft;
 use serde_json::{Map, json};
 
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::nrml::{self, Names, limit_states};
+use super::nrml::{self, Names};
 use super::rows::Rows;
 
 /// Names of the files.
@@ -53,11 +53,7 @@ impl<'a> Pelicun<'a> {
     /// Begins the files in a folder; `None` for a study whose measure pelicun does not know.
     pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
         let paths = FILES.map(|name| folder.join(name));
-        let Some(demand) = demand(&manifest.contents.measure) else {
-            // those that an earlier study has left
-            paths.iter().try_for_each(|path| file::remove(path))?;
-            return Ok(None);
-        };
+        let Some(demand) = demand(&manifest.contents.measure) else { return Ok(None) };
         let about = json!({
             "ShortName": manifest.title,
             "Description": "Out-of-plane rocking of masonry walls; a limit state is a fraction of the static \
@@ -87,10 +83,10 @@ impl<'a> Pelicun<'a> {
             // a wall rocks in one direction
             .value("Demand-Directional", |()| 1);
         let mut states = Map::new();
-        let all = limit_states(&self.manifest.report);
-        for (k, (curve, (place, _))) in function.states.iter().zip(all).enumerate() {
+        let report = &self.manifest.report;
+        for (k, (curve, place)) in function.states.iter().zip(report.rising()).enumerate() {
             let key = format!("LS{}", k + 1);
-            let fraction = self.manifest.report.fractions[place];
+            let fraction = report.fractions[place];
             let about =
                 format!("The displacement exceeds {fraction} of the static instability displacement.");
             states.insert(key.clone(), json!({ format!("DS{}", k + 1): { "Description": about } }));

@@ -4,6 +4,7 @@ use crate::fragility::{Regression, steps};
 use crate::ida::{Crossing, Curve, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
 use report::many_lines::ManyLines;
+use report::palette::Mark;
 use run::sample::fractile;
 
 use super::contents::Manifest;
@@ -16,7 +17,7 @@ const DEMAND_END: f64 = 1.08;
 const OVERTURNED: f64 = 1.05;
 /// Points of fractiles and of a fitted curve.
 pub(crate) const POINTS: u32 = 100;
-/// Probabilities at which a fitted curve has the mark of its model.
+/// Probabilities at which a line has the mark of its model.
 const MARKED: [f64; 3] = [0.16, 0.5, 0.84];
 
 /// A wall and its results.
@@ -77,14 +78,21 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
             let probability = |x: f64| fit.probability(x * unit.size());
             let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
-            plot.line(&curve, "fit", color);
             if counts.is_empty() {
-                let first = |part: f64| curve.iter().find(|point| point[1] >= part).copied();
-                plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
+                marked_line(&mut plot, &curve, (color, mark));
+            } else {
+                plot.line(&curve, "fit", color);
             }
         }
     }
     plot.svg([&manifest.contents.axis(), "probability"])
+}
+
+/// Draws a line of a model, with its mark where it first reaches some probabilities.
+pub(crate) fn marked_line(plot: &mut ManyLines, line: &[[f64; 2]], (color, mark): (&str, Mark)) {
+    plot.line(line, "fit", color);
+    let first = |part: f64| line.iter().find(|point| point[1] >= part).copied();
+    plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
 }
 
 /// Draws the collapse fragility of a wall for a file, with the wall's name.

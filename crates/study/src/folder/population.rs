@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use crate::results::WallResults;
-use crate::tables::OF_INTENSITY;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
@@ -11,7 +10,8 @@ use run::sample::fractile;
 
 use super::contents::Manifest;
 use super::legend::looks;
-use super::plots::{POINTS, SIZE};
+use super::plots::{POINTS, SIZE, marked_line};
+use super::tables::OF_INTENSITY;
 
 /// Fractiles that the tables list.
 const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
@@ -33,9 +33,7 @@ impl Population {
     pub(crate) fn new(manifest: &Manifest) -> Self {
         let models = manifest.contents.models.len();
         let medians = vec![vec![Vec::new(); models]; manifest.report.fractions.len()];
-        let last =
-            |a: &usize, b: &usize| manifest.report.fractions[*a].total_cmp(&manifest.report.fractions[*b]);
-        let last = (0..medians.len()).max_by(last).unwrap_or(0);
+        let last = manifest.report.rising().pop().unwrap_or(0);
         Self { medians, dispersions: vec![Vec::new(); models], last }
     }
 
@@ -151,15 +149,13 @@ fn distribution(manifest: &Manifest, values: &[Vec<f64>], label: &str) -> String
     let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
     let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
     let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
-    for (values, (color, mark)) in values.iter().zip(looks(manifest)) {
+    for (values, look) in values.iter().zip(looks(manifest)) {
         let point = |k: u32| {
             let part = f64::from(k) / f64::from(POINTS);
             Some([fractile(values, part).filter(|value| value.is_finite())?, part])
         };
         let points: Vec<_> = (1..=POINTS).filter_map(point).collect();
-        plot.line(&points, "fit", color);
-        let marked = points.iter().filter(|point| [0.16, 0.5, 0.84].contains(&point[1])).copied();
-        plot.marks(&marked.collect::<Vec<_>>(), mark, color);
+        marked_line(&mut plot, &points, look);
     }
     plot.svg([label, "fraction of the walls"])
 }

@@ -7,51 +7,33 @@ use std::path::{Path, PathBuf};
 use crate::fragility::{CONFIDENCE, Interval};
 use crate::hazard::{Hazard, Rate, probability};
 use crate::ida::IntensityUnit;
-use crate::tables::OF_INTENSITY;
 use report::escaped;
-use report::many_lines::ManyLines;
 use report::table::{Column, Digits, Table};
-use run::file;
 
 use super::contents::Manifest;
 use super::error::FolderError;
-use super::legend::looks;
-use super::nrml::limit_states;
-use super::plots::SIZE;
-use super::report::MOST_WALLS;
 use super::rows::Rows;
+use super::shown::Shown;
+use super::subject::{State, Subject};
+use super::tables::OF_INTENSITY;
 
-/// Names of the files.
-const FILES: [&str; 2] = ["rates.csv", "rate_shares.csv"];
-/// Most plots of shares.
-const MOST_PLOTS: usize = 12;
 /// Part of the rates that may lie beyond the last point without a word.
 const MOST_BEYOND: f64 = 0.05;
-
-/// A limit state of a wall or class with one model: θ in SI units and β with all its parts, and those of each
-/// resample.
-pub(crate) struct Fitted {
-    pub(crate) curve: Option<[f64; 2]>,
-    pub(crate) resamples: Vec<[f64; 2]>,
-}
 
 /// The files under construction.
 pub(crate) struct Rates<'a> {
     manifest: &'a Manifest,
     hazard: &'a Hazard,
     files: [Rows; 2],
-    /// Rows of the walls and of the classes that are shown.
-    shown: Option<Table>,
-    /// Plots of the last limit state, by names.
-    plots: Vec<(String, String)>,
-    /// Lines of the plot under construction, one for each model.
-    lines: Vec<(usize, Vec<[f64; 2]>)>,
+    /// Rates, and plots of the last limit state.
+    shown: Shown<'a>,
     /// Number of rates, and of those of which much lies beyond the last point.
     beyond: [usize; 2],
 }
 
 /// A row: limit state, curve and rate.
 struct Row {
+    model: usize,
     fraction: f64,
     curve: [f64; 2],
     rate: Rate,
@@ -60,184 +42,147 @@ struct Row {
 }
 
 impl<'a> Rates<'a> {
-    /// Begins the files in a folder; `None` for a study without a hazard.
-    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
-        let paths = FILES.map(|name| folder.join(name));
-        let Some(hazard) = &manifest.report.hazard else {
-            // those that an earlier study has left
-            paths.iter().try_for_each(|path| file::remove(path))?;
-            return Ok(None);
-        };
-        let [rates, shares] = paths.map(|path| Rows::new(&path));
-        Ok(Some(Self {
-            manifest,
-            hazard,
-            files: [rates?, shares?],
-            shown: None,
-            plots: Vec::new(),
-            lines: Vec::new(),
-            beyond: [0; 2],
-        }))
+    /// Begins the files in a folder.
+    pub(crate) fn new(
+        folder: &Path,
+        manifest: &'a Manifest,
+        hazard: &'a Hazard,
+    ) -> Result<Self, FolderError> {
+        let files = [Rows::new(&folder.join("rates.csv"))?, Rows::new(&folder.join("rate_shares.csv"))?];
+        let shown = Shown::new(manifest, "share of the rate up to there");
+        Ok(Self { manifest, hazard, files, shown, beyond: [0; 2] })
     }
 
-    /// Adds a wall or a class with one model; limit states rise.
-    pub(crate) fn add(
-        &mut self,
-        name: &str,
-        is_class: bool,
-        model: usize,
-        states: &[Fitted],
-    ) -> Result<(), FolderError> {
-        let (manifest, hazard) = (self.manifest, self.hazard);
-        let rows =
-            limit_states(&manifest.report).into_iter().zip(states).filter_map(|((place, _), fitted)| {
-                let curve = fitted.curve?;
-                let rate = hazard.curve.rate(curve[0], curve[1]);
-                let resamples =
-                    fitted.resamples.iter().filter(|pair| pair.iter().all(|value| value.is_finite()));
-                let resamples: Vec<_> =
-                    resamples.map(|[theta, beta]| hazard.curve.rate(*theta, *beta).within()).collect();
-                let count = resamples.len();
-                let interval = Interval::new(rate.within(), resamples, CONFIDENCE).range;
-                let fraction = manifest.report.fractions[place];
-                Some(Row { fraction, curve, rate, interval, resamples: count })
-            });
+    /// Adds a wall or a class.
+    pub(crate) fn add(&mut self, subject: &Subject<'_>) -> Result<(), FolderError> {
+        let (hazard, contents) = (self.hazard, &self.manifest.contents);
+        let rows = subject.states().filter_map(|(model, state)| Row::of(hazard, model, state));
         let rows: Vec<Row> = rows.collect();
         for Row { rate, .. } in &rows {
             self.beyond[0] += 1;
             self.beyond[1] += usize::from(rate.beyond[1] > MOST_BEYOND * rate.within());
         }
-        let model_name = &manifest.contents.models[model].name;
-        let (unit, names) = (manifest.contents.unit, [name, model_name]);
-        let [of_rates, of_shares] = &mut self.files;
-        of_rates.add(&rates(hazard, unit, names, &rows))?;
-        of_shares.add(&shares(hazard, unit, names, &rows))?;
-        if !is_class && manifest.contents.walls.len() > MOST_WALLS {
-            return Ok(());
+        let table = rates(self.manifest, hazard, subject, &rows);
+        self.files[0].add(&table)?;
+        self.files[1].add(&shares(self.manifest, hazard, subject, &rows))?;
+        if subject.is_shown(self.manifest) {
+            let of_model = |model: usize| {
+                let last = rows.iter().rfind(|row| row.model == model);
+                last.map_or_else(Vec::new, |row| cumulated(hazard, contents.unit, &row.rate))
+            };
+            let lines: Vec<_> = (0..contents.models.len()).map(of_model).collect();
+            self.shown.add(subject, table, (self.ends(), &lines));
         }
-        let table = shown(hazard, name, model_name, &rows);
-        match &mut self.shown {
-            // classes come after all walls, and are shown before them
-            Some(all) if is_class => {
-                let at = all.rows.iter().take_while(|row| row[0] == "class".into()).count();
-                all.rows.splice(at..at, with_kind(table, is_class).rows);
-            }
-            Some(all) => all.rows.extend(with_kind(table, is_class).rows),
-            None => self.shown = Some(with_kind(table, is_class)),
-        }
-        self.draw(name, model, rows.last());
         Ok(())
     }
 
-    /// Adds the shares of the last limit state to the plot of a wall or class.
-    fn draw(&mut self, name: &str, model: usize, row: Option<&Row>) {
-        let unit = self.manifest.contents.unit;
-        self.lines.extend(row.map(|row| (model, cumulated(self.hazard, unit, &row.rate))));
-        if model + 1 < self.manifest.contents.models.len() {
-            return;
-        }
+    /// The first and the last intensity of the hazard curve, in the unit of results.
+    fn ends(&self) -> [f64; 2] {
         let points = self.hazard.curve.points();
-        let ends = [points[0][0], points[points.len() - 1][0]].map(|x| unit.of(x));
-        let mut plot = ManyLines::new(SIZE, ends, [0.0, 1.0]);
-        let looks = looks(self.manifest);
-        for (model, line) in self.lines.drain(..) {
-            plot.line(&line, "fit", looks[model].0);
-            plot.marks(&line, looks[model].1, looks[model].0);
-        }
-        let axis = self.manifest.contents.axis();
-        self.plots.push((name.to_owned(), plot.svg([&axis, "share of the rate up to there"])));
+        [points[0][0], points[points.len() - 1][0]].map(|x| self.manifest.contents.unit.of(x))
     }
 
     /// Says how many rates may lie beyond the hazard curve for a good part.
     pub(crate) fn warning(&self) -> Option<String> {
-        let ([all, much], unit) = (self.beyond, self.manifest.contents.unit);
-        let last = self.hazard.curve.points().last().map_or(0.0, |[x, _]| unit.of(*x));
+        let ([all, much], [_, last]) = (self.beyond, self.ends());
         (much > 0).then(|| {
             format!(
                 "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, \
                  at {} {}; give points of higher intensities",
                 100.0 * MOST_BEYOND,
                 OF_INTENSITY.of(last),
-                unit.name()
+                self.manifest.contents.unit.name()
             )
         })
     }
 
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
-    pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let warning = self.warning();
-        let Self { manifest, hazard, files, shown, plots, .. } = self;
-        let paths = files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
-        let (points, unit) = (hazard.curve.points(), manifest.contents.unit);
-        let [from, to] = [points[0][0], points[points.len() - 1][0]].map(|x| OF_INTENSITY.of(unit.of(x)));
+    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
+        let (contents, [from, to]) = (&self.manifest.contents, self.ends().map(|x| OF_INTENSITY.of(x)));
         let mut words = format!(
             "annual rates from {} of {from} to {to} {}, {:.0} % intervals of the records; \"at most\" \
              adds what may lie outside",
-            manifest.contents.measure,
-            unit.name(),
+            contents.measure,
+            contents.unit.name(),
             100.0 * CONFIDENCE
         );
-        if let Some(target) = hazard.target {
+        if let Some(target) = self.hazard.target {
             let _ = write!(words, "; target {target:e} a year");
         }
-        let (mut told, mut html) = (words.clone() + "\n", String::new());
-        let _ = write!(html, "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.", escaped(&words));
-        if let Some(table) = shown {
-            told.push_str(&table.text());
-            if let Some(warning) = warning {
-                let _ = write!(html, " {}.", escaped(&warning));
-            }
-            let _ = write!(html, "</p><div class=\"scroll\">{}</div>", table.html());
-        } else {
-            html.push_str("</p>");
-        }
-        html.push_str("<h3>Share of the rate of the last limit state, by intensity</h3><div class=\"row\">");
-        // classes come last
-        for (name, svg) in plots.iter().rev().take(MOST_PLOTS) {
-            let _ = write!(html, "<figure><figcaption>{}</figcaption>{svg}</figure>", escaped(name));
-        }
-        html.push_str("</div></section>\n");
-        Ok((paths, told, html))
+        let warning = self.warning().map_or_else(String::new, |warning| format!(" {}.", escaped(&warning)));
+        let table = self.shown.table();
+        let html = format!(
+            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p><div class=\"scroll\">{}\
+             </div><h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
+            escaped(&words),
+            table.html(),
+            self.shown.plots()
+        );
+        let paths = self.files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
+        Ok((paths, format!("{words}\n{}", table.text()), html))
     }
 }
 
-/// The rates in every digit.
-fn rates(hazard: &Hazard, unit: IntensityUnit, [name, model]: [&str; 2], rows: &[Row]) -> Table {
-    let years = hazard.years;
+impl Row {
+    /// Takes a limit state; `None` without a curve.
+    fn of(hazard: &Hazard, model: usize, State { fraction, curve, resamples, .. }: &State) -> Option<Self> {
+        let curve = (*curve)?;
+        let rate = hazard.curve.rate(curve[0], curve[1]);
+        let known = resamples.iter().filter(|pair| pair.iter().all(|value| value.is_finite()));
+        let rates: Vec<_> = known.map(|[theta, beta]| hazard.curve.rate(*theta, *beta).within()).collect();
+        let resamples = rates.len();
+        let interval = Interval::new(rate.within(), rates, CONFIDENCE).range;
+        Some(Self { model, fraction: *fraction, curve, rate, interval, resamples })
+    }
+}
+
+/// The rates, for files in every digit.
+fn rates(manifest: &Manifest, hazard: &Hazard, subject: &Subject<'_>, rows: &[Row]) -> Table {
+    let (unit, years) = (manifest.contents.unit, hazard.years);
+    let (two, three) = (Digits::Exponent(2), Digits::Significant(3));
+    let percent = format!("P in {years} years\n[%]");
+    let finite = |rate: f64| Some(rate).filter(|rate| rate.is_finite());
     Table::over(rows)
-        .text("wall", "", |_| name.to_owned())
-        .text("model", "", |_| model.to_owned())
-        .value("u_max_over_u_ins", |row| row.fraction)
+        .text("", "kind", |_| if subject.class.is_some() { "class" } else { "wall" })
+        .text("wall", "wall or class", |_| subject.name.to_owned())
+        .text("model", "model", |row| manifest.contents.models[row.model].name.clone())
+        .number("u_max_over_u_ins", "u_max/u_ins", Digits::AtMost(6), |row| row.fraction)
         .value(format!("theta{}", unit.ending()), |row| unit.of(row.curve[0]))
         .value("beta", |row| row.curve[1])
-        .value("annual_rate", |row| row.rate.within())
-        .value("annual_rate_low", |row| Some(row.interval[0]).filter(|rate| rate.is_finite()))
-        .value("annual_rate_high", |row| Some(row.interval[1]).filter(|rate| rate.is_finite()))
+        .number("annual_rate", "rate\n[1/year]", two, |row| row.rate.within())
+        .value("annual_rate_low", |row| finite(row.interval[0]))
+        .value("annual_rate_high", |row| finite(row.interval[1]))
+        .number("", "interval", two, |row| between(row.interval))
         .value("resamples", |row| row.resamples)
         .value("below_first_point", |row| row.rate.below)
         .value("beyond_last_point_least", |row| row.rate.beyond[0])
         .value("beyond_last_point_continued", |row| row.rate.beyond_continued)
         .value("beyond_last_point_most", |row| row.rate.beyond[1])
-        .value("annual_rate_most", |row| row.rate.most())
-        .value("return_period_years", |row| 1.0 / row.rate.within())
+        .number("annual_rate_most", "at most", two, |row| row.rate.most())
+        .number("return_period_years", "return period\n[years]", three, |row| 1.0 / row.rate.within())
         .value("return_period_years_least", |row| 1.0 / row.rate.most())
         .value("years", |_| years)
-        .value("probability", |row| probability(row.rate.within(), years))
+        .column(Column::number("probability", percent, three).shown(100.0), |row| {
+            probability(row.rate.within(), years)
+        })
         .value("probability_most", |row| probability(row.rate.most(), years))
         .value("target", |_| hazard.target)
-        .text("target_met", "", |row| met(hazard, row))
+        .text("target_met", if hazard.target.is_some() { "target met" } else { "" }, |row| {
+            hazard.target.map_or("", |target| row.rate.against(target).word())
+        })
         .done()
 }
 
 /// The parts of the rates by the segments of the hazard curve.
-fn shares(hazard: &Hazard, unit: IntensityUnit, [name, model]: [&str; 2], rows: &[Row]) -> Table {
+fn shares(manifest: &Manifest, hazard: &Hazard, subject: &Subject<'_>, rows: &[Row]) -> Table {
+    let unit = manifest.contents.unit;
     let segments = rows.iter().flat_map(|row| {
         let parts = row.rate.segments.iter().zip(row.rate.shares());
         parts.zip(hazard.curve.points().windows(2)).map(move |(part, ends)| (row, part, ends))
     });
     Table::over(segments)
-        .text("wall", "", |_| name.to_owned())
-        .text("model", "", |_| model.to_owned())
+        .text("wall", "", |_| subject.name.to_owned())
+        .text("model", "", |(row, ..)| manifest.contents.models[row.model].name.clone())
         .value("u_max_over_u_ins", |(row, ..)| row.fraction)
         .value(format!("from{}", unit.ending()), |(.., ends)| unit.of(ends[0][0]))
         .value(format!("to{}", unit.ending()), |(.., ends)| unit.of(ends[1][0]))
@@ -246,42 +191,9 @@ fn shares(hazard: &Hazard, unit: IntensityUnit, [name, model]: [&str; 2], rows: 
         .done()
 }
 
-/// What people see of the rates.
-fn shown(hazard: &Hazard, name: &str, model: &str, rows: &[Row]) -> Table {
-    let (years, two) = (hazard.years, Digits::Exponent(2));
-    let table = Table::over(rows)
-        .text("", "wall or class", |_| name.to_owned())
-        .text("", "model", |_| model.to_owned())
-        .number("", "u_max/u_ins", Digits::AtMost(6), |row| row.fraction)
-        .number("", "rate\n[1/year]", two, |row| row.rate.within())
-        .number("", "interval", two, |row| between(row.interval))
-        .number("", "at most", two, |row| row.rate.most())
-        .number("", "return period\n[years]", Digits::Significant(3), |row| 1.0 / row.rate.within())
-        .number("", format!("P in {years} years\n[%]"), Digits::Significant(3), |row| {
-            100.0 * probability(row.rate.within(), years)
-        });
-    match hazard.target {
-        Some(_) => table.text("", "target met", |row| met(hazard, row)).done(),
-        None => table.done(),
-    }
-}
-
 /// Writes an interval; a dash where it is not known.
 pub(super) fn between([low, high]: [f64; 2]) -> String {
     if low.is_finite() && high.is_finite() { format!("{low:.2e} … {high:.2e}") } else { "-".to_owned() }
-}
-
-/// Puts the kind of the rows before them.
-fn with_kind(mut table: Table, is_class: bool) -> Table {
-    table.columns.insert(0, Column::text("", "kind"));
-    for row in &mut table.rows {
-        row.insert(0, if is_class { "class" } else { "wall" }.into());
-    }
-    table
-}
-
-fn met(hazard: &Hazard, row: &Row) -> &'static str {
-    hazard.target.map_or("", |target| row.rate.against(target).word())
 }
 
 /// The part of the rate from intensities up to each point, these in a unit.

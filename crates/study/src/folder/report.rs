@@ -3,17 +3,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::fragility::{Dispersion, Interval, Summary};
+use crate::fragility::{Dispersion, Interval};
 use crate::ida::{Crossing, Curve, Exceedance, MOST_LISTED, SENSITIVE_ABOVE};
-use crate::results::{StateResults, WallResults};
-use crate::tables::{CLOUD, KINDS, Kind, Names, OF_INTENSITY, OF_RATIO, TIES};
+use crate::results::WallResults;
 use report::counted;
 use report::table::{Cell, Table};
 use run::file;
 
 use super::comparison::Comparison;
 use super::contents::Manifest;
-use super::curves::{each_wall, names};
+use super::curves::each_wall;
 use super::error::FolderError;
 use super::legend;
 use super::page;
@@ -23,9 +22,23 @@ use super::risk::Risk;
 use super::rows::Rows;
 use super::samples::Sampled;
 use super::store::{Folder, PAGE};
+use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, with_ends};
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
+/// The page, which is there only where all other files are complete, and the files that follow from options
+/// of a report.
+const OPTIONAL: [&str; 9] = [
+    PAGE,
+    "rates.csv",
+    "rate_shares.csv",
+    "losses.csv",
+    "vulnerability.csv",
+    "vulnerability.xml",
+    "samples.csv",
+    "sensitivity.csv",
+    "fragilities.svg",
+];
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 
@@ -48,7 +61,8 @@ pub struct Report {
 pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result<Report, FolderError> {
     let runs = survey(folder)?;
     folder.sweep();
-    file::remove(&folder.path().join(PAGE))?;
+    // an earlier report may have had what this one lacks
+    OPTIONAL.iter().try_for_each(|name| file::remove(&folder.path().join(name)))?;
     let (fitting, mut output) = (folder.manifest().fitting(), Output::new(folder, runs)?);
     let fitted = |_, curves: &[Curve]| {
         let results = fitting.results(curves.to_vec());
@@ -76,19 +90,15 @@ struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
     tables: Vec<(Kind, Rows)>,
-    names: Names<'a>,
     risk: Risk<'a>,
     sampled: Option<Sampled<'a>>,
     sections: String,
     comparison: Comparison,
     panels: Vec<(String, String)>,
     population: Population,
-    summary: Option<Table>,
-    /// Fits whose curves contradict a common β or cross: the words of the first ones, and the number of all.
-    doubts: Vec<String>,
-    doubted: usize,
-    /// θ of the last collapse and of the fraction, over that of the first collapse, of each fit.
-    over_first: [Vec<f64>; 2],
+    summary: Table,
+    /// Walls and models whose curves contradict a common β or cross.
+    doubts: Vec<[usize; 2]>,
     resurrected: usize,
     /// Runs that exceed `u_ins` and come back.
     come_back: usize,
@@ -111,17 +121,14 @@ impl<'a> Output<'a> {
             folder,
             runs,
             tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
-            names: names(folder),
             risk: Risk::new(folder.path(), folder.manifest())?,
-            sampled: Sampled::new(folder.path(), folder.manifest())?,
+            sampled: Sampled::new(folder.manifest()),
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
             population: Population::new(folder.manifest()),
-            summary: None,
+            summary: Table::default(),
             doubts: Vec::new(),
-            doubted: 0,
-            over_first: [const { Vec::new() }; 2],
             resurrected: 0,
             come_back: 0,
             sensitive: [0; 2],
@@ -133,7 +140,7 @@ impl<'a> Output<'a> {
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
         for (kind, rows) in &mut self.tables {
-            rows.add(&(kind.1)(&self.names, wall, results))?;
+            rows.add(&(kind.1)(manifest, wall, results))?;
         }
         self.risk.add(wall, results)?;
         self.sampled.iter_mut().for_each(|sampled| sampled.add(results));
@@ -144,19 +151,15 @@ impl<'a> Output<'a> {
         }
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
-            if manifest.contents.is_cloud {
-                let table = (CLOUD.1)(&self.names, wall, results).html();
+            let has_tie = manifest.contents.walls[wall].has_yielding_tie;
+            let regression = "Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM";
+            let tables =
+                [(manifest.contents.is_cloud, regression, CLOUD), (has_tie, "Ties, up to overturning", TIES)];
+            for (_, title, (_, table)) in tables.into_iter().filter(|(is_there, ..)| *is_there) {
+                let table = table(manifest, wall, results).html();
                 let _ = writeln!(
                     self.sections,
-                    "<section><h3>Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM</h3>\
-                     <div class=\"scroll\">{table}</div></section>"
-                );
-            }
-            if manifest.contents.walls[wall].has_yielding_tie {
-                let table = (TIES.1)(&self.names, wall, results).html();
-                let _ = writeln!(
-                    self.sections,
-                    "<section><h3>Ties, up to overturning</h3><div class=\"scroll\">{table}</div></section>"
+                    "<section><h3>{title}</h3><div class=\"scroll\">{table}</div></section>"
                 );
             }
             self.comparison.add(manifest, results);
@@ -165,20 +168,9 @@ impl<'a> Output<'a> {
         } else {
             self.population.add(results);
         }
-        for model in 0..manifest.contents.models.len() {
-            if let Some(doubt) = doubt(manifest, wall, model, results) {
-                self.doubted += 1;
-                self.doubts.extend((self.doubts.len() < NAMED).then_some(doubt));
-            }
-        }
-        if let Some(collapse) = collapse(manifest) {
-            for StateResults { by_crossing: [first, others @ ..], .. } in results.states(collapse) {
-                for (over_first, other) in self.over_first.iter_mut().zip(others) {
-                    let ratio = first.and_then(|first| Ok((*other)?.median / first.median));
-                    over_first.extend(ratio.ok());
-                }
-            }
-        }
+        let models = 0..manifest.contents.models.len();
+        let doubted = models.filter(|model| is_doubted(manifest, *model, results));
+        self.doubts.extend(doubted.map(|model| [wall, model]));
         let runs = results.all_curves().iter().flat_map(Curve::runs);
         self.come_back += runs.filter(|run| run.comes_back()).count();
         for sensitivity in results.all_curves().iter().filter_map(Curve::sensitivity) {
@@ -210,11 +202,8 @@ impl<'a> Output<'a> {
         for (_, rows) in self.tables {
             files.push(rows.commit()?);
         }
-        let path = self.folder.path().join("fragilities.svg");
-        if self.panels.is_empty() {
-            // one that an earlier report has left
-            file::remove(&path)?;
-        } else {
+        if !self.panels.is_empty() {
+            let path = self.folder.path().join("fragilities.svg");
             let title = format!("{}: collapse fragilities", manifest.title);
             let sheet = legend::file(manifest, &title, &self.panels, SIZE);
             file::to_file(&path, sheet.as_bytes())?;
@@ -241,7 +230,7 @@ impl<'a> Output<'a> {
             text.push_str("fractiles: so many of the walls have a lower median\n");
             text.push_str(&self.population.fractiles(manifest, &[collapse]).text());
         } else {
-            text.extend(self.summary.as_ref().map(Table::text));
+            text.push_str(&self.summary.text());
         }
         let [tied, yielded, broken] = self.tied;
         if tied > 0 {
@@ -267,18 +256,6 @@ impl<'a> Output<'a> {
                     Crossing::Fraction => "; each level counts for itself",
                 }
             );
-            let [last, fraction] = self.over_first.each_ref().map(|ratios| {
-                let [low, high] = [0.0, 1.0].map(|part| {
-                    let end = if part == 0.0 { f64::min } else { f64::max };
-                    ratios.iter().copied().reduce(end).unwrap_or(f64::NAN)
-                });
-                format!("{low:.3} to {high:.3}")
-            });
-            let _ = writeln!(
-                text,
-                "over theta of the first overturning, that of the last is {last}, that of the fractions at \
-                 all levels {fraction}"
-            );
         }
         text
     }
@@ -288,49 +265,50 @@ impl<'a> Output<'a> {
         let Some(collapse) = collapse(manifest) else { return };
         let unit = manifest.contents.unit;
         let estimate = |of: &Interval| Cell::Between(of.bounds(unit.size())[0]);
-        let ends = |of: &Interval, size, digits| {
-            let [_, low, high] = of.texts(size, digits);
+        let ends = |of: &Interval| {
+            let [_, low, high] = of.texts(unit.size(), OF_INTENSITY);
             format!("{low} … {high}")
         };
-        let ratio = |of: &Interval| format!("{} ({})", of.texts(1.0, OF_RATIO)[0], ends(of, 1.0, OF_RATIO));
         let table = Table::over(manifest.contents.models.iter().zip(results.summaries(collapse)))
             .text("", "wall", |_| manifest.contents.walls[wall].name.clone())
             .text("", "model", |(model, _)| model.name.clone())
             .number("", "median", OF_INTENSITY, |(_, one)| estimate(&one.median))
-            .number("", "interval", OF_INTENSITY, |(_, one)| ends(&one.median, unit.size(), OF_INTENSITY))
+            .number("", "interval", OF_INTENSITY, |(_, one)| ends(&one.median))
             .number("", "theta", OF_INTENSITY, |(_, one)| estimate(&one.theta))
             .number("", "beta", OF_INTENSITY, |(_, one)| one.fitted.ok().map(|fit| fit.dispersion))
             .number("", "censored", OF_INTENSITY, |(_, one)| one.censored)
             .number("", format!("median/{}", manifest.report.reference), OF_INTENSITY, |(_, one)| {
-                ratio(&one.median_ratio)
+                with_ends(&one.median_ratio, 1.0, OF_RATIO)
             })
             .done();
-        match &mut self.summary {
-            Some(summary) => summary.rows.extend(table.rows),
-            None => self.summary = Some(table),
-        }
+        self.summary.columns = table.columns;
+        self.summary.rows.extend(table.rows);
     }
 
     /// Warns of walls and models whose limit states contradict a common β, or whose curves cross.
     fn warning(&self, manifest: &Manifest) -> Option<String> {
-        let more = if self.doubted > NAMED { " …" } else { "" };
-        let fits = manifest.contents.walls.len() * manifest.contents.models.len();
-        let named = format!("{} of {fits} fits: {}{more}", self.doubted, self.doubts.join(", "));
-        if self.doubted > 0 && manifest.contents.is_cloud {
-            return Some(format!(
+        let contents = &manifest.contents;
+        let name = |&[wall, model]: &[usize; 2]| {
+            format!("wall {:?} with {}", contents.walls[wall].name, contents.models[model].name)
+        };
+        let named: Vec<_> = self.doubts.iter().take(NAMED).map(name).collect();
+        let more = if self.doubts.len() > NAMED { " …" } else { "" };
+        let fits = contents.walls.len() * contents.models.len();
+        let named = format!("{} of {fits} fits: {}{more}", self.doubts.len(), named.join(", "));
+        let told = match manifest.report.beta {
+            _ if contents.is_cloud => format!(
                 "theta of the collapse is not among the runs in {named}; scale the records, or add others"
-            ));
-        }
-        (self.doubted > 0).then(|| match manifest.report.beta {
+            ),
             Dispersion::Common => format!(
                 "limit states contradict a common beta in {named}; their fitted curves are rough, see the \
                  steps on the page and beta_alone in fragilities.csv"
             ),
             Dispersion::Own | Dispersion::Ordered => format!(
-                "curves of limit states cross in {named}; in [report], beta = \"ordered\" fits curves that \
-                 do not cross"
+                "curves of limit states cross in {named}, see crossing in fragilities.csv; in [report], \
+                 beta = \"ordered\" fits curves that do not cross"
             ),
-        })
+        };
+        (!self.doubts.is_empty()).then_some(told)
     }
 }
 
@@ -339,32 +317,18 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
     manifest.report.fractions.iter().position(|fraction| *fraction == 1.0)
 }
 
-/// Names a wall and model whose limit states contradict a common β, with the β of each, or whose curves
-/// cross, with the limit states and intensities at which they do; of a cloud, whose θ of the collapse lies
-/// outside the runs, or which has no regression.
-fn doubt(manifest: &Manifest, wall: usize, model: usize, results: &WallResults) -> Option<String> {
+/// Returns whether the limit states of a model contradict a common β, or their curves cross; of a cloud, whether
+/// θ of the collapse lies outside the runs, or there is no regression.
+fn is_doubted(manifest: &Manifest, model: usize, results: &WallResults) -> bool {
     let Manifest { report, contents, .. } = manifest;
-    let unit = contents.unit;
-    let in_unit = |intensity: f64| format!("{} {}", report::number(unit.of(intensity), 3), unit.name());
-    let summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
-    let words: Vec<_> = if contents.is_cloud {
-        let runs = results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
-        let [least, most] = [f64::min, f64::max].map(|end| runs.clone().reduce(end).unwrap_or(f64::NAN));
-        let told = |theta| format!("theta {}, runs {} to {}", in_unit(theta), in_unit(least), in_unit(most));
-        let words = |state| match results.summary(state, model).fitted {
-            Ok(curve) => Some(curve.median).filter(|theta| !(least..=most).contains(theta)).map(told),
-            Err(_) => Some("no regression".to_owned()),
-        };
-        collapse(manifest).and_then(words).into_iter().collect()
-    } else if report.beta == Dispersion::Common {
-        let alone = summaries.filter(|one| one.contradicted).filter_map(|one| one.alone.ok());
-        alone.map(|fit| format!("{:.2}", fit.dispersion)).collect()
-    } else {
-        let crossing = |(summary, fraction): (&Summary, &f64)| {
-            summary.crossing.map(|at| format!("{fraction} at {}", in_unit(at)))
-        };
-        summaries.zip(&report.fractions).filter_map(crossing).collect()
-    };
-    let (wall, model) = (&contents.walls[wall].name, &contents.models[model].name);
-    (!words.is_empty()).then(|| format!("wall {wall:?} with {model} ({})", words.join(", ")))
+    if contents.is_cloud {
+        let runs = || results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
+        let is_among = |theta: f64| runs().any(|x| x <= theta) && runs().any(|x| x >= theta);
+        let theta = |state| results.summary(state, model).fitted.map(|curve| curve.median);
+        return collapse(manifest).is_some_and(|state| !theta(state).is_ok_and(is_among));
+    }
+    (0..report.fractions.len()).map(|state| results.summary(state, model)).any(|one| match report.beta {
+        Dispersion::Common => one.contradicted,
+        Dispersion::Own | Dispersion::Ordered => one.crossing.is_some(),
+    })
 }

@@ -1,40 +1,39 @@
 //! Fragilities for risk engines: `fragilities.xml`, and `fragility_curves.csv` with one curve in a row, of
-//! every wall and of every class of walls.
+//! every wall and of every class of walls; and what follows from them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::document::{ReportOptions, WallClass};
-use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Interval, Summary, covariance};
+use crate::document::WallClass;
+use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Lognormal};
 use crate::results::WallResults;
-use crate::tables::OF_INTENSITY;
 
-use run::file::{self, Draft};
-
-use super::classes::Classes;
 use super::contents::Manifest;
 use super::error::FolderError;
 use super::losses::Losses;
-use super::nrml;
+use super::nrml::{self, Nrml, state_name};
 use super::pelicun::{self, Pelicun};
-use super::rates::{Fitted, Rates};
+use super::plots::POINTS;
+use super::rates::Rates;
 use super::rows::Rows;
-use report::counted;
-use report::table::{Cell, Table};
+use super::shown::Shown;
+use super::subject::{Fragilities, State, Subject};
+use super::tables::OF_INTENSITY;
+use report::table::{Cell, Digits, Table};
+use report::{counted, escaped};
 
-/// Names of the files.
-const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
+/// Name of the file for `OpenQuake`.
+const NRML: &str = "fragilities.xml";
 
 /// The files under construction.
 pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
-    states: Vec<(usize, String)>,
     table: Rows,
     /// Keys of the geometry of walls, each a column.
-    geometry: Vec<String>,
-    xml: Option<(Draft, nrml::Writer)>,
+    geometry: Vec<&'a str>,
+    xml: Option<Nrml>,
     pelicun: Option<Pelicun<'a>>,
-    /// Numbers of the walls of each class.
+    /// Classes with the numbers of their walls.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
     /// The classes of each wall, with its share of them.
     shares: Vec<Vec<(usize, f64)>>,
@@ -42,6 +41,8 @@ pub(crate) struct Risk<'a> {
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
     /// Resamples of each class, of each model and limit state.
     resamples: Vec<Vec<Vec<ClassResamples>>>,
+    /// Classes, and the curves of their last limit state.
+    shown: Shown<'a>,
     rates: Option<Rates<'a>>,
     losses: Option<Losses<'a>>,
     /// Number of functions without a curve, and of those that NRML cannot hold.
@@ -51,17 +52,16 @@ pub(crate) struct Risk<'a> {
 impl<'a> Risk<'a> {
     /// Begins the files in a folder.
     pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Self, FolderError> {
-        let [table, xml] = FILES.map(|name| folder.join(name));
-        let xml = if let Some((writer, text)) = nrml::Writer::new(manifest) {
-            Some((Draft::new(&xml, text.as_bytes())?, writer))
-        } else {
-            // one that an earlier study has left
-            file::remove(&xml)?;
-            None
-        };
-        let walls = &manifest.contents.walls;
+        let (report, walls) = (&manifest.report, &manifest.contents.walls);
+        let more = "a limit state is named by its fraction of the static instability displacement";
+        let mut xml = Nrml::new(&folder.join(NRML), manifest, "fragilityModel", more)?;
+        let names: Vec<_> =
+            report.rising().iter().map(|&place| state_name(report.fractions[place])).collect();
+        if let Some(xml) = &mut xml {
+            xml.write(&format!("    <limitStates>{}</limitStates>\n", names.join(" ")))?;
+        }
         let numbers: BTreeMap<_, _> = walls.iter().enumerate().map(|(k, wall)| (&wall.name, k)).collect();
-        let classes = manifest.report.classes.iter().map(|class| {
+        let classes = report.classes.iter().map(|class| {
             let named: Vec<_> = class.walls.iter().filter_map(|name| numbers.get(name).copied()).collect();
             (class, if class.walls.is_empty() { (0..walls.len()).collect() } else { named })
         });
@@ -72,53 +72,46 @@ impl<'a> Risk<'a> {
                 shares[wall].push((number, share));
             }
         }
-        let states = nrml::limit_states(&manifest.report);
-        let mut geometry: Vec<String> = Vec::new();
+        let mut geometry: Vec<&str> = Vec::new();
         for (key, _) in walls.iter().flat_map(|wall| self::geometry(&wall.parameters)) {
-            if !geometry.iter().any(|own| own == key) {
-                geometry.push(key.to_owned());
+            if !geometry.contains(&key) {
+                geometry.push(key);
             }
         }
-        let of_class = vec![vec![ClassResamples::default(); states.len()]; manifest.contents.models.len()];
+        let of_class = vec![vec![ClassResamples::default(); names.len()]; manifest.contents.models.len()];
+        let rates = report.hazard.as_ref().map(|hazard| Rates::new(folder, manifest, hazard));
+        let losses = report.loss_ratios.as_ref().map(|ratios| Losses::new(folder, manifest, ratios));
         Ok(Self {
             manifest,
-            rates: Rates::new(folder, manifest)?,
-            losses: Losses::new(folder, manifest)?,
-            resamples: vec![of_class; classes.len()],
-            states,
-            table: Rows::new(&table)?,
+            table: Rows::new(&folder.join("fragility_curves.csv"))?,
             geometry,
             xml,
             pelicun: Pelicun::new(folder, manifest)?,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
+            resamples: vec![of_class; classes.len()],
             classes,
             shares,
+            shown: Shown::new(manifest, "probability"),
+            rates: rates.transpose()?,
+            losses: losses.transpose()?,
             left_out: [0; 2],
         })
     }
 
     /// Adds a wall.
     pub(crate) fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
-        let Manifest { contents, report, .. } = self.manifest;
-        let note = &contents.walls[wall];
-        for model in 0..contents.models.len() {
-            let summaries = self.states.iter().map(|(place, _)| results.summary(*place, model));
-            let summaries: Vec<&Summary> = summaries.collect();
-            let curves: Option<Vec<_>> = summaries.iter().map(|summary| summary.fitted.ok()).collect();
-            let function =
-                curves.map(|curves| FragilityFunction::new(curves.as_slice(), report.modelling_uncertainty));
-            let known: Vec<_> = summaries.iter().map(|summary| Known::of_wall(summary, report)).collect();
-            self.write((&note.name, 1, &note.parameters), model, function.as_ref(), &known)?;
-            let states = || summaries.iter().map(|summary| of_summary(summary, report)).collect();
-            self.follow(&note.name, false, model, states)?;
-            for &(class, share) in &self.shares[wall] {
-                for (resamples, summary) in self.resamples[class][model].iter_mut().zip(&summaries) {
+        let subject = Subject::of_wall(self.manifest, wall, results);
+        self.write(&subject)?;
+        for &(class, share) in &self.shares[wall] {
+            for (model, resamples) in self.resamples[class].iter_mut().enumerate() {
+                for (resamples, place) in resamples.iter_mut().zip(self.manifest.report.rising()) {
+                    let summary = results.summary(place, model);
                     resamples.add(share, summary.theta.estimate, &summary.resamples);
                 }
             }
-            if let Some(functions) = self.members.get_mut(&wall) {
-                functions.push(function);
-            }
+        }
+        if let Some(functions) = self.members.get_mut(&wall) {
+            *functions = subject.models.into_iter().map(|model| model.function).collect();
         }
         Ok(())
     }
@@ -126,48 +119,34 @@ impl<'a> Risk<'a> {
     /// Adds the classes, and completes the files; returns their paths, what is to be said of them, and a
     /// section of the page.
     pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let contents = &self.manifest.contents;
         let mut told = String::new();
-        let states = self.states.clone();
-        let mut classes = Classes::new(self.manifest, &states);
-        for (number, (class, walls)) in std::mem::take(&mut self.classes).into_iter().enumerate() {
-            let shares = class.shares(walls.len());
-            for model in 0..contents.models.len() {
-                let of_wall = |wall: &usize| self.members[wall][model].clone();
-                let members: Option<Vec<_>> = walls.iter().map(of_wall).collect();
-                if members.is_none() {
-                    let without = walls.iter().filter(|wall| self.members[wall][model].is_none());
-                    told.push_str(&self.without_curve(class, model, &without.copied().collect::<Vec<_>>()));
+        let all = std::mem::take(&mut self.classes).into_iter().zip(std::mem::take(&mut self.resamples));
+        for ((class, walls), resamples) in all {
+            let mut models = Vec::new();
+            for (model, resamples) in resamples.iter().enumerate() {
+                let is_without = |wall: &&usize| self.members[*wall][model].is_none();
+                let without: Vec<usize> = walls.iter().filter(is_without).copied().collect();
+                if !without.is_empty() {
+                    told.push_str(&self.without_curve(class, model, &without));
                 }
+                let members = walls.iter().map(|wall| self.members[wall][model].clone());
+                let members: Option<Vec<_>> = members.collect();
+                let shares = class.shares(walls.len());
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
-                let known = |(k, resamples): (usize, &ClassResamples)| {
-                    let beta_modelling = self.manifest.report.modelling_uncertainty;
-                    Known::of_class(function.as_ref(), k, &resamples.curves(beta_modelling))
-                };
-                let known: Vec<_> = self.resamples[number][model].iter().enumerate().map(known).collect();
-                self.write((&class.name, walls.len(), ""), model, function.as_ref(), &known)?;
-                classes.add((&class.name, walls.len()), model, function.as_ref(), &known);
-                let beta_modelling = self.manifest.report.modelling_uncertainty;
-                let resamples = std::mem::take(&mut self.resamples[number][model]);
-                let state = |(k, resamples): (usize, &ClassResamples)| {
-                    let curve = function.as_ref().map(|f| [f.states[k].median, f.dispersion(k)]);
-                    Fitted { curve, resamples: resamples.curves(beta_modelling) }
-                };
-                let states = || resamples.iter().enumerate().map(state).collect();
-                self.follow(&class.name, true, model, states)?;
-                told.extend(function.map(|function| self.line(class, model, &function)));
+                models.push(Fragilities::of_class(self.manifest, function, resamples));
             }
+            let (name, parameters) = (&*class.name, "");
+            self.write(&Subject { name, class: Some(walls.len()), parameters, models })?;
+        }
+        let table = self.shown.table();
+        let mut section = self.section(&table);
+        if !table.rows.is_empty() {
+            told += &format!("curves of classes of walls, and the parts of their beta\n{}", table.text());
         }
         told.push_str(&self.words());
         let mut paths = vec![self.table.commit()?];
-        if let Some((mut draft, _)) = self.xml {
-            draft.write(|file| nrml::Writer::finish(file))?;
-            paths.push(draft.commit(true)?);
-        }
-        if let Some(pelicun) = self.pelicun {
-            paths.extend(pelicun.finish()?);
-        }
-        let mut section = classes.section();
+        paths.extend(self.xml.map(Nrml::finish).transpose()?);
+        paths.extend(self.pelicun.map(Pelicun::finish).transpose()?.into_iter().flatten());
         let rates = self.rates.map(Rates::finish).transpose()?;
         let losses = self.losses.map(Losses::finish).transpose()?;
         for (files, words, html) in rates.into_iter().chain(losses) {
@@ -183,93 +162,143 @@ impl<'a> Risk<'a> {
         self.rates.as_ref()?.warning()
     }
 
-    /// Adds what follows from the curves of a wall or a class with one model, where the study asks for it.
-    fn follow(
-        &mut self,
-        name: &str,
-        is_class: bool,
-        model: usize,
-        states: impl Fn() -> Vec<Fitted>,
-    ) -> Result<(), FolderError> {
+    /// Writes a wall or a class, and what follows from its curves where the study asks for it.
+    fn write(&mut self, subject: &Subject<'_>) -> Result<(), FolderError> {
+        let Manifest { contents, report, .. } = self.manifest;
+        let table = self.curves(subject);
+        self.table.add(&table)?;
+        for (of_model, model) in subject.models.iter().zip(&contents.models) {
+            let names = [subject.name, &model.name];
+            self.left_out[0] += usize::from(of_model.function.is_none());
+            if let Some((pelicun, function)) = self.pelicun.as_mut().zip(of_model.function.as_ref()) {
+                pelicun.add(names, function)?;
+            }
+            let Some(xml) = &mut self.xml else { continue };
+            if let Some(function) = &of_model.function {
+                let states = report.rising().into_iter().map(|place| report.fractions[place]);
+                let Some(text) = nrml::fragility(function, states, &xml.measure, contents.unit) else {
+                    self.left_out[1] += 1;
+                    continue;
+                };
+                let id = escaped(&xml.id(subject.name, &model.name));
+                xml.write(&format!(
+                    "    <fragilityFunction id=\"{id}\" format=\"continuous\" shape=\"logncdf\">\n{text}    \
+                     </fragilityFunction>\n"
+                ))?;
+            } else {
+                xml.write(&no_function(self.manifest, names, &of_model.states))?;
+            }
+        }
+        if subject.class.is_some() {
+            let last = |of_model: &Fragilities| {
+                let [median, dispersion] = of_model.function.as_ref().and(of_model.states.last()?.curve)?;
+                Some(Lognormal { median: contents.unit.of(median), dispersion })
+            };
+            let curves: Vec<_> = subject.models.iter().map(last).collect();
+            let ends = curves.iter().flatten().map(|curve| curve.median * libm::exp(2.5 * curve.dispersion));
+            let end = ends.fold(0.0, f64::max);
+            let at = |k: u32| end * f64::from(k) / f64::from(POINTS);
+            let line = |curve: &Option<Lognormal>| {
+                let point =
+                    |curve: &Lognormal| (1..=POINTS).map(|k| [at(k), curve.probability(at(k))]).collect();
+                curve.as_ref().map_or_else(Vec::new, point)
+            };
+            let lines: Vec<Vec<[f64; 2]>> = curves.iter().map(line).collect();
+            self.shown.add(subject, table, ([0.0, end], &lines));
+        }
         if let Some(rates) = &mut self.rates {
-            rates.add(name, is_class, model, &states())?;
+            rates.add(subject)?;
         }
         if let Some(losses) = &mut self.losses {
-            losses.add(name, is_class, model, &states())?;
+            losses.add(subject)?;
         }
         Ok(())
     }
 
-    /// Writes the function of a wall or a class, by its name, number of walls and parameters, with one model.
-    /// `known` is what is known of each limit state beside its curve.
-    fn write(
-        &mut self,
-        (name, walls, parameters): (&str, usize, &str),
-        model: usize,
-        function: Option<&FragilityFunction>,
-        known: &[Known],
-    ) -> Result<(), FolderError> {
-        let Manifest { contents, report, .. } = self.manifest;
-        let model = &contents.models[model].name;
+    /// The curves of a wall or a class, for files in every digit.
+    fn curves(&self, subject: &Subject<'_>) -> Table {
+        let contents = &self.manifest.contents;
         let unit = contents.unit;
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-        let bounds = |k: usize, part: usize| Cell::Between(known[k].theta.bounds(unit.size())[part]);
-        let covariance = |k: usize, part: usize| known[k].covariance.map(|moments| moments[part]);
-        let mut table = Table::over(self.states.iter().enumerate())
-            .text("wall", "", |_| name.to_owned())
-            .value("walls", |_| walls)
-            .text("model", "", |_| model.clone())
+        let rows = subject.models.iter().zip(&contents.models).flat_map(|(of_model, model)| {
+            let function = of_model.function.as_ref();
+            of_model.states.iter().enumerate().map(move |(k, state)| {
+                let curve = function.map(|function| (function.states[k], function.dispersion(k)));
+                (&model.name, state, curve)
+            })
+        });
+        let finite = |value: f64| Some(value).filter(|value| value.is_finite());
+        let theta = |state: &State, part: usize| Cell::Between(state.theta.bounds(unit.size())[part]);
+        let moment = |state: &State, part: usize| state.covariance.map(|moments| moments[part]);
+        let interval = |[_, low, high]: [String; 3]| format!("{low} … {high}");
+        let modelling = self.manifest.report.modelling_uncertainty;
+        let mut table = Table::over(rows)
+            .text("wall", "class", |_| subject.name.to_owned())
+            .value("walls", |_| subject.class.unwrap_or(1))
+            .text("model", "model", |(model, ..)| (*model).clone())
             .text("measure", "", |_| contents.measure.clone())
             .text("unit", "", |_| unit.name())
-            .text("limit_state", "", |(_, (_, state))| state.clone())
-            .value("u_max_over_u_ins", |(_, (place, _))| report.fractions[*place])
-            .value("theta", |(k, _)| match function {
-                Some(function) => Cell::Number(unit.of(function.states[*k].median)),
-                None => bounds(*k, 0),
+            .text("limit_state", "", |(_, state, _)| state_name(state.fraction))
+            .number("u_max_over_u_ins", "u_max/u_ins", Digits::AtMost(6), |(_, state, _)| state.fraction)
+            .number("theta", format!("θ\n[{}]", unit.name()), OF_INTENSITY, |(_, state, curve)| match curve {
+                Some((curve, _)) => Cell::Number(unit.of(curve.median)),
+                None => theta(state, 0),
             })
-            .value("theta_low", |(k, _)| bounds(*k, 1))
-            .value("theta_high", |(k, _)| bounds(*k, 2))
+            .value("theta_low", |(_, state, _)| theta(state, 1))
+            .value("theta_high", |(_, state, _)| theta(state, 2))
+            .number("", "interval", OF_INTENSITY, |(_, state, _)| {
+                interval(state.theta.texts(unit.size(), OF_INTENSITY))
+            })
             // the square root of the sum of the squares of those after it
-            .value("beta", |(k, _)| function.map(|function| function.dispersion(*k)))
-            .value("beta_records", |(k, _)| function.map(|function| function.states[*k].beta_records))
-            .value("beta_walls", |(k, _)| function.map(|function| function.states[*k].beta_walls))
-            .value("beta_modelling", |_| function.map(|function| function.beta_modelling))
-            .value("beta_low", |(k, _)| finite(Some(known[*k].beta.range[0])))
-            .value("beta_high", |(k, _)| finite(Some(known[*k].beta.range[1])))
-            .value("var_ln_theta", |(k, _)| covariance(*k, 0))
-            .value("cov_ln_theta_beta", |(k, _)| covariance(*k, 1))
-            .value("var_beta", |(k, _)| covariance(*k, 2))
-            .value("misfit", |(k, _)| known[*k].misfit);
+            .number("beta", "β", OF_INTENSITY, |(.., curve)| curve.map(|(_, beta)| beta))
+            .number("", "interval", OF_INTENSITY, |(_, state, _)| {
+                interval(state.beta.texts(1.0, OF_INTENSITY))
+            })
+            .number("beta_records", "β of\nrecords", OF_INTENSITY, |(.., curve)| {
+                curve.map(|(curve, _)| curve.beta_records)
+            })
+            .number("beta_walls", "β of\nwalls", OF_INTENSITY, |(.., curve)| {
+                curve.map(|(curve, _)| curve.beta_walls)
+            })
+            .number("beta_modelling", "β of\nmodelling", OF_INTENSITY, |(.., curve)| {
+                curve.map(|_| modelling)
+            })
+            .value("beta_low", |(_, state, _)| finite(state.beta.range[0]))
+            .value("beta_high", |(_, state, _)| finite(state.beta.range[1]))
+            .value("var_ln_theta", |(_, state, _)| moment(state, 0))
+            .value("cov_ln_theta_beta", |(_, state, _)| moment(state, 1))
+            .value("var_beta", |(_, state, _)| moment(state, 2))
+            .value("misfit", |(_, state, _)| state.misfit);
         for key in &self.geometry {
-            let value = geometry(parameters).find(|(own, _)| own == key).map(|(_, value)| value);
+            let value = geometry(subject.parameters).find(|(own, _)| own == key).map(|(_, value)| value);
             let cell = value.map_or(Cell::Empty, |value| match value.parse() {
                 Ok(number) => Cell::Number(number),
                 Err(_) => value.trim_matches('"').to_owned().into(),
             });
-            table = table.value(key.clone(), move |_| cell.clone());
+            table = table.value((*key).to_owned(), move |_| cell.clone());
         }
-        self.table.add(&table.done())?;
-        self.left_out[0] += usize::from(function.is_none());
-        if let Some((pelicun, function)) = self.pelicun.as_mut().zip(function) {
-            pelicun.add([name, model], function)?;
+        table.done()
+    }
+
+    /// Returns the section of a page about the classes; empty without classes.
+    fn section(&self, table: &Table) -> String {
+        let report = &self.manifest.report;
+        if table.rows.is_empty() {
+            return String::new();
         }
-        let Some((draft, writer)) = &mut self.xml else { return Ok(()) };
-        let Some(function) = function else {
-            let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
-            let theta = |((_, state), known): (&(usize, String), &Known)| {
-                (state.clone(), known.theta.texts(unit.size(), OF_INTENSITY)[0].clone())
-            };
-            let thetas: Vec<_> = self.states.iter().zip(known).map(theta).collect();
-            return Ok(draft.write(|file| writer.note(file, &id, &thetas))?);
-        };
-        let is_written = draft.write(|file| writer.function(file, [name, model], function))?;
-        self.left_out[1] += usize::from(!is_written);
-        Ok(())
+        let highest = report.rising().last().map_or(1.0, |place| report.fractions[*place]);
+        format!(
+            "<section><h2>Classes of walls</h2><p class=\"subtitle\">β² is the sum of the squares of its \
+             parts; intervals are those of the records, {:.0} %.</p><div class=\"scroll\">{}</div>\
+             <h3>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {highest})</h3>{}</section>\n",
+            100.0 * CONFIDENCE,
+            table.html(),
+            self.shown.plots()
+        )
     }
 
     /// Describes what the files for risk engines lack, and the remedy.
     fn words(&self) -> String {
-        let [_, file] = FILES;
+        let file = NRML;
         let measure = &self.manifest.contents.measure;
         let pelicun = if self.pelicun.is_some() { String::new() } else { pelicun::refusal(measure) };
         if self.xml.is_none() {
@@ -306,67 +335,20 @@ impl<'a> Risk<'a> {
             if without.len() == 1 { "has" } else { "have" },
         )
     }
-
-    /// Describes the result of a class.
-    fn line(&self, class: &WallClass, model: usize, function: &FragilityFunction) -> String {
-        let Manifest { contents, report, .. } = self.manifest;
-        let unit = contents.unit;
-        let state = |(k, (place, _)): (usize, &(usize, String))| {
-            let curve = function.states[k];
-            format!(
-                "{} {} to exceed {} u_ins, beta {:.3} (records {:.3}, walls {:.3}, modelling {})",
-                OF_INTENSITY.of(unit.of(curve.median)),
-                unit.name(),
-                report.fractions[*place],
-                function.dispersion(k),
-                curve.beta_records,
-                curve.beta_walls,
-                function.beta_modelling
-            )
-        };
-        let states: Vec<_> = self.states.iter().enumerate().map(state).collect();
-        let model = &contents.models[model].name;
-        format!("class {:?} with {model}: theta {}\n", class.name, states.join("; "))
-    }
 }
 
-/// What is known of a limit state of a wall or a class beside its curve.
-pub(crate) struct Known {
-    pub(crate) theta: Interval,
-    /// With the β of the model.
-    pub(crate) beta: Interval,
-    /// Variance of ln θ, covariance of ln θ and β, variance of β.
-    covariance: Option<[f64; 3]>,
-    misfit: Option<f64>,
-}
-
-impl Known {
-    fn of_wall(summary: &Summary, report: &ReportOptions) -> Self {
-        let total = |beta: f64| beta.hypot(report.modelling_uncertainty);
-        let Interval { estimate, range, least } = summary.beta;
-        let beta = Interval { estimate: total(estimate), range: range.map(total), least: least.map(total) };
-        Self { theta: summary.theta, beta, covariance: summary.covariance(), misfit: summary.misfit }
-    }
-
-    fn of_class(function: Option<&FragilityFunction>, state: usize, resamples: &[[f64; 2]]) -> Self {
-        let [theta, beta] = function
-            .map_or([f64::NAN; 2], |function| [function.states[state].median, function.dispersion(state)]);
-        let resamples = if function.is_some() { resamples } else { &[] };
-        let interval = |estimate: f64, part: usize| {
-            Interval::new(estimate, resamples.iter().map(|pair| pair[part]), CONFIDENCE)
-        };
-        let covariance = covariance(resamples);
-        Self { theta: interval(theta, 0), beta: interval(beta, 1), covariance, misfit: None }
-    }
-}
-
-/// Returns the curve of a limit state of a wall and its resamples, with the β of the model.
-fn of_summary(summary: &Summary, report: &ReportOptions) -> Fitted {
-    let total = |theta: f64, beta: f64| [theta, beta.hypot(report.modelling_uncertainty)];
-    Fitted {
-        curve: summary.fitted.ok().map(|curve| total(curve.median, curve.dispersion)),
-        resamples: summary.resamples.iter().map(|[theta, beta]| total(*theta, *beta)).collect(),
-    }
+/// Says in a comment of NRML what is known of a function that is not written.
+fn no_function(manifest: &Manifest, [name, model]: [&str; 2], states: &[State]) -> String {
+    let unit = manifest.contents.unit;
+    let id = if manifest.contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
+    let theta = |state: &State| {
+        let [theta, ..] = state.theta.texts(unit.size(), OF_INTENSITY);
+        format!("{} {theta}", state_name(state.fraction))
+    };
+    let thetas: Vec<_> = states.iter().map(theta).collect();
+    // a comment must not have two dashes
+    let text = format!("{id}: theta in {} of {}", unit.name(), thetas.join(", ")).replace("--", "- -");
+    format!("    <!-- no function of {} -->\n", escaped(&text))
 }
 
 /// Lists the geometry among the parameters of a wall: keys and values.

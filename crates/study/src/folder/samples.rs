@@ -16,8 +16,6 @@ use super::legend::looks;
 
 /// Most walls and models of which coefficients are drawn.
 const MOST_DRAWN: usize = 12;
-/// Names of the files.
-const FILES: [&str; 2] = ["samples.csv", "sensitivity.csv"];
 
 /// What the samples show, wall by wall.
 pub(crate) struct Sampled<'a> {
@@ -42,13 +40,9 @@ struct Row<'a> {
 
 impl<'a> Sampled<'a> {
     /// Begins; `None` for a study without uncertain parameters.
-    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Option<Self>, FolderError> {
-        let Some(samples) = &manifest.report.samples else {
-            // those that an earlier study has left
-            FILES.iter().try_for_each(|name| file::remove(&folder.join(name)))?;
-            return Ok(None);
-        };
-        Ok(Some(Self { manifest, samples, logarithms: Vec::new() }))
+    pub(crate) fn new(manifest: &'a Manifest) -> Option<Self> {
+        let samples = manifest.report.samples.as_ref()?;
+        Some(Self { manifest, samples, logarithms: Vec::new() })
     }
 
     /// Adds the next wall.
@@ -63,7 +57,7 @@ impl<'a> Sampled<'a> {
     /// Writes the files; returns their paths and the section of the page.
     pub(crate) fn finish(self, folder: &Path) -> Result<(Vec<PathBuf>, String), FolderError> {
         let rows = self.rows();
-        let [samples, sensitivity] = FILES.map(|name| folder.join(name));
+        let [samples, sensitivity] = ["samples.csv", "sensitivity.csv"].map(|name| folder.join(name));
         file::to_file(&samples, self.table().csv().as_bytes())?;
         file::to_file(&sensitivity, self.sensitivity(&rows).csv().as_bytes())?;
         Ok((vec![samples, sensitivity], self.section(&rows)))
@@ -135,7 +129,7 @@ impl<'a> Sampled<'a> {
     fn section(&self, rows: &[Row<'_>]) -> String {
         let Manifest { contents, report, .. } = self.manifest;
         let fractions = &report.fractions;
-        let last = (0..fractions.len()).max_by(|a, b| fractions[*a].total_cmp(&fractions[*b])).unwrap_or(0);
+        let last = report.rising().pop().unwrap_or(0);
         let two = Digits::Decimals(2);
         let table = Table::over(rows.iter().filter(|row| row.state == last))
             .text("", "wall", |row| row.wall.to_owned())

@@ -44,13 +44,7 @@ impl Folder {
     /// [`FolderError`] if it holds another study, or cannot be read or written.
     pub fn of_study(path: &Path, loaded: &LoadedStudy) -> Result<Self, FolderError> {
         let contents = Contents::of(&loaded.study);
-        let earlier = path.join(STUDY).exists().then(|| read(path)).transpose()?;
-        if let Some(other) = earlier.as_ref().filter(|earlier| earlier.contents != contents) {
-            let difference = other.contents.difference(&contents);
-            return Err(FolderError::OtherStudy { path: path.to_owned(), difference });
-        }
-        let manifest = Manifest::new(loaded.title.clone(), loaded.report.clone(), contents);
-        Self::create(path, earlier.as_ref(), manifest)
+        Self::like(path, &Manifest::new(loaded.title.clone(), loaded.report.clone(), contents))
     }
 
     /// Opens or makes the folder that a study is merged into.
@@ -58,24 +52,20 @@ impl Folder {
     /// # Errors
     /// As [`Self::of_study`].
     pub fn like(path: &Path, manifest: &Manifest) -> Result<Self, FolderError> {
-        let earlier = path.join(STUDY).exists().then(|| Self::open(path)).transpose()?;
+        let earlier = path.join(STUDY).exists().then(|| read(path)).transpose()?;
         if let Some(earlier) = &earlier {
-            earlier.expect(&manifest.contents)?;
+            expect(path, &earlier.contents, &manifest.contents)?;
         }
-        Self::create(path, earlier.as_ref().map(Self::manifest), manifest.clone())
-    }
-
-    fn create(path: &Path, earlier: Option<&Manifest>, manifest: Manifest) -> Result<Self, FolderError> {
         file::make_folder(&path.join(RUNS))?;
-        if earlier.is_some_and(|earlier| *earlier != manifest) {
+        if earlier.is_some_and(|earlier| earlier != *manifest) {
             // its tables are those of another report
             file::remove(&path.join(PAGE))?;
         }
         let mut draft = Draft::new(&path.join(STUDY), b"")?;
-        draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
+        draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, manifest)?))?;
         draft.write(|file| file.write_all(b"\n"))?;
         draft.commit(true)?;
-        Ok(Self::locked(path, manifest))
+        Ok(Self::locked(path, manifest.clone()))
     }
 
     /// Opens a folder that holds a study.
@@ -95,13 +85,9 @@ impl Folder {
     /// Checks that the folder holds the study of these contents.
     ///
     /// # Errors
-    /// [`FolderError::OtherThanFirst`].
+    /// [`FolderError::OtherStudy`].
     pub fn expect(&self, contents: &Contents) -> Result<(), FolderError> {
-        if self.manifest.contents == *contents {
-            return Ok(());
-        }
-        let difference = self.manifest.contents.difference(contents);
-        Err(FolderError::OtherThanFirst { path: self.path.clone(), difference })
+        expect(&self.path, self.contents(), contents)
     }
 
     /// Returns the path of the folder.
@@ -239,4 +225,12 @@ fn read(path: &Path) -> Result<Manifest, FolderError> {
         return Err(FolderError::Damaged { path });
     }
     Ok(manifest)
+}
+
+/// Checks that a folder with some contents has those of a study.
+fn expect(path: &Path, found: &Contents, study: &Contents) -> Result<(), FolderError> {
+    if found == study {
+        return Ok(());
+    }
+    Err(FolderError::OtherStudy { path: path.to_owned(), difference: found.difference(study) })
 }

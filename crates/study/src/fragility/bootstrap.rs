@@ -117,18 +117,28 @@ impl Bootstrap {
         let ones = vec![1; self.records];
         let near = fit(&ones, &[]);
         let samples = self.counted(|counts| ends(counts, fit(counts, &near)));
-        let resampled = |(state, [least, most, beta]): (usize, [f64; 3])| {
-            let side =
-                |side: usize| -> Vec<f64> { samples.iter().map(|sample| sample[state][side]).collect() };
-            let [low, high, betas] = [side(0), side(1), side(2)];
-            let theta = Resampled { estimate: [least, most], least: low, most: high };
-            [theta, Resampled { estimate: [beta; 2], least: betas.clone(), most: betas }]
+        let resampled = |(state, all): (usize, [f64; 3])| {
+            Resampled::curves(all, samples.iter().map(|sample| sample[state]))
         };
         ends(&ones, near.clone()).into_iter().enumerate().map(resampled).collect()
     }
 }
 
 impl Resampled {
+    fn new(estimate: [f64; 2], samples: impl Iterator<Item = [f64; 2]>) -> Self {
+        let (least, most) = samples.map(|[least, most]| (least, most)).unzip();
+        Self { estimate, least, most }
+    }
+
+    /// Takes θ and β from its least and most and from β, of all records and of each resample.
+    pub(super) fn curves(
+        [least, most, beta]: [f64; 3],
+        samples: impl Iterator<Item = [f64; 3]> + Clone,
+    ) -> [Self; 2] {
+        let thetas = samples.clone().map(|[least, most, _]| [least, most]);
+        [Self::new([least, most], thetas), Self::new([beta; 2], samples.map(|[.., beta]| [beta; 2]))]
+    }
+
     /// Takes the sample median of the exceedances of each limit state, and those of its resamples.
     pub(super) fn medians(states: &[Sample], bootstrap: &Bootstrap) -> Vec<Self> {
         // a censored record exceeds at least above its levels, one that exceeds at its lowest level anywhere
@@ -147,9 +157,7 @@ impl Resampled {
         };
         let (all, samples) = (of(&vec![1; bootstrap.records]), bootstrap.counted(of));
         let of_state = |(state, estimate): (usize, [f64; 2])| {
-            let side =
-                |side: usize| samples.iter().map(|sample: &Vec<[f64; 2]>| sample[state][side]).collect();
-            Self { estimate, least: side(0), most: side(1) }
+            Self::new(estimate, samples.iter().map(|sample: &Vec<[f64; 2]>| sample[state]))
         };
         all.into_iter().enumerate().map(of_state).collect()
     }

@@ -16,6 +16,7 @@
 //! 1211–1215).
 
 use super::fit::{FitError, Lognormal};
+use super::linear::{cholesky, solve};
 use super::normal::log_and_hazard;
 use crate::ida::Curve;
 
@@ -100,7 +101,9 @@ impl Cloud {
         let mut at = [line.height * gamma, line.slope * gamma, gamma];
         let mut here = likelihood(&points, line.centre, at);
         for _ in 0..MOST_STEPS {
-            let step = solved(here.curvature, here.gradient).ok_or(FitError::Cloud)?;
+            let mut step = here.gradient;
+            cholesky(&mut here.curvature, 0.0).ok_or(FitError::Cloud)?;
+            solve(&here.curvature, &mut step);
             let decrement: f64 = step.iter().zip(here.gradient).map(|(step, slope)| step * slope).sum();
             let mut part = 1.0;
             for _ in 0..MOST_HALVINGS {
@@ -203,22 +206,4 @@ fn likelihood(points: &[(Point, f64)], centre: f64, [height, slope, gamma]: [f64
         }
     }
     all
-}
-
-/// Solves three equations with a positive definite matrix by Cholesky's factors; `None` of another one.
-fn solved(matrix: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
-    let (mut lower, mut x) = ([[0.0; 3]; 3], right);
-    for i in 0..3 {
-        for j in 0..=i {
-            let rest = matrix[i][j] - (0..j).map(|k| lower[i][k] * lower[j][k]).sum::<f64>();
-            lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
-        }
-        // not of a root that is not a number
-        Some(lower[i][i]).filter(|root| *root > 0.0)?;
-        x[i] = (x[i] - (0..i).map(|k| lower[i][k] * x[k]).sum::<f64>()) / lower[i][i];
-    }
-    for i in (0..3).rev() {
-        x[i] = (x[i] - (i + 1..3).map(|k| lower[k][i] * x[k]).sum::<f64>()) / lower[i][i];
-    }
-    Some(x)
 }

@@ -60,9 +60,8 @@ pub fn compare(
     let shape = |model: &Vec<Sample>| model.iter().map(|s| s.exceedances().len()).collect::<Vec<_>>();
     let states = shape(&models[reference]);
     assert!(models.iter().all(|model| shape(model) == states), "each model has a result for each record");
-    let all: Vec<Vec<Fragility>> =
-        models.iter().map(|model| Fragility::of_states(model, estimator, bootstrap)).collect();
-    beside(&all, reference)
+    let of_model = |model: &Vec<Sample>| Fragility::of_states(model, estimator, bootstrap);
+    beside(models.iter().map(of_model).collect(), reference)
 }
 
 /// Compares the clouds of some models as [`compare`] does, at some fractions of `u_ins`.
@@ -75,61 +74,62 @@ pub fn compare_clouds(
     reference: usize,
     bootstrap: &Bootstrap,
 ) -> Vec<Vec<Summary>> {
-    let all: Vec<Vec<Fragility>> =
-        models.iter().map(|cloud| Fragility::of_cloud(cloud, fractions, bootstrap)).collect();
-    beside(&all, reference)
+    let of_model = |cloud: &Cloud| Fragility::of_cloud(cloud, fractions, bootstrap);
+    beside(models.iter().map(of_model).collect(), reference)
 }
 
-/// Puts the fragilities of each model beside those of a reference: limit state by limit state, model by
-/// model.
-fn beside(all: &[Vec<Fragility>], reference: usize) -> Vec<Vec<Summary>> {
-    let at = |state: usize| {
-        let base = &all[reference][state];
-        let summary = |(model, fragilities): (usize, &Vec<Fragility>)| {
-            let own = &fragilities[state];
-            let ratio = |own: &Resampled, base: &Resampled| {
-                if model == reference {
-                    Interval::new(1.0, [1.0], CONFIDENCE)
-                } else {
-                    own.over(base).interval(CONFIDENCE)
-                }
-            };
-            Summary {
-                records: own.records,
-                censored: own.censored,
-                median: own.median.interval(CONFIDENCE),
-                fitted: own.fitted,
-                alone: own.alone,
-                contradicted: own.contradicted,
-                crossing: own.crossing,
-                misfit: own.misfit,
-                theta: own.theta.interval(CONFIDENCE),
-                beta: own.beta.interval(CONFIDENCE),
-                resamples: own.resamples(),
-                median_ratio: ratio(&own.median, &base.median),
-                theta_ratio: ratio(&own.theta, &base.theta),
+/// Divides the fragilities of each model by those of a reference: limit state by limit state, model by model.
+fn beside(models: Vec<Vec<Fragility>>, reference: usize) -> Vec<Vec<Summary>> {
+    let base: Vec<_> = models[reference].iter().map(|one| (one.median.clone(), one.theta.clone())).collect();
+    let mut states: Vec<Vec<Summary>> = base.iter().map(|_| Vec::with_capacity(models.len())).collect();
+    for (model, fragilities) in models.into_iter().enumerate() {
+        for ((state, (base_median, base_theta)), own) in states.iter_mut().zip(&base).zip(fragilities) {
+            let Fragility { mut summary, median, theta } = own;
+            if model != reference {
+                summary.median_ratio = median.over(base_median).interval(CONFIDENCE);
+                summary.theta_ratio = theta.over(base_theta).interval(CONFIDENCE);
             }
-        };
-        all.iter().enumerate().map(summary).collect()
-    };
-    (0..all[reference].len()).map(at).collect()
+            state.push(summary);
+        }
+    }
+    states
 }
 
-/// Medians and fits of one model at one limit state, with those of its resamples.
+/// A summary that is its own reference, with the resamples by which others are divided.
 struct Fragility {
-    records: usize,
-    censored: usize,
+    summary: Summary,
     median: Resampled,
-    fitted: Result<Lognormal, FitError>,
-    alone: Result<Lognormal, FitError>,
-    contradicted: bool,
-    crossing: Option<f64>,
-    misfit: Option<f64>,
     theta: Resampled,
-    beta: Resampled,
 }
 
 impl Fragility {
+    /// Takes a curve, with the resamples of its median and of its θ and β.
+    fn new(
+        fitted: Result<Lognormal, FitError>,
+        [records, censored]: [usize; 2],
+        median: Resampled,
+        [theta, beta]: [Resampled; 2],
+    ) -> Self {
+        let pair = |(theta, beta): (&f64, &f64)| if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] };
+        let one = Interval::new(1.0, [1.0], CONFIDENCE);
+        let summary = Summary {
+            records,
+            censored,
+            median: median.interval(CONFIDENCE),
+            fitted,
+            alone: fitted,
+            contradicted: false,
+            crossing: None,
+            misfit: None,
+            theta: theta.interval(CONFIDENCE),
+            beta: beta.interval(CONFIDENCE),
+            resamples: theta.most.iter().zip(&beta.most).map(pair).collect(),
+            median_ratio: one,
+            theta_ratio: one,
+        };
+        Self { summary, median, theta }
+    }
+
     fn of_states(states: &[Sample], estimator: &Estimator, bootstrap: &Bootstrap) -> Vec<Self> {
         let terms = |state: &Sample| {
             let mut terms = Vec::new();
@@ -144,28 +144,18 @@ impl Fragility {
         let crossings = estimator.crossings(&fitted);
         let medians = Resampled::medians(states, bootstrap);
         let resampled = medians.into_iter().zip(bootstrap.fitted(states, estimator));
-        let fits = fitted.into_iter().zip(alone).zip(crossings);
-        let mut all = Vec::new();
-        for (((median, [theta, beta]), ((fitted, alone), crossing)), state) in resampled.zip(fits).zip(states)
-        {
-            let records = state.exceedances().len();
+        let of_state = |(place, (median, curves)): (usize, (Resampled, [Resampled; 2]))| {
+            let (state, fitted) = (&states[place], fitted[place]);
             let censored = |exceedance: &&Exceedance| matches!(exceedance, Exceedance::Above(_));
             let censored = state.exceedances().iter().filter(censored).count();
-            let misfit = fitted.ok().map(|curve| state.misfit(|x| curve.probability(x)));
-            all.push(Self {
-                records,
-                censored,
-                median,
-                fitted,
-                alone,
-                contradicted,
-                crossing,
-                misfit,
-                theta,
-                beta,
-            });
-        }
-        all
+            let mut one = Self::new(fitted, [state.exceedances().len(), censored], median, curves);
+            one.summary.alone = alone[place];
+            one.summary.contradicted = contradicted;
+            one.summary.crossing = crossings[place];
+            one.summary.misfit = fitted.ok().map(|curve| state.misfit(|x| curve.probability(x)));
+            one
+        };
+        resampled.enumerate().map(of_state).collect()
     }
 
     /// The fragilities of limit states that follow from one regression: they have one β, and do not cross.
@@ -180,30 +170,11 @@ impl Fragility {
                     [curve.median, curve.median, curve.dispersion]
                 })
             };
-            let [least, most, beta] = ends(own.ok());
-            let each = |side: usize| resampled.iter().map(|fit| ends(*fit)[side]).collect::<Vec<_>>();
-            let theta = Resampled { estimate: [least, most], least: each(0), most: each(1) };
-            let fitted = own.map(|fit| fit.fragility(fraction));
-            Self {
-                records: cloud.records(),
-                censored: cloud.collapsed(),
-                median: theta.clone(),
-                fitted,
-                alone: fitted,
-                contradicted: false,
-                crossing: None,
-                misfit: None,
-                theta,
-                beta: Resampled { estimate: [beta; 2], least: each(2), most: each(2) },
-            }
+            let curves = Resampled::curves(ends(own.ok()), resampled.iter().map(|fit| ends(*fit)));
+            let counts = [cloud.records(), cloud.collapsed()];
+            Self::new(own.map(|fit| fit.fragility(fraction)), counts, curves[0].clone(), curves)
         };
         fractions.iter().map(state).collect()
-    }
-
-    /// Returns θ and β of each resample.
-    fn resamples(&self) -> Vec<[f64; 2]> {
-        let pair = |(theta, beta): (&f64, &f64)| if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] };
-        self.theta.most.iter().zip(&self.beta.most).map(pair).collect()
     }
 }
 

@@ -1,8 +1,10 @@
 //! Dispersions of the limit states of the same runs, and curves that do not cross.
 
+use rocking_wall::choices;
 use serde::{Deserialize, Serialize};
 
 use super::fit::{FitError, Lognormal, fit_from, fit_one};
+use super::linear::{cholesky, solve};
 use super::term::{Likelihood, Term};
 
 /// How the dispersions of the limit states of a wall are fitted.
@@ -17,11 +19,7 @@ pub enum Dispersion {
     Ordered,
 }
 
-impl Dispersion {
-    /// Every variant, with the words of study files.
-    pub const ALL: [(&str, Self); 3] =
-        [("own", Self::Own), ("common", Self::Common), ("ordered", Self::Ordered)];
-}
+choices!(Dispersion);
 
 /// What is fitted to the limit states of a wall.
 #[derive(Clone, Debug)]
@@ -159,8 +157,10 @@ impl Ordered<'_> {
     /// Moves to the maximum of ln L and of the logarithms of all distances from bounds, times a weight.
     fn climb(&self, point: &mut Vec<f64>, weight: f64) {
         for _ in 0..MOST_STEPS {
-            let Some((value, gradient, curvature)) = self.value(point, weight) else { return };
-            let Some(step) = solved(curvature, &gradient) else { return };
+            let Some((value, gradient, mut curvature)) = self.value(point, weight) else { return };
+            let Some(()) = cholesky(&mut curvature, 0.0) else { return };
+            let mut step = gradient.clone();
+            solve(&curvature, &mut step);
             let decrement: f64 = step.iter().zip(&gradient).map(|(step, slope)| step * slope).sum();
             let better = (0..MOST_HALVINGS).find_map(|halvings| {
                 let part = 0.5_f64.powi(i32::try_from(halvings).unwrap_or(i32::MAX));
@@ -211,27 +211,4 @@ impl Ordered<'_> {
         }
         value.is_finite().then_some((value, gradient, curvature))
     }
-}
-
-/// Solves for the step of Newton's method by Cholesky's factors; `None` if they do not exist.
-fn solved(mut matrix: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
-    let size = right.len();
-    let mut x = right.to_vec();
-    for row in 0..size {
-        for column in 0..=row {
-            let sum: f64 = (0..column).map(|k| matrix[row][k] * matrix[column][k]).sum();
-            let rest = matrix[row][column] - sum;
-            matrix[row][column] = if column < row { rest / matrix[column][column] } else { rest.sqrt() };
-        }
-        let pivot = matrix[row][row];
-        // a root of what is not positive is 0 or not a number
-        if pivot.is_nan() || pivot <= 0.0 {
-            return None;
-        }
-        x[row] = (x[row] - (0..row).map(|k| matrix[row][k] * x[k]).sum::<f64>()) / pivot;
-    }
-    for row in (0..size).rev() {
-        x[row] = (x[row] - (row + 1..size).map(|k| matrix[k][row] * x[k]).sum::<f64>()) / matrix[row][row];
-    }
-    Some(x)
 }

@@ -26,6 +26,7 @@ mod cloud;
 mod compare;
 mod dispersion;
 mod fit;
+pub(crate) mod linear;
 mod normal;
 mod observation;
 mod term;

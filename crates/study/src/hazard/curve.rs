@@ -9,22 +9,13 @@ pub struct HazardCurve {
     points: Vec<[f64; 2]>,
 }
 
-/// Why points are no hazard curve. Points count from 1.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs, reason = "the fields are the words of the message")]
-pub enum HazardError {
-    /// Fewer than two points.
-    #[error("a hazard curve needs two points or more, found {count}")]
-    TooFew { count: usize },
-    /// A number that has no logarithm.
-    #[error("point {point}: the {quantity} {value} must be positive and finite")]
-    Value { point: usize, quantity: &'static str, value: f64 },
-    /// Intensities that do not rise.
-    #[error("point {point}: the intensity {value} must be above {before}, that of the point before it")]
-    Intensity { point: usize, value: f64, before: f64 },
-    /// Rates that do not fall.
-    #[error("point {point}: the annual rate {value} must be below {before}, that of the point before it")]
-    Rate { point: usize, value: f64, before: f64 },
+/// Why points are no hazard curve.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct HazardError {
+    /// The point that is wrong, from 1; `None` where there are too few.
+    pub point: Option<usize>,
+    message: String,
 }
 
 impl HazardCurve {
@@ -35,22 +26,33 @@ impl HazardCurve {
     /// intensities do not rise, or the rates do not fall.
     pub fn new(points: Vec<[f64; 2]>) -> Result<Self, HazardError> {
         if points.len() < 2 {
-            return Err(HazardError::TooFew { count: points.len() });
+            let message = format!("a hazard curve needs two points or more, found {}", points.len());
+            return Err(HazardError { point: None, message });
         }
         for (index, values) in points.iter().enumerate() {
+            let point = index + 1;
+            let refused = |what: String| {
+                Err(HazardError { point: Some(point), message: format!("point {point}: the {what}") })
+            };
             for (quantity, value) in ["intensity", "annual rate"].into_iter().zip(*values) {
                 if !(value > 0.0 && value.is_finite()) {
-                    return Err(HazardError::Value { point: index + 1, quantity, value });
+                    return refused(format!("{quantity} {value} must be positive and finite"));
                 }
             }
-        }
-        for (index, pair) in points.windows(2).enumerate() {
-            let [[x, rate], [next_x, next_rate]] = [pair[0], pair[1]];
-            if next_x <= x {
-                return Err(HazardError::Intensity { point: index + 2, value: next_x, before: x });
+            let ([x, rate], Some([x_before, rate_before])) =
+                (values, index.checked_sub(1).map(|k| points[k]))
+            else {
+                continue;
+            };
+            if *x <= x_before {
+                return refused(format!(
+                    "intensity {x} must be above {x_before}, that of the point before it"
+                ));
             }
-            if next_rate >= rate {
-                return Err(HazardError::Rate { point: index + 2, value: next_rate, before: rate });
+            if *rate >= rate_before {
+                return refused(format!(
+                    "annual rate {rate} must be below {rate_before}, that of the point before it"
+                ));
             }
         }
         Ok(Self { points })

@@ -25,7 +25,7 @@ mod read;
 
 pub use curve::{HazardCurve, HazardError};
 pub use rate::{Rate, Verdict, probability};
-pub use read::{ReadError, Table, read};
+pub use read::read;
 
 use serde::{Deserialize, Serialize};
 

@@ -1,160 +1,131 @@
 //! Hazard curves from files: two columns, or a table of `OpenQuake`.
 
+use rocking_wall::scene::{Place, SceneError};
+
 use crate::ida::{IntensityMeasure, ToSi};
 
-use super::curve::{HazardCurve, HazardError};
+use super::curve::HazardCurve;
 
-/// Why a file has no hazard curve.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
-pub struct ReadError {
-    /// Line from 1; `None` for the file as a whole.
-    pub line: Option<usize>,
-    /// What is wrong, and the remedy.
-    pub message: String,
-}
-
-/// A curve of a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// The curve, intensities in SI units.
-    pub curve: HazardCurve,
-    /// What was left out or could not be checked.
-    pub warnings: Vec<String>,
-}
+/// A curve, intensities in SI units, and what was left out or could not be checked.
+type Read = (HazardCurve, Vec<String>);
 
 const FORMS: &str = "expected a line of names with a measure or \"intensity\" and \"annual_rate\", or a \
                      hazard-curve CSV of OpenQuake";
 
-/// Reads the hazard curve of a study's measure from the text of a file; `to_si` converts the
-/// intensities of two columns, and `site` is the number from 1 of a site of `OpenQuake`.
+/// Reads the hazard curve of a study's measure from a file; `to_si` converts the intensities of two columns,
+/// and `site` is the number from 1 of a site of `OpenQuake`.
 ///
 /// # Errors
-/// [`ReadError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
+/// [`SceneError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
 /// no such site, or the points are no hazard curve.
 pub fn read(
-    text: &str,
+    file: &Place<'_>,
     measure: &IntensityMeasure,
     (to_si, has_unit): (ToSi, bool),
     site: Option<u32>,
-) -> Result<Table, ReadError> {
-    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+) -> Result<Read, SceneError> {
+    let lines = file.text().trim_start_matches('\u{feff}').lines().zip(1..);
     let lines: Vec<_> =
-        lines.map(|(k, line)| (k + 1, line.trim())).filter(|(_, line)| !line.is_empty()).collect();
+        lines.map(|(text, line)| (line, text.trim())).filter(|(_, text)| !text.is_empty()).collect();
     let Some((first, rest)) = lines.split_first() else {
-        return Err(ReadError { line: None, message: format!("the file is empty; {FORMS}") });
+        return Err(file.error_on(1, format!("the file is empty; {FORMS}")));
     };
-    if first.1.starts_with('#') && first.1.contains("investigation_time") {
-        if has_unit {
-            let message = "a hazard-curve CSV of OpenQuake has units of its own; leave out unit";
-            return Err(ReadError { line: None, message: message.into() });
-        }
-        return open_quake(*first, rest, measure, site);
+    let is_open_quake = first.1.starts_with('#') && first.1.contains("investigation_time");
+    let has_more = [has_unit && is_open_quake, site.is_some() && !is_open_quake];
+    match has_more {
+        [true, _] => Err(file.error_on(first.0, "a table of OpenQuake has units of its own; leave out unit")),
+        [_, true] => Err(file.error_on(first.0, "site belongs to a table of OpenQuake; leave it out")),
+        _ if is_open_quake => open_quake(file, *first, rest, measure, site),
+        _ => two_columns(file, *first, rest, measure, to_si),
     }
-    if site.is_some() {
-        let message = "site belongs to a hazard-curve CSV of OpenQuake; leave it out for two columns";
-        return Err(ReadError { line: None, message: message.into() });
-    }
-    two_columns(*first, rest, measure, to_si)
 }
 
 fn two_columns(
+    file: &Place<'_>,
     (line, names): (usize, &str),
     rows: &[(usize, &str)],
     measure: &IntensityMeasure,
     to_si: ToSi,
-) -> Result<Table, ReadError> {
-    let fail = |message: String| ReadError { line: Some(line), message };
+) -> Result<Read, SceneError> {
     let cells: Vec<_> = names.split(',').map(str::trim).collect();
     let [name, "annual_rate"] = cells[..] else {
-        return Err(fail(format!("found {names:?}; {FORMS}")));
+        return Err(file.error_on(line, format!("found {names:?}; {FORMS}")));
     };
-    let warnings = if name == "intensity" { None } else { same_measure(name, measure).map_err(fail)? };
+    let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
+    let warning = warning.map_err(|message| file.error_on(line, message))?;
     let point = |&(line, row): &(usize, &str)| {
-        let numbers: Vec<_> = row.split(',').map(|cell| number(cell, line)).collect::<Result<_, _>>()?;
+        let numbers: Vec<_> =
+            row.split(',').map(|cell| number(file, cell, line)).collect::<Result<_, _>>()?;
         let [x, rate] = numbers[..] else {
             let message = format!("found {} cells, expected an intensity and an annual rate", numbers.len());
-            return Err(ReadError { line: Some(line), message });
+            return Err(file.error_on(line, message));
         };
         Ok([to_si(x), rate])
     };
     let points = rows.iter().map(point).collect::<Result<Vec<_>, _>>()?;
-    let place = |error: HazardError| {
-        let point = match error {
-            HazardError::TooFew { .. } => None,
-            HazardError::Value { point, .. }
-            | HazardError::Intensity { point, .. }
-            | HazardError::Rate { point, .. } => Some(point),
-        };
-        let line = point.and_then(|point| rows.get(point - 1)).map(|row| row.0);
-        ReadError { line, message: error.to_string() }
-    };
-    Ok(Table { curve: HazardCurve::new(points).map_err(place)?, warnings: warnings.into_iter().collect() })
+    let curve = HazardCurve::new(points).map_err(|error| {
+        let line = error.point.map_or(line, |point| rows[point - 1].0);
+        file.error_on(line, error.to_string())
+    });
+    Ok((curve?, warning.into_iter().collect()))
 }
 
 /// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
-/// years is a rate of −ln(1 − P)/t; levels are in the unit of
-/// results.
+/// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
 fn open_quake(
+    file: &Place<'_>,
     (line, comment): (usize, &str),
     rest: &[(usize, &str)],
     measure: &IntensityMeasure,
     site: Option<u32>,
-) -> Result<Table, ReadError> {
-    let fail = |line: usize, message: String| ReadError { line: Some(line), message };
-    let stated = |key: &str| {
-        let (_, after) = comment.split_once(&format!("{key}="))?;
-        let end = after.trim_start_matches('\'').find([',', '\'', '"']);
-        let text = after.trim_start_matches('\'');
-        Some(text[..end.unwrap_or(text.len())].to_owned())
-    };
-    let needed = |key: &str| {
-        stated(key).ok_or_else(|| fail(line, format!("the comment has no {key}=, which OpenQuake writes")))
-    };
-    let years = number(&needed("investigation_time")?, line)?;
-    if !(years > 0.0 && years.is_finite()) {
-        return Err(fail(line, format!("investigation_time={years} years must be positive and finite")));
-    }
-    let mut warnings = Vec::new();
+) -> Result<Read, SceneError> {
+    let fail = |line: usize, message: String| Err(file.error_on(line, message));
     // an imt may have brackets, but no comma: SA(0.5)
-    warnings.extend(same_measure(&needed("imt")?, measure).map_err(|message| fail(line, message))?);
-    let Some(((heading, names), sites)) = rest.split_first().map(|(first, sites)| (*first, sites)) else {
-        return Err(fail(line, "the table ends after its comment".into()));
+    let stated = |key: &str| {
+        let found = comment
+            .split_once(&format!("{key}="))
+            .and_then(|(_, after)| after.trim_start_matches('\'').split([',', '\'', '"']).next());
+        let missing = || file.error_on(line, format!("the comment has no {key}=, which OpenQuake writes"));
+        found.ok_or_else(missing)
     };
-    let level = |(column, name): (usize, &str)| {
-        let level = name.trim().strip_prefix("poe-")?;
-        Some(number(level, heading).map(|level| (column, level)))
-    };
-    let levels = names.split(',').enumerate().filter_map(level).collect::<Result<Vec<_>, _>>()?;
-    if levels.is_empty() {
-        return Err(fail(heading, "no column is named poe-LEVEL, as OpenQuake names them".into()));
+    let years = number(file, stated("investigation_time")?, line)?;
+    if !(years > 0.0 && years.is_finite()) {
+        return fail(line, format!("investigation_time={years} years must be positive and finite"));
     }
-    let at = match (site, sites.len()) {
-        (None, 1) => 0,
-        (Some(site), count) if (1..=count).contains(&(site as usize)) => site as usize - 1,
-        (None, count) => return Err(fail(heading, format!("the table has {count} sites; give site = n"))),
-        (Some(site), count) => {
-            return Err(fail(
-                heading,
-                format!("site = {site} must be from 1 to {count}, those of the table"),
-            ));
-        }
+    let warning = same_measure(stated("imt")?, measure).map_err(|message| file.error_on(line, message))?;
+    let mut warnings: Vec<_> = warning.into_iter().collect();
+    let Some(((heading, names), sites)) = rest.split_first() else {
+        return fail(line, "the table ends after its comment".into());
     };
-    let (line, row) = sites[at];
+    let count = sites.len();
+    let at = site.map_or(1, |site| site as usize);
+    if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
+        let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
+        return fail(
+            *heading,
+            format!("the table has {count} sites{found}; give site = n, from 1 to {count}"),
+        );
+    }
+    let (line, row) = sites[at - 1];
     let cells: Vec<_> = row.split(',').collect();
     let (mut points, unit) = (Vec::new(), measure.unit());
-    for (column, level) in levels {
-        let cell = cells
-            .get(column)
-            .ok_or_else(|| fail(line, format!("the row ends before {level} {}", unit.name())))?;
-        let poe = number(cell, line)?;
+    for (column, name) in names.split(',').enumerate() {
+        let Some(level) = name.trim().strip_prefix("poe-") else { continue };
+        let level = number(file, level, *heading)?;
+        let Some(cell) = cells.get(column) else {
+            return fail(line, format!("the row ends before {level} {}", unit.name()));
+        };
+        let poe = number(file, cell, line)?;
         if !(0.0..=1.0).contains(&poe) {
-            return Err(fail(
+            return fail(
                 line,
                 format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name()),
-            ));
+            );
         }
         points.push([level * unit.size(), -libm::log1p(-poe) / years]);
+    }
+    if points.is_empty() {
+        return fail(*heading, "no column is named poe-LEVEL, as OpenQuake names them".into());
     }
     let all = points.len();
     // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
@@ -165,14 +136,14 @@ fn open_quake(
         let left = all - points.len();
         warnings.push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
     }
-    let curve = HazardCurve::new(points).map_err(|error| fail(line, error.to_string()))?;
-    Ok(Table { curve, warnings })
+    let curve = HazardCurve::new(points).map_err(|error| file.error_on(line, error.to_string()))?;
+    Ok((curve, warnings))
 }
 
 /// Reads a number.
-fn number(cell: &str, line: usize) -> Result<f64, ReadError> {
+fn number(file: &Place<'_>, cell: &str, line: usize) -> Result<f64, SceneError> {
     let text = cell.trim();
-    text.parse().map_err(|_| ReadError { line: Some(line), message: format!("{text:?} is not a number") })
+    text.parse().map_err(|_| file.error_on(line, format!("{text:?} is not a number")))
 }
 
 /// Refuses the name of another measure; warns where a name does not tell the periods.
@@ -214,8 +185,9 @@ mod tests {
     #[test]
     fn tables_of_openquake_have_rates() {
         let measure = IntensityMeasure::Sa { period: 0.5 };
-        let read = |site| read(OPEN_QUAKE, &measure, (G, false), site);
-        let Table { curve, warnings } = read(Some(1)).unwrap();
+        let file = Place::new("oq.csv", OPEN_QUAKE);
+        let read = |site| read(&file, &measure, (G, false), site);
+        let (curve, warnings) = read(Some(1)).unwrap();
         let given = [[0.1, 0.5], [0.2, 0.1], [0.4, 0.02]];
         assert_eq!(curve.points().len(), 3, "{warnings:?}");
         for (found, [level, poe]) in curve.points().iter().zip(given) {
@@ -224,33 +196,36 @@ mod tests {
             assert_eq!(found[0], level * 9.80665);
         }
         assert!(warnings[0].starts_with("2 of 5 levels"), "{warnings:?}");
-        assert_eq!(read(Some(2)).unwrap().curve.points().len(), 4);
-        for (site, words) in [(None, "has 2 sites; give site = n"), (Some(3), "must be from 1 to 2")] {
-            assert!(read(site).unwrap_err().message.contains(words));
+        assert_eq!(read(Some(2)).unwrap().0.points().len(), 4);
+        for (site, words) in [
+            (None, "has 2 sites; give site = n"),
+            (Some(3), "2 sites, and not site 3; give site = n, from 1 to 2"),
+        ] {
+            assert!(read(site).unwrap_err().to_string().contains(words));
         }
-        let other = super::read(OPEN_QUAKE, &IntensityMeasure::Pga, (G, false), Some(1));
-        let told = super::read(OPEN_QUAKE, &measure, (G, true), Some(1)).unwrap_err();
-        assert!(told.message.contains("leave out unit"), "{told}");
-        let told = other.unwrap_err();
-        assert!(told.line == Some(1) && told.message.contains("\"SA(0.5)\", the study of PGA"), "{told}");
+        let other = super::read(&file, &IntensityMeasure::Pga, (G, false), Some(1));
+        let told = super::read(&file, &measure, (G, true), Some(1)).unwrap_err().to_string();
+        assert!(told.contains("leave out unit"), "{told}");
+        let told = other.unwrap_err().to_string();
+        assert!(told.contains("line 1") && told.contains("\"SA(0.5)\", the study of PGA"), "{told}");
     }
 
     #[test]
     fn two_columns_have_a_unit_and_their_measure() {
-        let read = |text| read(text, &IntensityMeasure::Pga, (G, false), None);
+        let read = |text| read(&Place::new("a.csv", text), &IntensityMeasure::Pga, (G, false), None);
         let table = read("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-3\n").unwrap();
-        assert_eq!(table.curve.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
+        assert_eq!(table.0.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
         assert_eq!(read("intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n").unwrap(), table);
         for (text, line, words) in [
-            ("", None, "is empty"),
-            ("a,b\n", Some(1), "found \"a,b\""),
-            ("AvgSA,annual_rate\n0.1,1e-2\n", Some(1), "the study of PGA"),
-            ("PGA,annual_rate\n0.1,x\n", Some(2), "\"x\" is not a number"),
-            ("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-2\n", Some(4), "must be below 0.01"),
-            ("PGA,annual_rate\n0.1,1e-2,3\n", Some(2), "found 3 cells"),
+            ("", 1, "is empty"),
+            ("a,b\n", 1, "found \"a,b\""),
+            ("AvgSA,annual_rate\n0.1,1e-2\n", 1, "the study of PGA"),
+            ("PGA,annual_rate\n0.1,x\n", 2, "\"x\" is not a number"),
+            ("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-2\n", 4, "must be below 0.01"),
+            ("PGA,annual_rate\n0.1,1e-2,3\n", 2, "found 3 cells"),
         ] {
-            let told = read(text).unwrap_err();
-            assert!(told.line == line && told.message.contains(words), "{told:?}");
+            let told = read(text).unwrap_err().to_string();
+            assert!(told.contains(&format!("line {line}")) && told.contains(words), "{told}");
         }
     }
 }

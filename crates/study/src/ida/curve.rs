@@ -1,6 +1,7 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
 use record::{Outcome, RunEnd};
+use rocking_wall::choices;
 use rocking_wall::solver::{Motion, State};
 use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};
@@ -104,6 +105,8 @@ pub enum Crossing {
     Fraction,
 }
 
+choices!(Collapse, Crossing);
+
 impl Crossing {
     /// Every variant, with the words of study files.
     pub const ALL: [(&str, Self); 3] =
@@ -131,7 +134,8 @@ impl Exceedance {
 }
 
 /// Which runs have overturned.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Collapse {
     /// Those that exceed `u_ins`, where they stop.
     #[default]
@@ -147,14 +151,6 @@ impl Collapse {
             Self::Exceeds => RunEnd::AtPeaks,
             Self::Falls => RunEnd::OfRecord,
         }
-    }
-
-    /// Every variant, with the words of study files.
-    pub const ALL: [(&str, Self); 2] = [("exceeds", Self::Exceeds), ("falls", Self::Falls)];
-
-    /// Returns the word of study files.
-    pub fn name(self) -> &'static str {
-        Self::ALL[usize::from(self == Self::Falls)].0
     }
 }
 

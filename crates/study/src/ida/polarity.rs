@@ -1,5 +1,6 @@
 //! The signs with which the records of a study are run.
 
+use rocking_wall::choices;
 use run::records::NamedRecord;
 use serde::{Deserialize, Serialize};
 
@@ -23,18 +24,12 @@ pub enum Polarity {
     Worst,
 }
 
-impl Polarity {
-    /// Every variant, with the words of study files.
-    pub const ALL: [(&str, Self); 4] = [
-        ("as_recorded", Self::AsRecorded),
-        ("reversed", Self::Reversed),
-        ("both", Self::Both),
-        ("worst", Self::Worst),
-    ];
+choices!(Polarity);
 
+impl Polarity {
     /// Returns the word of study files.
     pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(_, own)| *own == self).map_or("", |(name, _)| name)
+        ["as_recorded", "reversed", "both", "worst"][self as usize]
     }
 
     /// Returns how many records of a study come from each one that is given.

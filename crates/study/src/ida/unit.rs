@@ -28,15 +28,20 @@ pub enum IntensityUnit {
 }
 
 impl IntensityUnit {
+    /// Its name, the name of the SI unit of the same quantity, and its size in this.
+    fn described(self) -> (&'static str, &'static str, f64) {
+        match self {
+            Self::Gravity => ("g", "m/s²", STANDARD_GRAVITY),
+            Self::CentimetrePerSecond => ("cm/s", "m/s", 0.01),
+            Self::Centimetre => ("cm", "m", 0.01),
+            Self::MetrePerSecond => ("m/s", "m/s", 1.0),
+            Self::GravitySecond => ("g s", "m/s", STANDARD_GRAVITY),
+        }
+    }
+
     /// Returns its name: `g`, `cm/s`, `cm`, `m/s`, `g s`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Gravity => "g",
-            Self::CentimetrePerSecond => "cm/s",
-            Self::Centimetre => "cm",
-            Self::MetrePerSecond => "m/s",
-            Self::GravitySecond => "g s",
-        }
+        self.described().0
     }
 
     /// Returns the end of the names of columns in this unit: `theta` and `_cm_s` are `theta_cm_s`.
@@ -46,11 +51,7 @@ impl IntensityUnit {
 
     /// Returns the name of the SI unit of the same quantity: `m/s²`, `m/s`, `m`.
     pub fn si(self) -> &'static str {
-        match self {
-            Self::Gravity => "m/s²",
-            Self::CentimetrePerSecond | Self::MetrePerSecond | Self::GravitySecond => "m/s",
-            Self::Centimetre => "m",
-        }
+        self.described().1
     }
 
     /// Returns the end of the names of columns in that SI unit.
@@ -60,11 +61,7 @@ impl IntensityUnit {
 
     /// Returns the unit in SI units.
     pub fn size(self) -> f64 {
-        match self {
-            Self::Gravity | Self::GravitySecond => STANDARD_GRAVITY,
-            Self::CentimetrePerSecond | Self::Centimetre => 0.01,
-            Self::MetrePerSecond => 1.0,
-        }
+        self.described().2
     }
 
     /// Converts an intensity from SI units to this unit.

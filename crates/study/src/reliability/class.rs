@@ -70,26 +70,6 @@ impl Class {
         });
     }
 
-    /// Lists what was found, in the order of the first wall that has it: model, check, event.
-    pub(super) fn kinds(&self) -> Vec<(usize, &'static str, &str)> {
-        let mut kinds = Vec::new();
-        for found in self.members.iter().flat_map(|member| &member.found) {
-            let kind = (found.model, found.check, found.event.as_str());
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
-            }
-        }
-        kinds.sort_by_key(|kind| kind.0);
-        kinds
-    }
-
-    /// Returns margins and probabilities of the walls that have a kind, each sorted.
-    pub(super) fn sorted(&self, kind: (usize, &str, &str)) -> [Vec<f64>; 2] {
-        let is = |found: &&Found| (found.model, found.check, found.event.as_str()) == kind;
-        let found: Vec<_> = self.members.iter().flat_map(|member| &member.found).filter(is).collect();
-        [sorted(found.iter().map(|found| found.margin)), sorted(found.iter().map(|found| found.probability))]
-    }
-
     /// Returns the fall of each wall with a model, where the check that governs has ζ = 1.
     pub(super) fn falls(&self, model: usize) -> impl Iterator<Item = (&Member, &Found)> {
         self.members.iter().filter_map(move |member| {
@@ -99,6 +79,22 @@ impl Class {
             Some((member, member.found.iter().find(is)?))
         })
     }
+}
+
+/// Puts values of the same key together, by the order of models and then of the first value.
+pub(super) fn grouped<K: PartialEq, V>(
+    values: impl Iterator<Item = (K, V)>,
+    model: impl Fn(&K) -> usize,
+) -> Vec<(K, Vec<V>)> {
+    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in values {
+        match groups.iter_mut().find(|(own, _)| *own == key) {
+            Some((_, group)) => group.push(value),
+            None => groups.push((key, vec![value])),
+        }
+    }
+    groups.sort_by_key(|(key, _)| model(key));
+    groups
 }
 
 /// Sorts values.

@@ -12,8 +12,8 @@ use report::{counted, escaped};
 use super::class::{Class, Found, QUANTITIES};
 use super::{Reliability, finish, table};
 use crate::folder::Manifest;
+use crate::folder::tables::in_g;
 use crate::ida::Misfit;
-use crate::tables::in_g;
 
 /// Walls that the page names as the worst.
 const WORST: usize = 3;

@@ -4,12 +4,11 @@ use ground_motion::STANDARD_GRAVITY;
 use report::table::{Cell, Digits, Table};
 use run::sample::fractile;
 
-use super::class::{Class, FRACTILES, sorted};
-use super::rules::Turned;
+use super::class::{Class, FRACTILES, grouped, sorted};
 use super::wall::WallReliability;
+use crate::folder::tables::in_g;
 use crate::fragility::Interval;
 use crate::hazard::HazardCurve;
-use crate::tables::in_g;
 
 const THREE: Digits = Digits::Significant(3);
 /// Digits of the numbers that the code or the user gives.
@@ -88,7 +87,11 @@ pub(super) fn rules(name: &str, models: &[&str], found: &WallReliability, target
 
 /// Fractiles over the walls of margins and probabilities, and how many walls are above the target.
 pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
-    let rows = class.kinds().into_iter().map(|kind| (kind, class.sorted(kind)));
+    let found = class.members.iter().flat_map(|member| &member.found);
+    let found = found.map(|one| ((one.model, one.check, &*one.event), [one.margin, one.probability]));
+    let rows = grouped(found, |kind| kind.0).into_iter().map(|(kind, found)| {
+        (kind, [0, 1].map(|which| sorted(found.iter().map(|values: &[f64; 2]| values[which]))))
+    });
     let mut table = Table::over(rows)
         .text("model", "model", |((model, ..), _)| models[*model].to_owned())
         .text("check", "check with ζ = 1", |((_, check, _), _)| *check)
@@ -119,19 +122,10 @@ fn heading(place: usize, heading: String) -> String {
 /// Fractiles over the walls of the numbers of the code that give the target.
 pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table {
     let all = class.members.iter().flat_map(|member| member.turned.iter().enumerate());
-    let all: Vec<_> = all.flat_map(|(model, all)| all.iter().map(move |one| (model, *one))).collect();
-    let mut kinds = Vec::new();
-    for (model, one) in &all {
-        let kind = (*model, one.check, one.rule, one.code);
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
-    kinds.sort_by_key(|kind| kind.0);
-    let rows = kinds.into_iter().map(|kind| {
-        let is = |(model, one): &&(usize, Turned)| (*model, one.check, one.rule, one.code) == kind;
-        (kind, sorted(all.iter().filter(is).filter_map(|(_, one)| one.value)))
-    });
+    let all = all.flat_map(|(model, all)| all.iter().map(move |one| (model, one)));
+    let all = all.map(|(model, one)| ((model, one.check, one.rule, one.code), one.value));
+    let rows = grouped(all, |kind| kind.0);
+    let rows = rows.into_iter().map(|(kind, values)| (kind, sorted(values.into_iter().flatten())));
     let mut table = Table::over(rows)
         .text("", "model", |((model, ..), _)| models[*model].to_owned())
         .text("", "check", |((_, check, ..), _)| *check)

@@ -107,47 +107,35 @@ impl Distribution {
 }
 
 impl Shape {
+    /// Sees that it has the numbers that it needs, and values within limits.
     fn check(&self, [least, most]: [f64; 2]) -> Result<(), String> {
-        let is_finite = match self {
-            Self::Normal { mean: a, deviation: b } | Self::Lognormal { median: a, beta: b } => {
-                a.is_finite() && b.is_finite()
+        let positive = |number: f64| number > 0.0 && number.is_finite();
+        let (is_right, needs) = match *self {
+            Self::Normal { mean, deviation } => {
+                (mean.is_finite() && positive(deviation), "a finite mean and a standard deviation above 0")
             }
-            Self::Uniform(ends) => ends.iter().all(|end| end.is_finite()),
-            Self::Triangular(numbers) => numbers.iter().all(|number| number.is_finite()),
-            Self::Values(values) => values.iter().flatten().all(|number| number.is_finite()),
+            Self::Lognormal { median, beta } => (
+                positive(median) && positive(beta),
+                "a median and a standard deviation of the logarithm above 0",
+            ),
+            Self::Uniform([low, high]) => (positive(high - low), "a lower end below its upper end"),
+            Self::Triangular([low, mode, high]) => {
+                (low <= mode && mode <= high && positive(high - low), "a lower end, a mode and an upper end")
+            }
+            Self::Values(ref values) => (
+                !values.is_empty() && values.iter().all(|[x, weight]| x.is_finite() && positive(*weight)),
+                "values with weights above 0",
+            ),
         };
-        if !is_finite {
-            return Err("its numbers must be finite".to_owned());
+        if !is_right {
+            return Err(format!("{self:?} needs {needs}"));
         }
-        match self {
-            Self::Normal { deviation, .. } if *deviation <= 0.0 => {
-                Err(format!("its standard deviation {deviation} must be above 0"))
+        let values = if let Self::Values(values) = self { &values[..] } else { &[] };
+        match values.iter().find(|[value, _]| !(least..=most).contains(value)) {
+            Some([value, _]) => {
+                Err(format!("its value {value} is outside its limits ({})", range([least, most])))
             }
-            Self::Lognormal { median, .. } if *median <= 0.0 => {
-                Err(format!("its median {median} must be above 0"))
-            }
-            Self::Lognormal { beta, .. } if *beta <= 0.0 => {
-                Err(format!("its standard deviation of the logarithm {beta} must be above 0"))
-            }
-            Self::Uniform([low, high]) if low >= high => {
-                Err(format!("its lower end {low} must be below its upper end {high}"))
-            }
-            Self::Triangular([low, mode, high]) if !(low <= mode && mode <= high && low < high) => {
-                Err(format!("its numbers {low}, {mode}, {high} must rise: lower end, mode, upper end"))
-            }
-            Self::Values(values) => {
-                if values.is_empty() {
-                    return Err("it has no values".to_owned());
-                }
-                if let Some([_, weight]) = values.iter().find(|[_, weight]| *weight <= 0.0) {
-                    return Err(format!("its weight {weight} must be above 0"));
-                }
-                let outside = values.iter().find(|[value, _]| !(least..=most).contains(value));
-                outside.map_or(Ok(()), |[value, _]| {
-                    Err(format!("its value {value} is outside its limits ({})", range([least, most])))
-                })
-            }
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 

@@ -2,10 +2,11 @@
 
 use run::sample::Pcg;
 
+use crate::fragility::linear::{cholesky, forward};
 use crate::fragility::quantile;
 
-/// Pivots below this are 0: a column is nearly made of others.
-const SINGULAR: f64 = 1e-9;
+/// Squares of pivots below this are 0: a column is nearly made of others.
+pub(super) const SINGULAR: f64 = 1e-9;
 
 /// Returns the correlation of two normal variables whose ranks have Spearman's correlation ρ: 2 sin(πρ/6), as
 /// in a Gaussian copula (K. Pearson: On further methods of determining correlation. 1907).
@@ -26,7 +27,8 @@ pub fn pearson_of_spearman(correlation: f64) -> f64 {
 /// The reason: samples too few for the variables, or a matrix that is not positive definite.
 pub fn hypercube(samples: usize, correlation: &[Vec<f64>], seed: u64) -> Result<Vec<Vec<f64>>, String> {
     let count = correlation.len();
-    let wanted = cholesky(correlation)
+    let mut wanted = correlation.to_vec();
+    cholesky(&mut wanted, SINGULAR)
         .ok_or("the correlations contradict each other: their matrix is not positive definite")?;
     let too_few = || format!("samples = {samples} are too few for {count} uncertain parameters");
     if samples < count + 2 {
@@ -43,17 +45,13 @@ pub fn hypercube(samples: usize, correlation: &[Vec<f64>], seed: u64) -> Result<
         scores.push(order.into_iter().map(score).collect::<Vec<_>>());
         within.push((0..samples).map(|_| random.part()).collect::<Vec<_>>());
     }
-    let found = cholesky(&correlations(&scores)).ok_or_else(|| format!("{}; take more", too_few()))?;
+    let mut found = correlations(&scores);
+    cholesky(&mut found, SINGULAR).ok_or_else(|| format!("{}; take more", too_few()))?;
     let mut paired = vec![Vec::with_capacity(samples); count];
-    let of_sample = |sample: usize| scores.iter().map(move |column| column[sample]);
     for sample in 0..samples {
-        let scores: Vec<f64> = of_sample(sample).collect();
         // P Q⁻¹ takes scores of the correlations Q Qᵀ to those of P Pᵀ
-        let mut free = vec![0.0; count];
-        for row in 0..count {
-            let known: f64 = (0..row).map(|column| found[row][column] * free[column]).sum();
-            free[row] = (scores[row] - known) / found[row][row];
-        }
+        let mut free: Vec<f64> = scores.iter().map(|column| column[sample]).collect();
+        forward(&found, &mut free);
         for row in 0..count {
             paired[row].push((0..=row).map(|column| wanted[row][column] * free[column]).sum::<f64>());
         }
@@ -75,23 +73,4 @@ fn correlations(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let row = |a: &Vec<f64>| columns.iter().map(|b| product(a, b) / product(a, a)).collect();
     columns.iter().map(row).collect()
-}
-
-/// Returns the lower triangle L of a symmetric matrix L Lᵀ; `None` if it is not positive definite.
-pub(super) fn cholesky(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
-    for (row, values) in matrix.iter().enumerate() {
-        let mut line: Vec<f64> = Vec::with_capacity(row + 1);
-        for column in 0..row {
-            let known: f64 = line.iter().zip(&lower[column]).map(|(a, b)| a * b).sum();
-            line.push((values[column] - known) / lower[column][column]);
-        }
-        let pivot = values[row] - line.iter().map(|a| a * a).sum::<f64>();
-        if pivot.is_nan() || pivot <= SINGULAR {
-            return None;
-        }
-        line.push(pivot.sqrt());
-        lower.push(line);
-    }
-    Some(lower)
 }

@@ -1,6 +1,7 @@
 //! Which parameter explains a number of the samples, such as ln θ: correlations of ranks, and a regression.
 
-use super::hypercube::cholesky;
+use super::hypercube::SINGULAR;
+use crate::fragility::linear::{cholesky, solve};
 
 /// What a parameter explains of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,17 +96,10 @@ fn product(one: &[f64], other: &[f64]) -> f64 {
 /// Returns the coefficients with which columns of length 1 add up to a list, in the least squares, from the
 /// normal equations; `None` where a column follows from others.
 fn least_squares(columns: &[&[f64]], list: &[f64]) -> Option<Vec<f64>> {
-    let matrix: Vec<Vec<f64>> =
+    let mut matrix: Vec<Vec<f64>> =
         columns.iter().map(|a| columns.iter().map(|b| product(a, b)).collect()).collect();
-    let lower = cholesky(&matrix)?;
+    cholesky(&mut matrix, SINGULAR)?;
     let mut found: Vec<f64> = columns.iter().map(|column| product(column, list)).collect();
-    for row in 0..found.len() {
-        let known: f64 = (0..row).map(|column| lower[row][column] * found[column]).sum();
-        found[row] = (found[row] - known) / lower[row][row];
-    }
-    for row in (0..found.len()).rev() {
-        let known: f64 = (row + 1..found.len()).map(|below| lower[below][row] * found[below]).sum();
-        found[row] = (found[row] - known) / lower[row][row];
-    }
+    solve(&matrix, &mut found);
     Some(found)
 }

@@ -267,7 +267,8 @@ fn a_study_file_states_the_estimator() {
     );
     let error = file(grid, ", beta = \"none\"").unwrap_err().to_string();
     assert!(
-        error.contains("line 4") && error.contains("beta = \"none\" is not one of own, common, ordered"),
+        error.contains("line 4")
+            && error.contains("beta = \"none\" is not one of \"own\", \"common\", \"ordered\""),
         "{error}"
     );
     // what is chosen is fitted

@@ -159,10 +159,14 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         (
             "[uncertain.parameters]\nheight = { normal = [3, -1] }",
-            "line 7: height: normal = [3.0, -1.0]: its",
+            "line 7: height: Normal { mean: 3.0, deviation: -1.0 } needs a",
         ),
-        ("[uncertain.parameters]\nheight = { normal = [3] }", "expected [mean, standard deviation]"),
-        ("[uncertain.parameters]\nheight = 3", "height: expected a table with one of normal = "),
+        ("[uncertain.parameters]\nheight = { normal = [3] }", "line 7: normal = [3]: expected"),
+        ("[uncertain.parameters]\nheight = 3", "line 7: height = 3: expected a table"),
+        (
+            "[uncertain.parameters]\nheight = { normal = [3, 1], uniform = [2, 3] }",
+            "height: expected one of normal, lognormal,",
+        ),
         ("[uncertain.parameters]\nheight = { norml = [3, 1] }", "(did you mean \"normal\"?)"),
         (
             "[uncertain.parameters]\nhinge_ratio = { normal = [5, 1] }",

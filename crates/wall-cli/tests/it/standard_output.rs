@@ -151,7 +151,7 @@ fn an_interrupted_study_says_that_it_resumes() {
     // and another study is refused in words
     let other = content(&folder, "study.toml").replace("gap = 0.3", "gap = 0.2");
     fs::write(folder.join("other.toml"), other).unwrap();
-    let words = ["found levels: hunt from ", "gap 0.2)"];
+    let words = ["found \"levels\": \"hunt from ", "gap 0.2\")"];
     fails(&folder, &["study", "ida", "other.toml", "-o", "whole"], &words);
     // short names are spelled out once
     let page = content(&folder, "whole/study.html");

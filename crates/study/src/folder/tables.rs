@@ -5,56 +5,41 @@ use report::table::{Cell, Column, Digits, Growing, Table};
 use run::sample::fractile;
 
 use crate::fragility::{FitError, Interval, Lognormal, Summary};
-use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, TieDemand};
+use crate::ida::{Crossing, Curve, Exceedance, TieDemand};
 use crate::results::{StateResults, WallResults};
+
+use super::contents::{Contents, Manifest};
 
 /// Digits of an intensity for people: three that count, since its unit may be g, cm/s or m.
 pub(crate) const OF_INTENSITY: Digits = Digits::Significant(3);
 /// Digits of a ratio of intensities, which is about 1.
 pub(crate) const OF_RATIO: Digits = Digits::Decimals(3);
 
-/// Names of the parts of a study, and its limit states.
-#[derive(Clone, Debug)]
-pub struct Names<'a> {
-    /// Walls.
-    pub walls: Vec<&'a str>,
-    /// Damping models.
-    pub models: Vec<&'a str>,
-    /// Records.
-    pub records: Vec<&'a str>,
-    /// Limit states as fractions of `u_ins`.
-    pub fractions: &'a [f64],
-    /// Unit of intensities.
-    pub unit: IntensityUnit,
-    /// Whether a wall of the study has ties that may yield.
-    pub has_yielding_ties: bool,
-}
-
 /// A kind of table: its name, and what makes it of the number and the results of a wall. Thousands of walls
 /// need not be in memory at once.
-pub type Kind = (&'static str, fn(&Names<'_>, usize, &WallResults) -> Table);
+pub(crate) type Kind = (&'static str, fn(&Manifest, usize, &WallResults) -> Table);
 
 /// The tables of a study.
-pub const KINDS: [Kind; 3] = [
-    ("levels", |names, wall, results| levels(names, wall, results.all_curves())),
-    ("collapses", |names, wall, results| collapses(names, wall, results.all_curves())),
+pub(crate) const KINDS: [Kind; 3] = [
+    ("levels", |manifest, wall, results| levels(manifest, wall, results.all_curves())),
+    ("collapses", |manifest, wall, results| collapses(manifest, wall, results.all_curves())),
     ("fragilities", fragilities),
 ];
 
 /// The table of the ties that may yield.
-pub const TIES: Kind = ("ties", ties);
+pub(crate) const TIES: Kind = ("ties", ties);
 
 /// The table of a cloud.
-pub const CLOUD: Kind = ("cloud", cloud);
+pub(crate) const CLOUD: Kind = ("cloud", cloud);
 
 /// The regression of every model: ln(`u_max`/`u_ins`) = a + b ln IM, with IM in the unit of results.
-fn cloud(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+fn cloud(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
     let three = Digits::Significant(4);
-    let unit = names.unit.size();
+    let unit = manifest.contents.unit.size();
     let rows = results.clouds().iter().map(|cloud| (cloud, cloud.fit().ok()));
     Table::over(rows.enumerate())
-        .text("wall", "", |_| names.walls[wall].to_owned())
-        .text("model", "model", |(model, _)| names.models[*model].to_owned())
+        .text("wall", "", |_| manifest.contents.walls[wall].name.clone())
+        .text("model", "model", |(model, _)| manifest.contents.models[*model].name.clone())
         .number("records", "records", three, |(_, (cloud, _))| cloud.records())
         .number("collapsed", "collapsed", three, |(_, (cloud, _))| cloud.collapsed())
         .number("still", "without motion", three, |(_, (cloud, _))| cloud.still())
@@ -67,16 +52,17 @@ fn cloud(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
 }
 
 /// Every run of a wall, from all its curves.
-pub(crate) fn levels(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
+pub(crate) fn levels(manifest: &Manifest, wall: usize, curves: &[Curve]) -> Table {
     let runs =
         curves.iter().enumerate().flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)));
-    let mut table = names
+    let contents = &manifest.contents;
+    let mut table = contents
         .with_curves(wall, runs, |(index, _)| *index)
-        .value(names.in_unit("intensity"), |(_, run)| names.unit.of(run.intensity))
+        .value(manifest.contents.in_unit("intensity"), |(_, run)| manifest.contents.unit.of(run.intensity))
         .value("u_max_over_u_ins", |(_, run)| run.demand)
         .value("overturned", |(_, run)| run.overturning.is_some())
         .value("overturn_time_s", |(_, run)| run.overturning);
-    if names.has_yielding_ties {
+    if manifest.contents.has_yielding_ties() {
         table = table
             .value("tie_force_n", |(_, run)| run.tie.map(|tie| tie.force))
             .value("tie_elongation_m", |(_, run)| run.tie.map(|tie| tie.elongation))
@@ -92,14 +78,17 @@ const FRACTILES: [(&str, &str, f64); 3] = [("50", "50 %", 0.5), ("84", "84 %", 0
 /// The ties of a wall that may yield, with every model: in how many runs they yielded and broke, and
 /// fractiles of their force and elongation, at each level where all records share these, or else over all
 /// runs.
-fn ties(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
+fn ties(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
     let three = Digits::AtMost(3);
-    let mut table = Table::over(tie_rows(names.models.len(), results))
-        .text("wall", "", |_| names.walls[wall].to_owned())
-        .text("model", "model", |row| names.models[row.model].to_owned())
-        .number(names.in_unit("intensity"), format!("level\n[{}]", names.unit.name()), three, |row| {
-            row.level.map(|level| names.unit.of(level))
-        })
+    let mut table = Table::over(tie_rows(manifest.contents.models.len(), results))
+        .text("wall", "", |_| manifest.contents.walls[wall].name.clone())
+        .text("model", "model", |row| manifest.contents.models[row.model].name.clone())
+        .number(
+            manifest.contents.in_unit("intensity"),
+            format!("level\n[{}]", manifest.contents.unit.name()),
+            three,
+            |row| row.level.map(|level| manifest.contents.unit.of(level)),
+        )
         .number("runs", "runs", three, |row| row.demands.len())
         .number("yielded", "yielded", three, |row| row.count(|tie| tie.elongation > 0.0))
         .number("broken", "broken", three, |row| row.count(|tie| tie.broken));
@@ -151,38 +140,43 @@ fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
 }
 
 /// The collapse with every model and record, from all curves of a wall.
-pub(crate) fn collapses(names: &Names<'_>, wall: usize, curves: &[Curve]) -> Table {
+pub(crate) fn collapses(manifest: &Manifest, wall: usize, curves: &[Curve]) -> Table {
+    let contents = &manifest.contents;
     let collapse = |curve: &Curve| match curve.collapse() {
         Exceedance::Above(_) => None,
-        exceedance => Some(names.unit.of(exceedance.bounds()[1])),
+        exceedance => Some(manifest.contents.unit.of(exceedance.bounds()[1])),
     };
     let last = |curve: &Curve| match curve.exceedance(1.0, Crossing::Last, true).bounds() {
         [_, f64::INFINITY] => None,
-        [_, level] => Some(names.unit.of(level)),
+        [_, level] => Some(manifest.contents.unit.of(level)),
     };
-    names
+    contents
         .with_curves(wall, curves.iter().enumerate(), |(index, _)| *index)
-        .value(names.in_unit("collapse"), |(_, curve)| collapse(curve))
-        .value(names.in_unit("standing_below"), |(_, curve)| names.unit.of(curve.level_below_collapse()))
-        .value(names.in_unit("highest_level"), |(_, curve)| names.unit.of(curve.top()))
+        .value(manifest.contents.in_unit("collapse"), |(_, curve)| collapse(curve))
+        .value(manifest.contents.in_unit("standing_below"), |(_, curve)| {
+            manifest.contents.unit.of(curve.level_below_collapse())
+        })
+        .value(manifest.contents.in_unit("highest_level"), |(_, curve)| {
+            manifest.contents.unit.of(curve.top())
+        })
         .value("runs", |(_, curve)| curve.runs().len())
         .value("resurrections", |(_, curve)| curve.resurrections())
-        .value(names.in_unit("last_collapse"), |(_, curve)| last(curve))
+        .value(manifest.contents.in_unit("last_collapse"), |(_, curve)| last(curve))
         .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
         .value("sensitivity", |(_, curve)| curve.sensitivity())
         .done()
 }
 
 /// The fragility of every model and limit state.
-fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
-    let states = names.fractions.iter().enumerate();
-    let rows = (0..names.models.len())
+fn fragilities(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
+    let states = manifest.report.fractions.iter().enumerate();
+    let rows = (0..manifest.contents.models.len())
         .flat_map(|model| states.clone().map(move |(state, fraction)| (model, *fraction, state)))
         .map(|(model, fraction, state)| (model, fraction, &results.states(state)[model]));
     let beta = |fit: &Result<Lognormal, FitError>| fit.as_ref().ok().map(|fit| fit.dispersion);
     let mut table = Table::over(rows)
-        .text("wall", "", |_| names.walls[wall].to_owned())
-        .text("model", "", |(model, ..)| names.models[*model].to_owned())
+        .text("wall", "", |_| manifest.contents.walls[wall].name.clone())
+        .text("model", "", |(model, ..)| manifest.contents.models[*model].name.clone())
         .value("u_max_over_u_ins", |(_, fraction, _)| *fraction)
         .value("records", |(.., one)| one.summary.records)
         .value("censored", |(.., one)| one.summary.censored);
@@ -190,7 +184,8 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     let ratios: [Estimate; 2] =
         [("median_ratio", |one| &one.median_ratio), ("theta_ratio", |one| &one.theta_ratio)];
     for estimate in intensities {
-        table = with_interval(table, estimate, (&names.unit.ending(), names.unit.size()));
+        table =
+            with_interval(table, estimate, (&manifest.contents.unit.ending(), manifest.contents.unit.size()));
     }
     table = table
         .value("beta", |(.., one)| beta(&one.summary.fitted))
@@ -207,16 +202,24 @@ fn fragilities(names: &Names<'_>, wall: usize, results: &WallResults) -> Table {
     }
     table = table
         .value("misfit", |(.., one)| one.summary.misfit)
-        .value(names.in_unit("crossing"), |(.., one)| one.summary.crossing.map(|at| names.unit.of(at)));
+        .value(manifest.contents.in_unit("crossing"), |(.., one)| {
+            one.summary.crossing.map(|at| manifest.contents.unit.of(at))
+        });
     for (place, (name, _)) in Crossing::ALL.into_iter().enumerate() {
-        let theta = |curve: &Lognormal| names.unit.of(curve.median);
+        let theta = |curve: &Lognormal| manifest.contents.unit.of(curve.median);
         table = table
-            .value(names.in_unit(&format!("theta_{name}")), |(.., one)| {
+            .value(manifest.contents.in_unit(&format!("theta_{name}")), |(.., one)| {
                 one.by_crossing[place].as_ref().ok().map(theta)
             })
             .value(format!("beta_{name}"), |(.., one)| beta(&one.by_crossing[place]));
     }
     table.done()
+}
+
+/// Writes an estimate with the ends of its interval, for people.
+pub(super) fn with_ends(of: &Interval, unit: f64, digits: Digits) -> String {
+    let [estimate, low, high] = of.texts(unit, digits);
+    format!("{estimate} ({low} … {high})")
 }
 
 /// The name of an estimate, and what it is of a summary.
@@ -234,7 +237,7 @@ fn with_interval<'a>(
     })
 }
 
-impl Names<'_> {
+impl Contents {
     /// Returns the name of a column of intensities, which ends with their unit.
     fn in_unit(&self, name: &str) -> String {
         format!("{name}{}", self.unit.ending())
@@ -249,13 +252,13 @@ impl Names<'_> {
     ) -> Growing<R> {
         let records = self.records.len();
         Table::over(items)
-            .text("wall", "", |_| self.walls[wall].to_owned())
-            .text("model", "", |item| self.models[curve(item) / records].to_owned())
-            .text("record", "", |item| self.records[curve(item) % records].to_owned())
+            .text("wall", "", |_| self.walls[wall].name.clone())
+            .text("model", "", |item| self.models[curve(item) / records].name.clone())
+            .text("record", "", |item| self.records[curve(item) % records].name.clone())
     }
 }
 
 /// Returns an acceleration in g.
-pub fn in_g(acceleration: f64) -> f64 {
+pub(crate) fn in_g(acceleration: f64) -> f64 {
     acceleration / STANDARD_GRAVITY
 }
