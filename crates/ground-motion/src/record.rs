@@ -121,7 +121,7 @@ fn only(mut records: Vec<Record>, name: &str) -> Result<Record, GroundMotionErro
     let channels: Vec<_> = records.iter().map(|record| record.channel.clone().unwrap_or_default()).collect();
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
-        _ => Err(GroundMotionError::Channels { file: name.to_owned(), found: listed(&channels) }),
+        _ => Err(not_one(name, "", &channels)),
     }
 }
 
@@ -176,25 +176,18 @@ fn chosen(parsed: Vec<Parsed>, wanted: &str, name: &str) -> Result<Parsed, Groun
     let mut matches = parsed.into_iter().filter(|parsed| parsed.channel.as_deref().is_some_and(is_wanted));
     match (matches.next(), matches.next()) {
         (Some(parsed), None) => Ok(parsed),
-        _ => Err(GroundMotionError::Channel {
-            file: name.to_owned(),
-            wanted: excerpt(wanted),
-            found: listed(&channels),
-        }),
+        _ => Err(not_one(name, &format!(" {}", excerpt(wanted)), &channels)),
     }
 }
 
-/// Lists the channels of a file for a message.
-fn listed(channels: &[String]) -> String {
-    const LONGEST: usize = 12;
-    let mut names: Vec<_> = channels.iter().take(LONGEST).map(|label| excerpt(label)).collect();
-    if channels == [String::new()] {
-        return "one without a name".to_owned();
-    }
-    if channels.len() > LONGEST {
-        names.push("…".to_owned());
-    }
-    names.join(", ")
+/// Makes the error of a file that does not have one channel, or one with the name that is wanted.
+fn not_one(file: &str, wanted: &str, channels: &[String]) -> GroundMotionError {
+    const MOST: usize = 12;
+    let named = channels.iter().filter(|label| !label.is_empty());
+    let names: Vec<_> = named.take(MOST).map(|label| excerpt(label)).collect();
+    let more = if channels.len() > MOST { ", …" } else { "" };
+    let found = if names.is_empty() { "one without a name".to_owned() } else { names.join(", ") + more };
+    GroundMotionError::Channel { file: file.to_owned(), wanted: wanted.to_owned(), found }
 }
 
 pub(crate) fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {

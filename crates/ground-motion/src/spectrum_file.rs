@@ -89,15 +89,8 @@ impl SpectrumFile {
         refuse_record(&columns, column_number)?;
         let name = columns.names().get(column_number);
         name.map_or(Ok(()), |name| name.refuse_other_quantity(columns.line()))?;
-        let unit = match name {
-            Some(name) => name.unit(),
-            // what is in the brackets of a comment need not be a unit
-            None => {
-                columns.named(column_number).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some())
-            }
-        };
         let options = RecordOptions { unit: given, ..RecordOptions::default() };
-        let stated = unit.map(|word| options.unit_of(word, columns.line()));
+        let stated = name.and_then(Name::unit).map(|word| options.unit_of(word, columns.line()));
         let Some(unit) = stated.transpose()?.or(given) else {
             let remedy =
                 "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";
@@ -111,7 +104,7 @@ impl SpectrumFile {
         })?;
         refuse_milliseconds(&columns, &points, &lines)?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
-        let damping = columns.named(column_number).and_then(|name| stated_damping(name.written()));
+        let damping = name.and_then(|name| stated_damping(name.written()));
         Ok(Self { points, lines, unit, damping, column })
     }
 
@@ -167,7 +160,7 @@ fn stated_damping(name: &str) -> Option<f64> {
 
 /// Refuses long periods under a name without a unit.
 fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[usize]) -> Result<(), Fault> {
-    if matches!(columns.first().and_then(Name::stated), Some((_, Quantity::Time(1.0)))) {
+    if matches!(columns.names().first().and_then(Name::stated), Some((_, Quantity::Time(1.0)))) {
         return Ok(());
     }
     let Some(at) = points.iter().position(|(period, _)| *period > LONGEST_PERIOD) else { return Ok(()) };
@@ -179,7 +172,9 @@ fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[us
 
 /// Refuses accelerations at times, which are a record.
 fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
-    let (Some(first), Some(name)) = (columns.first(), columns.named(column)) else { return Ok(()) };
+    let (Some(first), Some(name)) = (columns.names().first(), columns.names().get(column)) else {
+        return Ok(());
+    };
     let is_of_record = |name: &Name| {
         name.words()
             .first()
@@ -203,8 +198,6 @@ fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
         }
         (Some((_, Quantity::Time(1.0))), _) | (None, Some(_)) => return Ok(()),
         (Some((unit, Quantity::Time(seconds))), _) => format!("convert the periods: 1 {unit} is {seconds} s"),
-        // a comment need not name the columns
-        (_, None) if columns.names().is_empty() => return Ok(()),
         _ => "make the periods in s the first column, and name it `T [s]`".to_owned(),
     };
     let expected = "periods in s in the first column";

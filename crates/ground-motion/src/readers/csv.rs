@@ -59,14 +59,11 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         (columns.beside_the_first(options.column.as_deref(), "`time`")?, seconds)
     };
     refuse_spectrum(&columns, column)?;
-    let commented = comment_unit(&columns, column);
-    let stated = stated_unit(&columns, column, options)?.or(options.unit).or(commented);
+    let stated = stated_unit(&columns, column, options)?.or(options.unit);
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
     let mut parsed = Parsed::new(f64::NAN, stated.unwrap_or(Unit::MetrePerSecondSquared), columns.line());
     parsed.keep_header(columns.header());
-    let other = commented.filter(|unit| stated != Some(*unit));
-    parsed.warnings.extend(other.map(|unit| Warning::Comment { unit }));
-    parsed.is_vertical = columns.named(column).is_some_and(Name::is_vertical);
+    parsed.is_vertical = columns.names().get(column).is_some_and(Name::is_vertical);
     if columns.width() == 1 {
         read_column(&columns, options, &mut parsed)?;
     } else {
@@ -86,8 +83,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 fn check_times(columns: &Columns<'_>, options: &RecordOptions) -> Result<f64, Fault> {
     let Some(name) = columns.checked_first()? else { return Ok(1.0) };
     let stated = name.stated();
-    let is_comment = columns.names().is_empty();
-    if !is_comment && !is_time(name) {
+    if !is_time(name) {
         let remedy = "the first column must be `time`, in seconds, with a header line that names the \
                       columns; mark titles with #";
         return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
@@ -96,7 +92,7 @@ fn check_times(columns: &Columns<'_>, options: &RecordOptions) -> Result<f64, Fa
         (Some((_, Quantity::Time(seconds))), _) if seconds == 1.0 || options.step.is_some() => Ok(seconds),
         (None, None) => Ok(1.0),
         // `time (a_g in m/s2)`
-        (None, Some(unit)) if is_comment || unit.contains(" in ") => Ok(1.0),
+        (None, Some(unit)) if unit.contains(" in ") => Ok(1.0),
         (stated, unit) => {
             let last = stated.map(|(unit, _)| unit).unwrap_or_default();
             let unit = unit.unwrap_or(&last);
@@ -107,21 +103,18 @@ fn check_times(columns: &Columns<'_>, options: &RecordOptions) -> Result<f64, Fa
     }
 }
 
-/// Finds the unit that a comment above the rows gives a column. Comments may be about something else, so that
-/// another unit which the user states counts.
-fn comment_unit(columns: &Columns<'_>, column: usize) -> Option<Unit> {
-    let name = columns.named(column).filter(|_| columns.names().is_empty())?;
-    RecordOptions::default().unit_of(name.unit()?, columns.line()).ok()
-}
-
 /// Finds the unit that the names state for a column.
 fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
     let Some(name) = columns.names().get(column) else { return Ok(None) };
     if columns.width() > 1 {
         name.refuse_other_quantity(columns.line())?;
     }
-    let of_first =
-        columns.first().and_then(Name::unit).and_then(|unit| unit.split_once(" in ")).map(|(_, unit)| unit);
+    let of_first = columns
+        .names()
+        .first()
+        .and_then(Name::unit)
+        .and_then(|unit| unit.split_once(" in "))
+        .map(|(_, unit)| unit);
     let unit = match columns.width() {
         // what is in the brackets of a title need not be a unit
         1 => name.unit().filter(|unit| Quantity::of(unit).is_some()),
@@ -177,9 +170,6 @@ fn read_table(
     parsed: &mut Parsed,
 ) -> Result<(), Fault> {
     let mut times = Times::default();
-    if let Some(Ok(row)) = columns.rows().next() {
-        refuse_clock_time(&row.cells().next().unwrap_or_default(), row.line)?;
-    }
     columns.read(column, |time, sample, line| {
         times.push(seconds * time, line)?;
         parsed.push(Some(sample), line, || overflow(sample, line))
@@ -202,13 +192,4 @@ fn read_table(
 /// Makes the fault of a number that is not finite in m/s².
 fn overflow(number: f64, line: usize) -> Fault {
     Fault::new(line, "a finite acceleration", format!("`{number:e}`"), "check the value and the unit")
-}
-
-/// Refuses dates and times of the day.
-fn refuse_clock_time(cell: &str, line: usize) -> Result<(), Fault> {
-    if !(cell.starts_with(|c: char| c.is_ascii_digit()) && cell.contains([':', '/'])) {
-        return Ok(());
-    }
-    let remedy = "this is a date or a time of the day: write the seconds since the start of the record";
-    Err(Fault::excerpt(line, "a time in s", cell, remedy))
 }
