@@ -75,8 +75,8 @@ tables! {
 }
 
 impl Document {
-    /// The tables of parameters with their names.
-    pub(super) fn groups(&self) -> [(&'static str, &Group); 7] {
+    /// Returns the tables of parameters with their names.
+    pub fn groups(&self) -> [(&'static str, &Group); 7] {
         [
             ("geometry", &self.geometry),
             ("force_law", &self.force_law),

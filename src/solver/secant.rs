@@ -45,7 +45,7 @@ fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
 }
 
 /// The law of a branch with secant damping, or of a branch in each lane of a vector.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SecantBranch<T> {
     /// A displacement on the branch \[m\].
     pub anchor: T,

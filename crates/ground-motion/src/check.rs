@@ -136,12 +136,6 @@ pub enum Warning {
         /// The step that the user has stated, which counts (s).
         stated: f64,
     },
-    /// A comment above the numbers names another unit than the one that the user has stated.
-    #[error("unit: a comment above the numbers says {unit}; the unit that you state counts")]
-    Comment {
-        /// The unit of the comment.
-        unit: Unit,
-    },
 }
 
 /// Lists the units that would give a credible peak.

@@ -18,6 +18,9 @@ pub use heading::Name;
 
 use crate::error::excerpt;
 use crate::fields::{Numbered, lines};
+use crate::options::RecordOptions;
+use crate::quantity::Quantity;
+use crate::unit::Unit;
 use cells::{Separator, cells};
 
 /// What starts a comment.
@@ -49,9 +52,7 @@ const TITLE_LINES: usize = 20;
 pub struct Columns<'a> {
     text: &'a str,
     names: Vec<Name>,
-    /// The last comment above the rows, where no line names the columns.
-    remark: Vec<Name>,
-    /// The line of the names, or else the first row.
+    /// The line or comment that names the columns, or else the first row.
     heading: Numbered<'a>,
     first_row: usize,
     separator: Separator,
@@ -63,7 +64,8 @@ impl<'a> Columns<'a> {
     /// row of units.
     ///
     /// A line names the columns if `is_first` knows its first name, or if it has as many names as the first
-    /// row has cells. `forms` says in messages what the file should have.
+    /// row has cells. So does the last comment above the rows, if `is_first` knows its first name. `forms` says
+    /// in messages what the file should have.
     ///
     /// # Errors
     /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
@@ -99,15 +101,14 @@ impl<'a> Columns<'a> {
             let first_row = unit_row.map_or(number, |(number, _)| *number) + 1;
             let (separator, width) = (Separator::of_names(line, false), names.len());
             let heading = (number, line);
-            return Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width });
+            return Ok(Self { text, names, heading, first_row, separator, width });
         }
         let Some((number, line)) = row else {
             let remedy = "write rows of numbers below a line that names the columns";
             return Err(Fault::excerpt(first.0, forms, first.1, remedy));
         };
-        let (heading, separator, remark) = ((number, line), of_row, Vec::new());
-        let mut columns =
-            Self { text, names: Vec::new(), remark, heading, first_row: number, separator, width };
+        let (heading, separator) = ((number, line), of_row);
+        let mut columns = Self { text, names: Vec::new(), heading, first_row: number, separator, width };
         if of_row == Separator::None {
             // one column has a name of any number of words
             if let Some(&title) = titles.first() {
@@ -120,9 +121,12 @@ impl<'a> Columns<'a> {
             let remedy = "name the columns in the line above the numbers; mark titles with #";
             return Err(Fault::excerpt(first.0, forms, first.1, remedy));
         }
-        let remark = lines(text).take_while(|(line, _)| *line < number).last();
-        let remark = remark.map_or("", |(_, line)| line.trim_start_matches(COMMENTS).trim());
-        columns.remark = Some(names(remark)).filter(|names| names.len() == width).unwrap_or_default();
+        if let Some(comment) = lines(text).take_while(|(line, _)| *line < number).last() {
+            let named = names(comment.1.trim_start_matches(COMMENTS).trim());
+            if named.len() == width && is_first(&named[0]) {
+                (columns.heading, columns.names) = (comment, named);
+            }
+        }
         Ok(columns)
     }
 
@@ -140,22 +144,12 @@ impl<'a> Columns<'a> {
         }
         refuse_twins(&names, heading.0)?;
         let (first_row, width) = (heading.0 + 1, names.len());
-        Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width })
+        Ok(Self { text, names, heading, first_row, separator, width })
     }
 
-    /// Returns the names of the columns; none where no line has them.
+    /// Returns the names of the columns; none where neither a line nor a comment has them.
     pub fn names(&self) -> &[Name] {
         &self.names
-    }
-
-    /// Returns the name of the first column, or else what a comment above the rows calls it.
-    pub fn first(&self) -> Option<&Name> {
-        self.names.first().or_else(|| self.remark.first())
-    }
-
-    /// Returns the name of a column, or else what a comment above the rows calls it.
-    pub(crate) fn named(&self, column: usize) -> Option<&Name> {
-        if self.names.is_empty() { self.remark.get(column) } else { self.names.get(column) }
     }
 
     /// Returns the line of the names, or else of the first row.
@@ -186,7 +180,6 @@ impl<'a> Columns<'a> {
     /// [`Fault`] of a row with more or fewer cells than there are columns.
     pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Fault>> {
         let Self { text, first_row, separator, width, .. } = *self;
-        let names = self.names.is_empty();
         let rows = lines(text).skip_while(move |(number, _)| *number < first_row);
         rows.filter_map(move |(line, text)| {
             let row = Row { line, text, separator, width };
@@ -196,7 +189,7 @@ impl<'a> Columns<'a> {
             if separator != Separator::None && row.all_cells().all(|cell| cell.is_empty()) {
                 return None;
             }
-            Some(row.checked(names))
+            Some(row.checked())
         })
     }
 
@@ -232,29 +225,60 @@ impl<'a> Columns<'a> {
     pub fn beside_the_first(&self, wanted: Option<&str>, first: &str) -> Result<usize, Fault> {
         let (line, text) = self.heading;
         let Some(wanted) = wanted else { return self.only_one(first) };
-        if self.names.is_empty() {
-            let expected = format!("a header line with the column {}", excerpt(wanted));
-            return Err(Fault::excerpt(line, expected, text, "state no column: only one can be read"));
-        }
         let is_wanted = |name: &Name| name.written() == wanted || name.text() == wanted;
         let mut matches = (1..self.names.len()).filter(|&column| is_wanted(&self.names[column]));
-        let (expected, found, remedy) = match (matches.next(), matches.next()) {
-            (Some(column), None) => return Ok(column),
-            (None, _) if is_wanted(&self.names[0]) => {
-                (format!("a column beside the first, {first}"), wanted, "state the name of another column")
-            }
-            (None, _) => (format!("a column {}", excerpt(wanted)), text, "state one of these columns"),
-            _ => (format!("one column {}", excerpt(wanted)), text, "give each column its own name"),
-        };
-        Err(Fault::excerpt(line, expected, found, remedy))
+        if let (Some(column), None) = (matches.next(), matches.next()) {
+            return Ok(column);
+        }
+        let expected = format!("one column {} beside the first, {first}", excerpt(wanted));
+        let remedy = "state the name of one of these columns; none if a header line does not name them";
+        Err(Fault::excerpt(line, expected, text, remedy))
     }
 
-    /// Returns the name of the first column, or else what a comment above the rows calls it. Refuses an empty
-    /// one above rows of numbers: that column is an index.
-    pub(crate) fn checked_first(&self) -> Result<Option<&Name>, Fault> {
-        match self.first() {
-            Some(name) if name.written().is_empty() => Err(index_column(self.heading)),
-            first => Ok(first),
+    /// Returns how many seconds the unit of the first column has: one where it has no name or no unit. Refuses
+    /// a column that `is_first` does not know, and another unit than s unless it `may_differ`.
+    pub(crate) fn seconds(
+        &self,
+        is_first: impl Fn(&Name) -> bool,
+        may_differ: bool,
+        [expected, remedy]: [&str; 2],
+    ) -> Result<f64, Fault> {
+        let Some(name) = self.names.first() else { return Ok(1.0) };
+        if name.written().is_empty() {
+            return Err(index_column(self.heading));
+        }
+        match name.stated().filter(|_| is_first(name)) {
+            Some((_, Quantity::Time(seconds))) if seconds == 1.0 || may_differ => Ok(seconds),
+            // `time (a_g in m/s2)`
+            None if is_first(name) && name.unit().is_none_or(|unit| unit.contains(" in ")) => Ok(1.0),
+            _ => {
+                let expected = format!("{expected} in the first column");
+                let found = name.unit().map(|unit| format!("{} [{unit}]", name.text()));
+                Err(Fault::excerpt(
+                    self.heading.0,
+                    expected,
+                    found.as_deref().unwrap_or(name.written()),
+                    remedy,
+                ))
+            }
+        }
+    }
+
+    /// Returns the unit of a column of accelerations: the one that its name or the first states, or else the
+    /// one that the user does. Refuses names of other quantities, and units that are not read.
+    pub(crate) fn unit(&self, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
+        let Some(name) = self.names.get(column) else { return Ok(options.unit) };
+        let of_first = || self.names[0].unit()?.split_once(" in ").map(|(_, unit)| unit);
+        let unit = if self.width > 1 {
+            name.refuse_other_quantity(self.heading.0)?;
+            name.unit().or_else(of_first)
+        } else {
+            // what is in the brackets of a title need not be a unit
+            name.unit().filter(|unit| Quantity::of(unit).is_some())
+        };
+        match unit {
+            Some(unit) => options.unit_of(unit, self.heading.0).map(Some),
+            None => Ok(options.unit),
         }
     }
 
@@ -269,23 +293,12 @@ impl<'a> Columns<'a> {
             (_, &[column]) if others.iter().all(|&other| self.names[other].is_another_quantity()) => {
                 Ok(column)
             }
-            _ if self.names.is_empty() => {
-                let found = format!("{} in {}", self.width, excerpt(text));
-                let expected = format!("two columns, {first} and accelerations, or one");
-                let remedy = "name the columns in a header line, and state the one to read (on the command \
-                              line --column); or write one sample a line; where decimals have a comma, \
-                              separate the columns by semicolons";
-                Err(Fault::new(line, expected, found, remedy))
-            }
             _ => {
-                let expected = format!("one column beside {first}");
-                let blanks = match self.separator {
-                    Separator::Blanks => "; between blanks, each name must be one word",
-                    _ => "",
-                };
-                let remedy =
-                    format!("state the name of the column to read (on the command line --column){blanks}");
-                Err(Fault::excerpt(line, expected, text, remedy))
+                let found = format!("{} columns in {}", self.width, excerpt(text));
+                let remedy = "name the columns in a header line, by one word each where blanks separate them, \
+                              and state the one to read (on the command line --column); or write one sample a \
+                              line; where decimals have a comma, separate the columns by semicolons";
+                Err(Fault::new(line, format!("one column beside {first}"), found, remedy))
             }
         }
     }
@@ -344,20 +357,14 @@ fn refuse_foreign<'a>(
     lines: impl Iterator<Item = Numbered<'a>>,
     is_row: impl Fn(&str) -> bool,
 ) -> Result<(), Fault> {
-    for (number, line) in lines {
-        if OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark)) {
-            return Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT));
-        }
-        if line.contains('|') && is_row(line) {
-            let expected = "columns between commas, semicolons, tabs or blanks";
-            let remedy = "`|` separates no columns: write one of these instead";
-            return Err(Fault::excerpt(number, expected, line, remedy));
-        }
-    }
-    Ok(())
+    let is_foreign = |&(_, line): &Numbered<'_>| {
+        OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark)) || line.contains('|') && is_row(line)
+    };
+    let Some((number, line)) = lines.into_iter().find(is_foreign) else { return Ok(()) };
+    let expected = "columns between commas, semicolons, tabs or blanks";
+    let remedy = "comments start with # or %, and `|` separates no columns: write these instead";
+    Err(Fault::excerpt(number, expected, line, remedy))
 }
-
-const OTHER_COMMENT: &str = "comments start with # or %; start this line with # if it is one";
 
 /// Counts the cells of a row without the empty ones at its end.
 fn filled(separator: Separator, row: &str) -> usize {

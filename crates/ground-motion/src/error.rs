@@ -62,16 +62,10 @@ pub enum GroundMotionError {
     /// The file could not be opened or read, or is not a regular file, or larger than any record.
     #[error("{file}: cannot be read: {reason}")]
     Io { file: String, reason: io::Error },
-    /// Several channels, and none was asked for.
+    /// Not one channel: several and none was asked for, or not one of the name that was.
     #[error(
-        "{file}: expected one channel, found {found}; \
-         state the number of the one to read as `channel` (on the command line --channel)"
-    )]
-    Channels { file: String, found: String },
-    /// A channel that the file does not have, or more than once.
-    #[error(
-        "{file}: expected one channel {wanted}, found {found}; \
-         state one of these, or none if there is only one"
+        "{file}: expected one channel{wanted}, found {found}; state the number of one of these as `channel` (on \
+         the command line --channel), or none if there is only one"
     )]
     Channel { file: String, wanted: String, found: String },
     /// Content that is not what the format requires.
@@ -93,7 +87,7 @@ impl GroundMotionError {
             Self::TooManySamples { .. } => Some("frequency"),
             Self::Unit { .. } => Some("unit"),
             Self::Format { .. } => Some("format"),
-            Self::Channels { .. } | Self::Channel { .. } => Some("channel"),
+            Self::Channel { .. } => Some("channel"),
             Self::Io { .. } | Self::Content { .. } => Some("record"),
             Self::TooFewSamples { .. } | Self::NotFinite { .. } => None,
         }

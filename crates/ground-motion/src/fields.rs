@@ -71,22 +71,20 @@ pub(crate) fn leading_real(text: &str) -> Option<f64> {
 }
 
 /// Finds the unit after `UNITS OF`, `UNITS ARE`, `UNITS:` …: the most words that are one, or else the first.
-pub(crate) fn unit_word(line: &str) -> Option<&str> {
+pub(crate) fn unit_word(line: &str) -> Option<String> {
     const MOST_WORDS: usize = 6;
-    let text = after(line, "UNITS")?;
+    const FILLERS: [&str; 5] = ["of", "are", "is", "in", ""];
     let is_edge =
         |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
-    let is_filler =
-        |word: &str| ["of", "are", "is", "in", ""].iter().any(|filler| word.eq_ignore_ascii_case(filler));
-    let start_of = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
-    let words = text.split_ascii_whitespace().skip_while(|word| is_filler(word.trim_matches(is_edge)));
+    let is_filler = |word: &&str| FILLERS.contains(&&*word.trim_matches(is_edge).to_lowercase());
+    let words = after(line, "UNITS")?.split_ascii_whitespace().skip_while(is_filler);
     let words: Vec<&str> = words.take(MOST_WORDS).collect();
-    let start = start_of(words.first()?);
-    let until = |word: &&str| text[start..start_of(word) + word.len()].trim_matches(is_edge);
-    let quantities = || words.iter().rev().map(|word| (until(word), Quantity::of(until(word))));
-    let known = quantities().find(|(_, of)| of.is_some_and(|of| of != Quantity::Other));
-    let unit = known.or_else(|| quantities().find(|(_, of)| of.is_some())).map(|(unit, _)| unit);
-    unit.or_else(|| words.first().map(until))
+    let candidates =
+        || (1..=words.len()).rev().map(|n| words[..n].join(" ").trim_matches(is_edge).to_owned());
+    let known = candidates().find(|unit| Quantity::of(unit).is_some_and(|of| of != Quantity::Other));
+    known
+        .or_else(|| candidates().find(|unit| Quantity::of(unit).is_some()))
+        .or_else(|| candidates().next_back())
 }
 
 /// Refuses a number of samples that is not the stated one: a file that is cut short, or one with too many.

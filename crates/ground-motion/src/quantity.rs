@@ -66,9 +66,6 @@ impl Quantity {
         if text.len() > LONGEST {
             return None;
         }
-        if let Ok(unit) = text.parse::<Unit>() {
-            return Some(Self::Acceleration(unit));
-        }
         if let Some(seconds) = size_of(text.trim_matches(['.', ' ']).to_lowercase().as_str(), &TIMES) {
             return Some(Self::Time(seconds));
         }
@@ -77,19 +74,24 @@ impl Quantity {
         if FREQUENCIES.contains(&word) {
             return Some(Self::Frequency);
         }
-        if ["kine", "kines"].contains(&word) {
-            return Some(Self::Velocity);
+        match word {
+            "g" | "g's" => return Some(Self::Acceleration(Unit::StandardGravity)),
+            "gal" | "gals" => return Some(Self::Acceleration(Unit::CentimetrePerSecondSquared)),
+            "mgal" | "milligal" => {
+                return Some(Self::OtherAcceleration(1e-3, Unit::CentimetrePerSecondSquared));
+            }
+            "kine" | "kines" => return Some(Self::Velocity),
+            _ => {}
         }
         if let Some((length, time)) = parts(word) {
-            let length = size_of(length, &LENGTHS)?;
-            return Some(match time {
-                0 => Self::Displacement,
-                1 => Self::Velocity,
-                _ => Self::OtherAcceleration(length, Unit::MetrePerSecondSquared),
+            return Some(match (time, length) {
+                (0, _) => Self::Displacement,
+                (1, _) => Self::Velocity,
+                (_, "m") => Self::Acceleration(Unit::MetrePerSecondSquared),
+                (_, "cm") => Self::Acceleration(Unit::CentimetrePerSecondSquared),
+                (_, "mm") => Self::Acceleration(Unit::MillimetrePerSecondSquared),
+                _ => Self::OtherAcceleration(size_of(length, &LENGTHS)?, Unit::MetrePerSecondSquared),
             });
-        }
-        if ["mgal", "milligal"].contains(&word) {
-            return Some(Self::OtherAcceleration(1e-3, Unit::CentimetrePerSecondSquared));
         }
         let part =
             word.strip_prefix("g/").and_then(|parts| parts.parse::<f64>().ok()).map(|parts| 1.0 / parts);
@@ -100,28 +102,12 @@ impl Quantity {
         is_other_unit(word).then_some(Self::Other)
     }
 
-    /// Returns what the quantity is called.
-    pub(crate) fn noun(self) -> &'static str {
-        match self {
-            Self::Velocity => "velocity",
-            Self::Displacement => "displacement",
-            Self::Acceleration(_) | Self::OtherAcceleration(..) => "acceleration",
-            Self::Time(_) => "time",
-            Self::Frequency => "frequency",
-            Self::Spectrum | Self::Other => "another quantity",
-        }
-    }
-
     /// Makes the fault of a unit other than one that is read, which `word` states on a line.
     pub(crate) fn refused(self, word: &str, line: usize) -> Fault {
         let remedy = match self {
             Self::OtherAcceleration(size, unit) => format!("convert the samples: 1 {word} is {size} {unit}"),
             Self::Velocity | Self::Displacement => {
-                format!(
-                    "this is a {}: convert it to an acceleration, or use the file or column of the \
-                     acceleration",
-                    self.noun()
-                )
+                "convert it to an acceleration, or use the file or column of the acceleration".to_owned()
             }
             _ => "correct the unit, or use another column".to_owned(),
         };
@@ -150,7 +136,7 @@ fn is_other_unit(word: &str) -> bool {
 }
 
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
-pub(crate) fn plain(text: &str) -> String {
+fn plain(text: &str) -> String {
     let text = text.to_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
     let text = text.replace("second", "s").replace("sec", "s");
     let text = text.replace('²', "2").replace(['−', '–', '⁻'], "-");
@@ -168,7 +154,7 @@ pub(crate) fn plain(text: &str) -> String {
 
 /// Splits a plain unit such as `cm/s2` into its length and the power of the time below it. Names of columns
 /// have `cm_s2` and `cms2`.
-pub(crate) fn parts(plain: &str) -> Option<(&str, u8)> {
+fn parts(plain: &str) -> Option<(&str, u8)> {
     const SQUARED: [&str; 11] =
         ["/s2", "/s/s", "/ss", "s-2", "_s2", "_s_2", "_s_s", "_s-2", "ps2", "s2", "ss"];
     const PLAIN: [&str; 4] = ["/s", "s-1", "_s", "s"];

@@ -47,11 +47,6 @@ pub struct Record {
 impl Parsed {
     fn into_record(self, format: Format, stated_step: Option<f64>) -> Result<Record, Fault> {
         let Self { step, samples, last_line, .. } = self;
-        if samples.len() < 2 {
-            let found = samples.len().to_string();
-            let remedy = "check that the file is complete";
-            return Err(Fault::new(last_line, "at least two samples", found, remedy));
-        }
         if step > LONGEST_STEP && stated_step.is_none() {
             let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the \
                           step is right, state it, as `step` (on the command line --record-step, in Python \
@@ -60,7 +55,12 @@ impl Parsed {
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
         let motion = GroundMotion::new(step, samples).map_err(|error| {
-            Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
+            Fault::new(
+                last_line,
+                "a sound motion",
+                format!("that {error}"),
+                "check that the file is complete, and correct it",
+            )
         })?;
         Ok(Record {
             motion,
@@ -121,7 +121,7 @@ fn only(mut records: Vec<Record>, name: &str) -> Result<Record, GroundMotionErro
     let channels: Vec<_> = records.iter().map(|record| record.channel.clone().unwrap_or_default()).collect();
     match records.pop() {
         Some(record) if records.is_empty() => Ok(record),
-        _ => Err(GroundMotionError::Channels { file: name.to_owned(), found: listed(&channels) }),
+        _ => Err(not_one(name, "", &channels)),
     }
 }
 
@@ -155,7 +155,7 @@ fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format
     if text.trim().is_empty() {
         return Err(Fault::new(1, "a record", "an empty file", "check that this is the right file"));
     }
-    let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
+    let format = options.format.map_or_else(|| Format::of(text, options), Ok)?;
     let mut parsed = format.parse(text, options)?;
     if vertical::by_name(name, format, options) {
         for channel in &mut parsed {
@@ -176,25 +176,18 @@ fn chosen(parsed: Vec<Parsed>, wanted: &str, name: &str) -> Result<Parsed, Groun
     let mut matches = parsed.into_iter().filter(|parsed| parsed.channel.as_deref().is_some_and(is_wanted));
     match (matches.next(), matches.next()) {
         (Some(parsed), None) => Ok(parsed),
-        _ => Err(GroundMotionError::Channel {
-            file: name.to_owned(),
-            wanted: excerpt(wanted),
-            found: listed(&channels),
-        }),
+        _ => Err(not_one(name, &format!(" {}", excerpt(wanted)), &channels)),
     }
 }
 
-/// Lists the channels of a file for a message.
-fn listed(channels: &[String]) -> String {
-    const LONGEST: usize = 12;
-    let mut names: Vec<_> = channels.iter().take(LONGEST).map(|label| excerpt(label)).collect();
-    if channels == [String::new()] {
-        return "one without a name".to_owned();
-    }
-    if channels.len() > LONGEST {
-        names.push("…".to_owned());
-    }
-    names.join(", ")
+/// Makes the error of a file that does not have one channel, or one with the name that is wanted.
+fn not_one(file: &str, wanted: &str, channels: &[String]) -> GroundMotionError {
+    const MOST: usize = 12;
+    let named = channels.iter().filter(|label| !label.is_empty());
+    let names: Vec<_> = named.take(MOST).map(|label| excerpt(label)).collect();
+    let more = if channels.len() > MOST { ", …" } else { "" };
+    let found = if names.is_empty() { "one without a name".to_owned() } else { names.join(", ") + more };
+    GroundMotionError::Channel { file: file.to_owned(), wanted: wanted.to_owned(), found }
 }
 
 pub(crate) fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::Deserialize;
 
 use crate::error::GroundMotionError;
-use crate::quantity::{parts, plain};
+use crate::quantity::Quantity;
 
 /// Standard gravity, the unit g of records (m/s²): 3rd General Conference on Weights and Measures, 1901.
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -130,16 +130,8 @@ impl FromStr for Unit {
     type Err = GroundMotionError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let plain = plain(text);
-        match plain.as_str() {
-            "g" | "g's" => return Ok(Self::StandardGravity),
-            "gal" | "gals" => return Ok(Self::CentimetrePerSecondSquared),
-            _ => {}
-        }
-        match parts(&plain) {
-            Some(("m", 2)) => Ok(Self::MetrePerSecondSquared),
-            Some(("cm", 2)) => Ok(Self::CentimetrePerSecondSquared),
-            Some(("mm", 2)) => Ok(Self::MillimetrePerSecondSquared),
+        match Quantity::of(text) {
+            Some(Quantity::Acceleration(unit)) => Ok(unit),
             _ => Err(GroundMotionError::Unit { found: text.chars().take(40).collect() }),
         }
     }

@@ -17,7 +17,7 @@ use rocking_wall::scene::{
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::Wall as Equation;
-use run::capacity::{Curve, plot};
+use run::capacity::plot;
 use run::shaking::Shaking;
 use run::walls::{assumed, read_scene};
 use scene_fmu::General;
@@ -190,7 +190,7 @@ impl Wall {
         let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        let picture = plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg();
+        let picture = plot(&[("u > 0", points)], Vec::new()).picture().svg();
         Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
 

@@ -107,18 +107,6 @@ impl Vectors {
     }
 }
 
-/// The steps that runs take side by side.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum SideBySide {
-    /// Steps on every branch, by affine maps of several steps at once: of one wall, by the responses of its
-    /// branches to the records.
-    Responses,
-    /// The same of any walls, by the samples of the records.
-    Samples,
-    /// Steps on branches with secant damping, by Taylor series.
-    Curved(Law),
-}
-
 /// A record prepared for many runs of one wall.
 ///
 /// What becomes of a run never depends on the other runs. Where processor, wall and step allow it, eight runs
@@ -168,14 +156,14 @@ impl Batch<'_> {
 
 /// Follows runs, side by side with some vectors or one by one.
 pub(crate) fn follow(
-    side_by_side: Option<(Vectors, SideBySide)>,
+    side_by_side: Option<(Vectors, Kind<'_>)>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     match side_by_side {
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx2(simd), steps)) => in_lanes(simd, steps, lanes),
+        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes),
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx512(simd), steps)) => in_lanes(simd, steps, lanes),
+        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes),
         _ => lanes.one_by_one(),
     }
 }
@@ -183,28 +171,28 @@ pub(crate) fn follow(
 /// Follows runs side by side.
 pub(crate) fn in_lanes<S: Simd>(
     simd: S,
-    steps: SideBySide,
+    kind: Kind<'_>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
-        || match steps {
-            SideBySide::Responses => lanes.side_by_side(
+        || match kind {
+            Kind::Prepared(_) => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
                 |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
             ),
-            SideBySide::Samples => lanes.side_by_side(
+            Kind::Affine { .. } => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
                 |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
             ),
-            SideBySide::Curved(Law::Ratio) => lanes.side_by_side(
+            Kind::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
             ),
-            SideBySide::Curved(Law::Stiffness) => lanes.side_by_side(
+            Kind::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),

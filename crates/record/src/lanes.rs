@@ -1,7 +1,6 @@
 //! State of the runs that share a vector: position in the record, bounds of the block, extremes.
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
-use rocking_wall::wall::TieMemory;
 
 use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
 use crate::number::{Row, WIDTH, index};
@@ -42,16 +41,12 @@ impl Block {
 }
 
 /// The data of a run, except its motion, which is in [`Rows`].
-#[allow(clippy::struct_excessive_bools, reason = "independent marks of one run")]
 pub(crate) struct Run {
     pub(crate) block: Block,
     /// The sample at which this pass through the record ends.
     pub(crate) last: usize,
-    pub(crate) phase: Phase,
-    pub(crate) overturned: bool,
-    pub(crate) departed: bool,
-    pub(crate) peaks: Peaks,
-    pub(crate) tie: TieMemory,
+    /// Its state, except u, u̇ and the branch, which are in [`Rows`].
+    pub(crate) state: State,
     /// Whether a tie has changed, so that the prepared steps are those of another wall.
     pub(crate) is_stretched: bool,
     /// Bound f̂ on the force per mass while |u| stays within the reach of the block \[m/s²\].
@@ -183,17 +178,9 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Returns the state of the run in a lane.
     pub(crate) fn state(&self, lane: usize) -> State {
-        let (Run { phase, overturned, departed, peaks, tie, .. }, rows) = (&self.runs[lane], &self.rows);
-        State {
-            displacement: rows.u[lane],
-            velocity: rows.v[lane],
-            branch: index(rows.branch[lane]),
-            phase: *phase,
-            overturned: *overturned,
-            departed: *departed,
-            peaks: *peaks,
-            tie: *tie,
-        }
+        let rows = &self.rows;
+        let (displacement, velocity, branch) = (rows.u[lane], rows.v[lane], index(rows.branch[lane]));
+        State { displacement, velocity, branch, ..self.runs[lane].state }
     }
 
     /// Enters the block that the run of a lane is in.
@@ -217,18 +204,18 @@ impl<O: Observer> Lanes<'_, O> {
     /// Estimates the largest |u| in the next steps \[m\].
     fn largest(&self, lane: usize) -> f64 {
         let step = self.solvers[lane].step;
-        self.runs[lane].peaks.largest() + self.rows.forcing[lane] * step * step
+        self.runs[lane].state.peaks.largest() + self.rows.forcing[lane] * step * step
     }
 
     /// Computes anew the bound f̂ on the forces, and the limits that u must not leave.
     pub(crate) fn bound_force(&mut self, lane: usize) {
         self.include_ends(lane);
         let seeks = self.pass == Pass::Extremes;
-        let reach = if seeks { self.runs[lane].peaks.largest() } else { ROOM * self.largest(lane) };
+        let reach = if seeks { self.runs[lane].state.peaks.largest() } else { ROOM * self.largest(lane) };
         let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
         run.force = self.solvers[lane].table.largest_force(reach);
         rows.driving[lane] = rows.forcing[lane] + run.force;
-        let Peaks { positive, negative } = run.peaks;
+        let Peaks { positive, negative } = run.state.peaks;
         let (limits, half_reach) =
             if seeks { ([-negative, positive], f64::INFINITY) } else { ([-reach, reach], 0.5 * reach) };
         [rows.limits[0][lane], rows.limits[1][lane]] = limits;
@@ -237,7 +224,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Includes the ends of the steps so far in the peaks.
     pub(crate) fn include_ends(&mut self, lane: usize) {
-        let (rows, peaks) = (&self.rows, &mut self.runs[lane].peaks);
+        let (rows, peaks) = (&self.rows, &mut self.runs[lane].state.peaks);
         for u in [rows.highest[lane], rows.lowest[lane], rows.u[lane]] {
             if u.is_finite() {
                 peaks.include(u);
@@ -252,7 +239,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (highest, lowest, fastest) = (rows.highest[lane], rows.lowest[lane], rows.fastest[lane]);
         let block = Block { highest, lowest, fastest, end: self.sample(lane), ..run.block };
         // f̂ bounds the forces at least as far as u has gone
-        if self.pass != Pass::Extremes && self.may_exceed(&block, &run.peaks, run.force) {
+        if self.pass != Pass::Extremes && self.may_exceed(&block, &run.state.peaks, run.force) {
             self.candidates.push(block);
         }
     }
@@ -271,7 +258,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Enters the next block where the run of a lane is at the end of one; returns whether the run goes on.
     pub(crate) fn in_block(&mut self, lane: usize) -> bool {
-        if self.runs[lane].phase == Phase::Landed {
+        if self.runs[lane].state.phase == Phase::Landed {
             // a wall that has landed never moves again
             let (first, last) = (self.sample(lane), self.runs[lane].last);
             let lies = [self.rows.u[lane], self.rows.v[lane]];
@@ -309,7 +296,7 @@ impl<O: Observer> Lanes<'_, O> {
         let mut sides =
             [1.0, -1.0].into_iter().filter(|sign| wall.free_side().is_none_or(|free| free == *sign));
         sides.all(|sign| {
-            let peak = run.peaks.of(sign);
+            let peak = run.state.peaks.of(sign);
             peak < wall.force_end().of(sign) && 0.5 * speed * speed <= SAFE * wall.energy(sign * peak, 0.0)
         })
     }

@@ -100,16 +100,11 @@ impl<O: Observer> Lanes<'_, O> {
     /// Starts a run in a lane, over some samples.
     fn start(&mut self, lane: usize, block: Block, last: usize) {
         let Block { state, factor, number, first, share, .. } = block;
-        let State { displacement, velocity, branch, phase, overturned, departed, peaks, tie } = state;
         let run = Run {
             block,
             last,
-            phase,
-            overturned,
-            departed,
-            peaks,
-            tie,
-            is_stretched: tie != *self.given[number].solver.motion.wall().tie_memory(),
+            state,
+            is_stretched: state.tie != *self.given[number].solver.motion.wall().tie_memory(),
             force: 0.0,
             overturning: self.outcomes[number].overturning,
             searched: Work::default(),
@@ -129,7 +124,8 @@ impl<O: Observer> Lanes<'_, O> {
         rows.passage_factor[lane] = solver.passage_factor;
         rows.rest_speed[lane] = solver.motion.rest_speed();
         (rows.index[lane], rows.share[lane], rows.factor[lane]) = (first as f64, share, factor);
-        (rows.u[lane], rows.v[lane], rows.branch[lane]) = (displacement, velocity, branch as f64);
+        (rows.u[lane], rows.v[lane], rows.branch[lane]) =
+            (state.displacement, state.velocity, state.branch as f64);
         (rows.corners[lane], rows.impacts[lane]) = (0.0, 0.0);
         self.enter_block(lane);
     }
@@ -172,7 +168,7 @@ impl<O: Observer> Lanes<'_, O> {
     #[inline(always)]
     fn stepping(&self, lane: usize) -> Stepping {
         let run = &self.runs[lane];
-        match run.phase {
+        match run.state.phase {
             Phase::Moving if run.is_stretched => Stepping::General,
             Phase::Moving => self.solvers[lane].table.steppings[index(self.rows.branch[lane])],
             Phase::Resting | Phase::Landed => Stepping::General,
@@ -213,7 +209,7 @@ impl<O: Observer> Lanes<'_, O> {
     fn rest_on(&mut self, lane: usize) -> bool {
         let [lowest, highest] = self.solvers[lane].motion.rest_band();
         let first = self.sample(lane);
-        if self.runs[lane].phase != Phase::Resting {
+        if self.runs[lane].state.phase != Phase::Resting {
             return false;
         }
         let holds = |sample: usize| {
@@ -245,8 +241,7 @@ impl<O: Observer> Lanes<'_, O> {
         let report = solver.motion.advance_under(&mut state, (1.0 - share) * step, p, &mut run.memo)?;
         run.searched.add(report.work);
         run.put_to_rest |= report.put_to_rest;
-        (run.phase, run.overturned, run.departed) = (state.phase, state.overturned, state.departed);
-        (run.peaks, run.tie) = (state.peaks, state.tie);
+        run.state = state;
         run.is_stretched = state.tie != *solver.motion.wall().tie_memory();
         if let (Some(offset), None) = (report.overturning, run.overturning) {
             run.overturning = Some((sample as f64 + share) * step + offset);

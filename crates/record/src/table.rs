@@ -9,7 +9,7 @@ use rocking_wall::wall::Corner;
 
 use crate::affine::Affine;
 use crate::forcing::MOST_AT_ONCE;
-use crate::number::{BranchRow, MOST_BRANCHES, WIDTH};
+use crate::number::{BranchRow, MOST_BRANCHES};
 
 /// c V over P + f̂, which fixes the largest speed V of a plain step: walls stay far below it, as they do
 /// below the terminal speed (docs/record-path.md, §2).
@@ -35,9 +35,10 @@ pub(crate) enum Stepping {
 }
 
 /// How damping follows the secant stiffness, on all branches alike.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Law {
     /// c = 2ξ ω.
+    #[default]
     Ratio,
     /// c = (2ξ₁/ω₁) ω².
     Stiffness,
@@ -69,7 +70,7 @@ fn reach(oscillator: &Oscillator, step: f64) -> f64 {
 }
 
 /// The numbers of each branch of a wall. p₀ and p₁ are the forcing at the ends of a step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[repr(align(64))]
 pub(crate) struct Table {
     /// The number of plain steps taken at once, four or two.
@@ -107,45 +108,12 @@ pub(crate) struct Table {
     pub(crate) terms: usize,
 }
 
-const ZERO: BranchRow = [[0.0; WIDTH]; MOST_BRANCHES / WIDTH];
-
 impl Table {
     pub(crate) fn new(motion: &Motion, step: f64) -> Self {
         let wall = motion.wall();
         let steppings: Vec<Stepping> =
             (0..wall.branches().len()).map(|branch| stepping(motion, branch, step)).collect();
-        let secant = SecantBranch {
-            anchor: ZERO,
-            force: ZERO,
-            stiffness: ZERO,
-            own: [ZERO; 3],
-            force_at_zero: ZERO,
-            factor: ZERO,
-        };
-        let mut table = Self {
-            at_once: MOST_AT_ONCE,
-            plain_steps: [[ZERO; 3]; 2],
-            one_step: [[ZERO; 4]; 2],
-            damping: ZERO,
-            stiffness: ZERO,
-            force_at_zero: ZERO,
-            ends: [ZERO; 2],
-            exits: [[[end_kind::CLOSED; WIDTH]; MOST_BRANCHES / WIDTH]; 2],
-            growth: ZERO,
-            plain_growth: ZERO,
-            speed_share: ZERO,
-            damping_share: ZERO,
-            secant,
-            law: Law::Ratio,
-            steppings,
-            maps: Vec::new(),
-            most_growth: 0.0,
-            most_damping: 0.0,
-            curved_growth: 0.0,
-            curved_damping: 0.0,
-            longest: 0.0,
-            terms: 0,
-        };
+        let mut table = Self { at_once: MOST_AT_ONCE, steppings, ..Self::default() };
         if table.steppings.iter().all(|stepping| *stepping == Stepping::General) {
             // nothing is prepared: no step needs it
             return table;
@@ -275,7 +243,7 @@ impl Table {
             }
         };
         let exits = [false, true].map(|upwards| {
-            let mut row = ZERO;
+            let mut row = BranchRow::default();
             for branch in (0..self.steppings.len()).filter(|&at| self.steppings[at] != Stepping::General) {
                 set(&mut row, branch, find(branch, upwards));
             }

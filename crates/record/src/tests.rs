@@ -6,7 +6,7 @@ use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
-use crate::batch::{SideBySide, Vectors, in_lanes};
+use crate::batch::{Vectors, in_lanes};
 use crate::forcing::{Blocks, Forcing};
 use crate::lanes::{Block, Lanes};
 use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
@@ -54,9 +54,9 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let record = Blocks::on(solver, forcing, Vectors::widest());
-    let steps = crate::together::Kind::of(solver, &record).expect("a wall for lanes").steps();
+    let kind = crate::together::Kind::of(solver, &record).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    let outcomes = in_lanes(simd, steps, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
+    let outcomes = in_lanes(simd, kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
     outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 

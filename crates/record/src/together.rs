@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::SolverError;
 
-use crate::batch::{SideBySide, Vectors, follow};
+use crate::batch::{Vectors, follow};
 use crate::forcing::Blocks;
 use crate::lanes::Lanes;
 use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd};
@@ -14,16 +14,17 @@ const FEWEST_SAMPLES: usize = 16;
 /// What runs have in common that go side by side: the numbers that a vector has once for all of its lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind<'a> {
-    /// One wall, with constant damping on all branches, through records prepared for it.
+    /// One wall, with constant damping on all branches, through records prepared for it: steps are affine
+    /// maps of several at once, by the responses of its branches to the records.
     Prepared(*const RecordSolver<'a>),
-    /// All branches have constant damping.
+    /// All branches have constant damping: the same steps, by the samples of the records.
     Affine {
         step: f64,
         at_once: usize,
         /// The terms of the series of motion, which are summed in pairs.
         pairs: usize,
     },
-    /// Damping follows the secant stiffness.
+    /// Damping follows the secant stiffness: steps on such branches, by Taylor series.
     Curved { step: f64, law: Law },
 }
 
@@ -40,15 +41,6 @@ impl<'a> Kind<'a> {
         let is_affine = table.steppings.iter().all(|stepping| *stepping == Stepping::Affine);
         let suits = is_affine && table.longest <= LONGEST && record.count() >= FEWEST_SAMPLES;
         suits.then(|| Self::Affine { step: *step, at_once: table.at_once, pairs: table.terms.div_ceil(2) })
-    }
-
-    /// Returns the steps that runs of this kind take side by side.
-    pub(crate) fn steps(self) -> SideBySide {
-        match self {
-            Self::Prepared(_) => SideBySide::Responses,
-            Self::Affine { .. } => SideBySide::Samples,
-            Self::Curved { law, .. } => SideBySide::Curved(law),
-        }
     }
 }
 
@@ -107,8 +99,7 @@ pub(crate) fn run_together_on(
     for (kind, numbers) in kinds {
         let given: Vec<_> = numbers.iter().map(|&number| runs[number]).collect();
         let lanes = Lanes::new(&given, end, NoObserver);
-        let steps = vectors.zip(kind.map(Kind::steps));
-        outcomes.extend(numbers.into_iter().zip(follow(steps, lanes)));
+        outcomes.extend(numbers.into_iter().zip(follow(vectors.zip(kind), lanes)));
     }
     outcomes.sort_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()

@@ -90,7 +90,7 @@ impl Capacity {
     /// Draws the curve of each side, and the secants of the first one.
     pub fn plot(&self) -> Plot {
         let place = |point: &CapacityPoint| (point.displacement, point.force);
-        let curve = |side: &Side| Curve { name: side.name, points: side.corners.iter().map(place).collect() };
+        let curve = |side: &Side| (side.name, side.corners.iter().map(place).collect());
         let secant = |point: &CapacityPoint| {
             let name = format!("{} u_ins, T = {:.3} s", point.displacement_ratio, point.secant_period?);
             Some((name, place(point)))
@@ -104,27 +104,21 @@ impl Capacity {
 const CURVES: [&str; 2] = [BLUE, DARK_GREY];
 const SECANTS: [&str; 4] = [GREEN, AMBER, RED, PURPLE];
 
-/// The curve of one side of a wall.
-#[derive(Clone, Debug)]
-pub struct Curve {
-    /// Name of the side.
-    pub name: &'static str,
-    /// Its corners: |u| \[m\] and |F| \[N\].
-    pub points: Vec<(f64, f64)>,
-}
+/// The name of a side of a wall, and the corners of its curve: |u| \[m\] and |F| \[N\].
+pub type Curve = (&'static str, Vec<(f64, f64)>);
 
 /// Draws the curve of each side, and secants from the origin: a name and the point they go to, |u| \[m\] and
 /// |F| \[N\].
 pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
     let shown = |&(u, force): &(f64, f64)| (1000.0 * u, force / 1000.0);
-    let points = || curves.iter().flat_map(|curve| &curve.points).map(shown);
+    let points = || curves.iter().flat_map(|(_, points)| points).map(shown);
     let right = points().map(|point| point.0).fold(0.0, f64::max);
     let top = points().map(|point| point.1).fold(0.0, f64::max);
     let low = points().map(|point| point.1).fold(0.0, f64::min);
     let mut series = Vec::new();
-    for (curve, color) in curves.iter().zip(CURVES) {
-        let line = Series::stroke(color, 2.0, curve.points.iter().map(shown).collect());
-        series.push(Series { name: format!("capacity curve, {}", curve.name), ..line });
+    for ((name, points), color) in curves.iter().zip(CURVES) {
+        let line = Series::stroke(color, 2.0, points.iter().map(shown).collect());
+        series.push(Series { name: format!("capacity curve, {name}"), ..line });
     }
     for ((name, point), color) in secants.into_iter().zip(SECANTS.iter().cycle()) {
         let line = Series::stroke(color, 1.3, vec![(0.0, 0.0), shown(&point)]);

@@ -73,11 +73,9 @@ impl<'a> Shaking<'a> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn runs(&self, start: [f64; 2], factors: &[f64], end: RunEnd) -> Result<Vec<Outcome>, SolverError> {
-        let record = self.prepare();
-        let run = |factor: &f64| BatchRun { solver: self.solver, record, start: self.start(start, *factor) };
-        let runs: Vec<_> = factors.iter().map(run).collect();
-        let outcomes = run_together(&runs, end).into_iter().collect::<Result<Vec<_>, _>>()?;
-        outcomes.into_iter().map(|outcome| self.free_vibration(outcome, end)).collect()
+        self.prepare();
+        let run = |&factor: &f64| Shaken { shaking: self, start, factor };
+        together(&factors.iter().map(run).collect::<Vec<_>>(), end).into_iter().collect()
     }
 
     /// Prepares the record for many factors, which [`together`] then makes use of.

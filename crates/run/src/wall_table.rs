@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use ground_motion::columns::{Columns, Fault, Name, Numbers, Row, Thousands};
+use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
@@ -38,14 +38,14 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
         scene.parameters = Parameters::default();
-        let (mut wall, mut is_default) = (None, names.len() > 1);
+        let (mut wall, mut stated) = (None, Vec::new());
         let cells = names.iter().zip(&mut thousands).zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
         for ((&column, thousands), cell) in cells {
             if column == NAME {
                 wall = Some(cell.into_owned());
                 continue;
             }
-            is_default = false;
+            stated.extend(wall_parameters().chain([KINEMATICS]).find(|name| *name == column));
             if cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '−' | '.' | ',')) {
                 let number = numbers.real(&cell, row.line);
                 let number = number.map_err(|fault| in_column(column, &fault))?;
@@ -60,15 +60,10 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             let message = "the wall has no name; write one in the column `name`, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         };
-        if is_default {
+        if stated.is_empty() && names.len() > 1 {
             let message = "the wall has a name and no value; write one in a column, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         }
-        let cells: Vec<bool> = row.cells().map(|cell| !cell.is_empty()).collect();
-        let is_stated = |name: &&str| {
-            names.iter().position(|column| column == name).is_some_and(|at| cells.get(at) == Some(&true))
-        };
-        let stated = wall_parameters().filter(is_stated).collect();
         walls.push(NamedWall::new(wall, scene.parameters.clone()).stating(stated));
     }
     for (column, thousands) in names.iter().zip(thousands) {
@@ -80,18 +75,15 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             "the table has no walls; write a row for each below this line".to_owned(),
         ));
     }
-    Ok((walls, defaults(&columns, &names).map(|warning| format!("{file}: {warning}")).collect()))
+    let warnings = defaults(&walls).map(|warning| format!("{file}: {warning}")).collect();
+    Ok((walls, warnings))
 }
 
 /// Warns about walls for which the table gives no height or no thickness.
-fn defaults(columns: &Columns<'_>, names: &[&str]) -> impl Iterator<Item = String> {
+fn defaults(walls: &[NamedWall]) -> impl Iterator<Item = String> {
     let Parameters { height, thickness, .. } = Parameters::default();
     [("height", height), ("thickness", thickness)].into_iter().filter_map(|(size, default)| {
-        let column = names.iter().position(|name| *name == size);
-        let has_size =
-            |row: &Row<'_>| column.is_some_and(|at| row.cells().nth(at).is_some_and(|c| !c.is_empty()));
-        let (with, without): (Vec<_>, Vec<_>) = columns.rows().flatten().partition(has_size);
-        let (count, all) = (without.len(), with.len() + without.len());
+        let (count, all) = (walls.iter().filter(|wall| wall.assumed.contains(&size)).count(), walls.len());
         (count > 0)
             .then(|| format!("{count} of {all} walls have no {size}; the default of {default} m counts"))
     })
@@ -103,14 +95,13 @@ fn check_names(names: &[&str]) -> Result<(), String> {
     for &column in names {
         if known().all(|name| name != column) {
             let alone = column.split(['[', '(']).next().unwrap_or_default().trim();
-            let meant = if alone != column && known().any(|name| name == alone) {
-                format!("; write {alone:?} alone, its unit is fixed")
-            } else {
-                suggestion(&alone.to_lowercase(), known())
-            };
+            let meant = suggestion(&alone.to_lowercase(), known());
             let all: Vec<_> = known().filter(|name| *name != NAME).collect();
             let all = all.join(", ");
-            return Err(format!("{column:?} is not a parameter of a wall of a study{meant}: {all}"));
+            return Err(format!(
+                "{column:?} is not a parameter of a wall of a study{meant}; write one of these alone, their \
+                 units are fixed: {all}"
+            ));
         }
     }
     if names.contains(&NAME) { Ok(()) } else { Err("a table of walls needs a column \"name\"".to_owned()) }
@@ -190,17 +181,17 @@ mod tests {
                 "delete the first column, an index without a name (pandas: index=False)",
             ),
             ("name|height\na|3\n", "line 1: expected columns between commas, semicolons, tabs or blanks"),
-            ("name,height\na,\u{2212}3\n", "write minus signs as `-`; this one is U+2212"),
+            ("name,height\na,\u{2212}3\n", "write minus signs as `-`"),
             ("name,impact\na,none", "line 1: \"impact\" is not a parameter"),
             ("name,xi\na,11", "line 2: xi"),
             ("name,height\na,3\nb,-3", "line 3: height"),
-            ("name,height\na", "line 2: expected 2 values, one for each column, found 1"),
+            ("name,height\na", "line 2: expected one value for each column, 2 in all, found 1"),
             (
                 "Name,height\na,3",
                 "line 1: \"Name\" is not a parameter of a wall of a study (did you mean \"name\"?)",
             ),
             ("name,height [m]\na,3", "line 1: \"height [m]\""),
-            ("name,height [m]\na,3", "write \"height\" alone"),
+            ("name,height [m]\na,3", "(did you mean \"height\"?); write one of these alone"),
             ("name,height,height\na,3,4", "line 1: expected columns with names of their own"),
             ("name,height,height\na,3,4", "found two columns `height`"),
             ("name,height\na,3\n,4", "line 3: the wall has no name"),

@@ -1,31 +1,11 @@
 //! A wall as tables of a study file: what a study's folder keeps of it, and what another process gets.
 
 use rocking_wall::scene::{
-    Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml, read_floors,
-    to_toml,
+    Document, Place, Scene, SceneError, apply_group, parse_toml, read_floors, to_toml,
 };
 use rocking_wall::wall::{COMPUTED, Parameters};
-use serde::Deserialize;
-use toml::Spanned;
 
 use crate::walls::{NamedWall, WALL_GROUPS, is_of_models};
-
-/// A wall as [`wall_text`] writes it.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WallText {
-    geometry: Group,
-    force_law: Group,
-    #[serde(default)]
-    damping: Group,
-    impact: Group,
-    #[serde(default)]
-    tie: Group,
-    solver: Group,
-    #[serde(default)]
-    storeys: Vec<Spanned<StoreyTable>>,
-    supports: Option<Spanned<SupportsTable>>,
-}
 
 /// Writes the parameters and storeys of a wall as tables of a study file.
 pub fn wall_text(wall: &NamedWall) -> String {
@@ -62,11 +42,10 @@ pub fn wall_text(wall: &NamedWall) -> String {
 /// [`SceneError`] with line and value.
 pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
     let place = &Place::new(&name, text);
-    let wall: WallText = parse_toml(place)?;
+    let wall: Document = parse_toml(place)?;
     let mut parameters = Parameters::default();
-    let groups = [wall.geometry, wall.force_law, wall.damping, wall.impact, wall.tie, wall.solver];
-    for (group, entries) in WALL_GROUPS.iter().zip(groups) {
-        apply_group(&mut parameters, group, &entries, place)?;
+    for (group, entries) in wall.groups() {
+        apply_group(&mut parameters, group, entries, place)?;
     }
     let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
     Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })

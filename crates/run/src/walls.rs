@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
     Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable, apply_group,
-    parameters, parse_document, parse_toml, read_floors,
+    parameters, parse_document, parse_toml, read_floors, suggestion,
 };
 use rocking_wall::tables;
 use rocking_wall::wall::{Bar, COMPUTED, Parameters};
@@ -173,36 +173,26 @@ pub(crate) fn is_of_models(name: &str) -> bool {
     OF_MODELS.iter().any(|(of_models, _)| *of_models == name)
 }
 
-/// A file of walls for a check. It may be a study: its other keys are ignored.
+/// Keys of a study or a check other than those of its walls.
+const OTHER_KEYS: [&str; 13] = [
+    "title",
+    "check",
+    "models",
+    "tail",
+    "intensity",
+    "levels",
+    "records",
+    "polarity",
+    "report",
+    "hazard",
+    "reliability",
+    "classes",
+    "uncertain",
+];
+
+/// What a study or a check says of its walls.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 struct WallsDocument {
-    #[serde(rename = "title")]
-    _title: Option<IgnoredAny>,
-    #[serde(rename = "check")]
-    _check: Option<IgnoredAny>,
-    #[serde(rename = "models")]
-    _models: Option<IgnoredAny>,
-    #[serde(rename = "tail")]
-    _tail: Option<IgnoredAny>,
-    #[serde(rename = "intensity")]
-    _intensity: Option<IgnoredAny>,
-    #[serde(rename = "levels")]
-    _levels: Option<IgnoredAny>,
-    #[serde(rename = "records")]
-    _records: Option<IgnoredAny>,
-    #[serde(rename = "polarity")]
-    _polarity: Option<IgnoredAny>,
-    #[serde(rename = "report")]
-    _report: Option<IgnoredAny>,
-    #[serde(rename = "hazard")]
-    _hazard: Option<IgnoredAny>,
-    #[serde(rename = "reliability")]
-    _reliability: Option<IgnoredAny>,
-    #[serde(rename = "classes")]
-    _classes: Option<IgnoredAny>,
-    #[serde(rename = "uncertain")]
-    _uncertain: Option<IgnoredAny>,
     #[serde(default)]
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,
@@ -215,7 +205,14 @@ struct WallsDocument {
 /// [`SceneError`] with file, line, value and remedy.
 fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, SceneError> {
     let place = &Place::new(name, text);
-    let WallsDocument { storeys, supports, walls, .. } = parse_toml(place)?;
+    let known = || OTHER_KEYS.into_iter().chain(["storeys", "supports", "walls"]);
+    let document = parse_document(place)?;
+    if let Some(key) = document.keys().find(|key| known().all(|name| name != key.get_ref())) {
+        let meant = suggestion(key.get_ref(), known());
+        let message = format!("{:?} is not a key of a file of walls{meant}; leave it out", key.get_ref());
+        return Err(place.error(key.span(), message));
+    }
+    let WallsDocument { storeys, supports, walls } = parse_toml(place)?;
     entries(&walls, &storeys, supports.as_ref(), place)
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{COMMENTS, Columns, OTHER_COMMENT, OTHER_COMMENTS, filled};
+use super::{COMMENTS, Columns, filled};
 use crate::error::{Fault, excerpt};
 use crate::fields::real;
 
@@ -85,29 +85,15 @@ impl<'a> Row<'a> {
     }
 
     /// Refuses a number of cells that is not that of the columns; empty ones at the end do not count.
-    pub(super) fn checked(self, without_names: bool) -> Result<Self, Fault> {
+    pub(super) fn checked(self) -> Result<Self, Fault> {
         let Self { line, text, separator, width } = self;
         let all = self.all_cells().count();
         if all == width || all > width && filled(separator, text) <= width {
             return Ok(self);
         }
-        if OTHER_COMMENTS.iter().any(|mark| text.starts_with(mark)) {
-            return Err(Fault::excerpt(line, "a row", text, OTHER_COMMENT));
-        }
-        let expected = match width {
-            1 => "one value".to_owned(),
-            _ => format!("{width} values, one for each column"),
-        };
-        let remedy = match separator {
-            Separator::Comma => {
-                "complete the row; where decimals have a comma, separate the columns by semicolons"
-            }
-            Separator::Blanks if without_names => "complete the row",
-            Separator::Blanks => {
-                "complete the row; between blanks, each name in the header line must be one word"
-            }
-            Separator::None | Separator::Semicolon | Separator::Tab => "complete the row",
-        };
+        let expected = format!("one value for each column, {width} in all");
+        let remedy = "complete the row; where decimals have a comma, separate the columns by semicolons; between \
+                      blanks, each name in the header line must be one word; comments start with # or %";
         Err(Fault::new(line, expected, format!("{all} in {}", excerpt(text)), remedy))
     }
 
@@ -253,14 +239,8 @@ impl Numbers {
         }
         let value = real(&plain).filter(|value| value.is_finite());
         value.ok_or_else(|| {
-            let remedy = match self.separator {
-                _ if cell.contains('−') => "write minus signs as `-`; this one is U+2212",
-                Separator::None => "correct the value; in one column decimals have a point",
-                Separator::Comma => {
-                    "correct the value; commas separate columns here, so decimals have a point"
-                }
-                _ => "correct the value; write no marks between thousands",
-            };
+            let remedy = "correct the value: decimals have a point, or a comma where semicolons, tabs or blanks \
+                          separate columns; write minus signs as `-`, and no marks between thousands";
             Fault::excerpt(line, "a finite number", cell, remedy)
         })
     }

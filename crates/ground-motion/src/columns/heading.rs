@@ -88,12 +88,6 @@ impl Name {
     pub(crate) fn refuse_other_quantity(&self, line: usize) -> Result<(), Fault> {
         match self.says() {
             Some(Quantity::Spectrum) | None => Ok(()),
-            Some(quantity) if self.is_acceleration() => {
-                let remedy = "name and unit contradict each other: correct the wrong one, or use the column \
-                              of the acceleration";
-                let expected = format!("the name of an acceleration, or a unit of a {}", quantity.noun());
-                Err(Fault::excerpt(line, expected, &self.written, remedy))
-            }
             Some(quantity) => Err(quantity.refused(&self.written, line)),
         }
     }

@@ -118,7 +118,7 @@ fn unit<'a>(
         stated = stated.or_else(|| Some((number, unit_word(line)?)));
     }
     match (stated, options.unit) {
-        (Some((number, word)), _) => options.unit_of(word, number),
+        (Some((number, word)), _) => options.unit_of(&word, number),
         (None, Some(given)) => Ok(given),
         (None, None) => {
             let expected = "a unit in the header, `IN UNITS OF G`";

@@ -62,7 +62,8 @@ fn scale(
     let step = after(line, "SPACED AT").and_then(|text| positive(leading_number(text).0));
     let step = step.ok_or_else(|| in_heading(heading, "a step in sec"))?;
     options.check_step(step, number)?;
-    let word = unit_word(line).or_else(|| after(line, ", IN ")?.split_ascii_whitespace().next());
+    let listed = || after(line, ", IN ")?.split_ascii_whitespace().next().map(str::to_owned);
+    let word = unit_word(line).or_else(listed);
     let word = word.ok_or_else(|| in_heading(heading, "a unit, `in cm/sec2`"))?;
     let unit = options.unit_of(word.trim_end_matches(['.', ',', ')']), number)?;
     Ok(Scale { step, unit, peak: channel.peak })

@@ -120,27 +120,30 @@ fn tables_of_records_are_refused() {
         (comma("// t, a\n"), &["line 1", "`// t, a`", "comments start with # or %"][..]),
         (table("! t, a\n", " ", "", "."), &["line 1", "comments start with # or %"]),
         (comma(header).replace("\n1.00,", "\n// here\n1.00,"), &["line 102", "comments start with # or %"]),
-        (comma("time [ms],acc\n"), &["line 1", "times in s", "`ms`", "write the times in seconds"]),
-        (comma("time (ms),acc\n"), &["line 1", "times in s", "`ms`"]),
-        (comma("time_ms,acc\n"), &["line 1", "times in s", "`ms`"]),
-        (comma("# t [ms], a [m/s2]\n"), &["times in s", "`ms`"]),
+        (comma("time [ms],acc\n"), &["line 1", "times in s", "`time [ms]`", "in seconds"]),
+        (comma("time (ms),acc\n"), &["line 1", "times in s", "`time [ms]`"]),
+        (comma("time_ms,acc\n"), &["line 1", "times in s", "`time_ms`"]),
+        (comma("# t [ms], a [m/s2]\n"), &["line 1", "times in s", "`t [ms]`"]),
         (comma("t [s],a [m/s2]\n").replace(',', "|"), &["line 2", "`|` separates no columns"]),
-        (comma("t [s],a\n").replace(",-", ",\u{2212}"), &["write minus signs as `-`; this one is U+2212"]),
+        (comma("t [s],a\n").replace(",-", ",\u{2212}"), &["write minus signs as `-`"]),
         (comma("t [s],a\n").replace("\n1.00,", "\n1.00,it's \"\u{202f}"), &["found `it's \"U+202F-"]),
         (comma("T [s],Sa [m/s2]\n"), &["line 1", "this is a response spectrum"]),
         (comma("t,pSa\n"), &["line 1", "this is a response spectrum"]),
         (comma("time,SA(g)\n"), &["line 1", "`SA(g)`", "this is a response spectrum"]),
         (comma("Period (s),a [m/s2]\n"), &["line 1", "this is a response spectrum"]),
         (comma("T,a\n"), &["line 1", "this is a response spectrum", "`time`"]),
-        (comma("t [s],vel [m/s2]\n"), &["line 1", "`vel [m/s2]`", "contradict each other"]),
-        (comma("t [s],vg [m/s2]\n"), &["line 1", "a unit of a velocity", "contradict"]),
-        (comma("t [s],Displacement (m/s2)\n"), &["line 1", "a unit of a displacement", "contradict"]),
-        (comma("time,acc\nms,m/s2\n"), &["times in s", "`ms`"]),
+        (comma("t [s],vel [m/s2]\n"), &["line 1", "`vel [m/s2]`", "column of the acceleration"]),
+        (comma("t [s],vg [m/s2]\n"), &["line 1", "column of the acceleration"]),
+        (comma("t [s],Displacement (m/s2)\n"), &["line 1", "column of the acceleration"]),
+        (comma("time,acc\nms,m/s2\n"), &["line 1", "times in s", "`time [ms]`"]),
         (
             table("time,a_g\n", ".00,", "", ".").replace('\n', "\n2023/05/18 "),
-            &["line 2", "a time of the day"],
+            &["line 2", "a finite number", "`2023/05/18"],
         ),
-        (table("time,a_g\n", ",", "", ".").replace('\n', "\n14:48:"), &["line 2", "a time of the day"]),
+        (
+            table("time,a_g\n", ",", "", ".").replace('\n', "\n14:48:"),
+            &["line 2", "a finite number", "`14:48:"],
+        ),
         (
             ",time,acc\n".to_owned() + &table("\n", ",", "", ".").replace('\n', "\n1,"),
             &["line 1", "delete the first column", "index=False"],
@@ -183,7 +186,7 @@ fn the_stated_step_counts_beside_times_in_other_units() {
     let warning = "step: the times of the file are 0.01 s apart; the 0.005 s that you state count";
     assert_eq!(of(0.005), [warning]);
     let error = crate::read("x.csv", text, &RecordOptions::default()).unwrap_err();
-    assert_mentions(&error, &["times in s", "`ms`", "write the times in seconds", "--record-step"]);
+    assert_mentions(&error, &["times in s", "`time [ms]`", "--record-step"]);
 }
 
 /// Decimals beside whole numbers are no thousands if one of them is below 1, or has another number of digits.
@@ -213,11 +216,11 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
         ("milli-g", "1 milli-g is 0.001 g"),
         ("0.1g", "1 0.1g is 0.1 g"),
         ("mGal", "1 mGal is 0.001 cm/s2"),
-        ("m/s", "this is a velocity: convert it"),
-        ("cm/sec", "this is a velocity: convert it"),
-        ("in/s", "this is a velocity: convert it"),
-        ("kine", "this is a velocity: convert it"),
-        ("cm", "this is a displacement: convert it"),
+        ("m/s", "convert it to an acceleration"),
+        ("cm/sec", "convert it to an acceleration"),
+        ("in/s", "convert it to an acceleration"),
+        ("kine", "convert it to an acceleration"),
+        ("cm", "convert it to an acceleration"),
         ("m/s3", "correct the unit"),
         ("m/s^3", "correct the unit"),
         ("kg", "correct the unit"),
@@ -237,14 +240,14 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
         }
     }
     for (name, words) in [
-        ("velocity", "this is a velocity"),
+        ("velocity", "convert it to an acceleration"),
         ("a_ft/s2", "1 ft/s2 is 0.3048 m/s2"),
         ("acc_ft_s2", "1 ft_s2 is 0.3048 m/s2"),
         ("acc ft s-2", "1 ft s-2 is 0.3048 m/s2"),
         ("a_mg", "1 mg is 0.001 g"),
         ("mg", "1 mg is 0.001 g"),
-        ("acc_cms", "this is a velocity"),
-        ("vel_cm_s", "this is a velocity"),
+        ("acc_cms", "convert it to an acceleration"),
+        ("vel_cm_s", "convert it to an acceleration"),
         ("acc_cm_s2", "the stated unit m/s2, found cm/s2"),
         ("acc_cms2", "the stated unit m/s2, found cm/s2"),
         ("acc_mm_s_2", "the stated unit m/s2, found mm/s2"),
@@ -338,14 +341,16 @@ fn encodings_are_named() {
     assert_mentions(&error.to_string(), &["a binary file", "give a table"]);
 }
 
-/// A comment may be about something else: the unit that the user states counts, and the difference is said.
+/// A comment that names the columns states the unit as a header line does.
 #[test]
-fn the_stated_unit_counts_beside_a_comment() {
+fn a_comment_may_name_the_columns() {
     let text = table("% t [s], a [g]\n", ",", "", ".");
-    let warnings = |options: &RecordOptions| {
-        let record = ground_motion::parse("x.csv", text.clone().into_bytes(), options).unwrap();
-        (record.unit, record.check().warnings.iter().any(|found| matches!(found, Warning::Comment { .. })))
-    };
-    assert_eq!(warnings(&si()), (Unit::MetrePerSecondSquared, true));
-    assert_eq!(warnings(&RecordOptions::default()), (Unit::StandardGravity, false));
+    let record = crate::read("x.csv", &text, &RecordOptions::default()).unwrap();
+    assert_eq!(record.unit, Unit::StandardGravity);
+    let error = crate::read("x.csv", &text, &si()).unwrap_err();
+    assert_mentions(&error, &["line 1", "the stated unit m/s2, found g"]);
+    let several = "# t [s] x [g] y [g]\n0 1 3\n0.1 2 4\n";
+    let options = RecordOptions { column: Some("y".to_owned()), ..RecordOptions::default() };
+    let record = crate::read("x.txt", several, &options).unwrap();
+    assert_eq!(record.motion.samples(), [3.0, 4.0].map(|a| Unit::StandardGravity.to_si(a)));
 }

@@ -251,5 +251,5 @@ fn plain_numbers_are_the_samples_in_their_order() {
         &["one record in their order", "3 columns that change more slowly", "one sample"],
     );
     let table = rows(|i| format!("{:.2} {:.4} {:.4}\n", 0.01 * i, (0.9 * i).sin(), (0.7 * i).cos()));
-    assert_mentions(&read("x.txt", &table, &stated).unwrap_err(), &["two columns", "found 3"]);
+    assert_mentions(&read("x.txt", &table, &stated).unwrap_err(), &["one column beside", "found 3"]);
 }

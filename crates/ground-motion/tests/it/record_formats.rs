@@ -191,14 +191,13 @@ fn a_channel_is_picked_by_number_or_name() {
 #[test]
 fn damage_is_named_with_its_line() {
     use specimen::{at2, cosmos, csmip, esm, knet, smc};
-    let cases: [(Writer, &str, &str, &[&str]); 26] = [
+    let cases: [(Writer, &str, &str, &[&str]); 25] = [
         (at2, "NPTS=     11", "NPTS=     12", &["line 7", "12 samples", "found 11"]),
         (esm, "NDATA: 11", "NDATA: 12", &["line 75", "12 samples, as NDATA on line 6", "found 11"]),
         (esm, "NDATA: 11", "NDATA: many", &["line 6", "NDATA", "`many`"]),
         (esm, "NDATA: 11", "NDATA:", &["line 6", "a value for `NDATA` in the header, found none"]),
         (esm, "NDATA: 11\n", "", &["line 63", "a value for `NDATA` in the header, found none"]),
         (esm, "cm/s^2", "cm", &["line 8", "a unit of acceleration, found `cm`"]),
-        (esm, "-103.250000\nDATA", "-105.375\nDATA", &["line 9", "103.25", "105.375"]),
         (esm, "ACCELERATION", "VELOCITY", &["line 10", "an acceleration record", "`VELOCITY`"]),
         (esm, "S: 0.010000", "S: -0.01", &["line 5", "SAMPLING_INTERVAL_S", "`-0.01`"]),
         (esm, "\n22.750000", "\nNaN", &["line 67", "one finite number, found `NaN`"]),
@@ -225,6 +224,16 @@ fn damage_is_named_with_its_line() {
         let error = read(&text.replacen(from, to, 1), &RecordOptions::default()).unwrap_err();
         assert_mentions(&error, words);
     }
+}
+
+/// A peak that is not that of the samples is warned of.
+#[test]
+fn another_peak_is_warned_of() {
+    let text = specimen::esm(&SAMPLES).replacen("-103.250000\nDATA", "-105.375\nDATA", 1);
+    let record = read(&text, &RecordOptions::default()).unwrap();
+    let warnings: Vec<String> = record.check().warnings.iter().map(ToString::to_string).collect();
+    let words = "peak: the samples have 1.03250 m/s², the file states 1.05375 m/s²";
+    assert!(warnings.iter().any(|warning| warning == words), "{warnings:?}");
 }
 
 /// Checks that a message is one short line with the file, the line if there is one, what was expected and

@@ -39,15 +39,15 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         stuck.set(stuck.get() + waiting.stuck.count_ones());
         waiting
     };
-    let outcomes = match Kind::of(&solver, &record).expect("a wall for lanes").steps() {
-        SideBySide::Responses => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+    let outcomes = match Kind::of(&solver, &record).expect("a wall for lanes") {
+        Kind::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
             count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
         }),
-        SideBySide::Samples => unreachable!("the record is prepared for the wall"),
-        SideBySide::Curved(Law::Ratio) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+        Kind::Affine { .. } => unreachable!("the record is prepared for the wall"),
+        Kind::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
         }),
-        SideBySide::Curved(Law::Stiffness) => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+        Kind::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
         }),
     };

@@ -17,6 +17,7 @@ use report::points::decimated;
 use report::{counted, number};
 
 use super::in_g;
+use crate::sample::sample_median;
 
 /// Size \[px\].
 const WIDTH: f64 = 820.0;
@@ -97,8 +98,7 @@ fn median(records: &[&Drawn]) -> Vec<(f64, f64)> {
     let Some(first) = records.first() else { return Vec::new() };
     let at = |index: usize| {
         let mut values: Vec<f64> = records.iter().map(|record| record.spectrum[index].1).collect();
-        values.sort_by(f64::total_cmp);
-        f64::midpoint(values[(values.len() - 1) / 2], values[values.len() / 2])
+        sample_median(&mut values)
     };
     first.spectrum.iter().enumerate().map(|(index, &(period, _))| (period, at(index))).collect()
 }
