@@ -29,6 +29,16 @@ pub enum Support {
     Floor(usize),
 }
 
+impl Support {
+    /// Returns the index of the storey; `None` for the ground.
+    pub fn floor(self) -> Option<usize> {
+        match self {
+            Self::Ground => None,
+            Self::Floor(index) => Some(index),
+        }
+    }
+}
+
 /// A storey.
 #[derive(Debug)]
 pub struct Floor {
