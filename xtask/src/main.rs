@@ -97,8 +97,7 @@ fn main() -> ExitCode {
         ["wheel", "--platforms", names] => wheel::portable(names),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
-        ["figures", "--peers"] => figures::peers(None),
-        ["figures", "--peers", record] => figures::peers(Some(record)),
+        ["figures", "--peers", record @ ..] if record.len() <= 1 => figures::peers(record.first().copied()),
         ["figures", "--images"] => images::run(),
         ["figures", "--reliability"] => reliability::run(),
         ["figures", "--validation"] => figures::validation(),
@@ -117,8 +116,9 @@ fn main() -> ExitCode {
         ["generate", parts @ ..] => generate::run(parts, false),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
-        ["bench", "--peers"] => bench::peers(None).map(drop),
-        ["bench", "--peers", record] => bench::peers(Some(record)).map(drop),
+        ["bench", "--peers", record @ ..] if record.len() <= 1 => {
+            bench::peers(record.first().copied()).map(drop)
+        }
         [] | ["help" | "-h" | "--help", ..] => {
             print!("{HELP}");
             Ok(())
