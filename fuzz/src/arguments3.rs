@@ -106,18 +106,8 @@ impl Arguments {
                 10..14 => {
                     fmi3::get_output_derivatives::<M>(c, unknowns.as_ptr(), 1, orders.as_ptr(), room, 1)
                 }
-                14..17 => fmi3::get_directional_derivative::<M>(
-                    c,
-                    unknowns.as_ptr(),
-                    1,
-                    knowns.as_ptr(),
-                    1,
-                    seeds.as_ptr(),
-                    1,
-                    room,
-                    1,
-                ),
-                _ => fmi3::get_adjoint_derivative::<M>(
+                which => fmi3::derivatives_along::<M>(
+                    which >= 17,
                     c,
                     unknowns.as_ptr(),
                     1,

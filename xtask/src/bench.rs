@@ -9,10 +9,10 @@ use crate::python::Environment;
 
 /// The measurements of the peers.
 pub(crate) const PEERS: &str = "fmu_out/peers.csv";
-/// Names in the table.
+/// The tools, by their names in the table.
+const TOOLS: [&str; 6] = [OURS, "ode_solvers", "diffsol", OPENSEES, "numba", "SciPy"];
 const OURS: &str = "rocking-wall";
 const OPENSEES: &str = "OpenSeesPy";
-const BATCH: &str = "exact 64 at once";
 /// End of the settings of runs in a batch.
 const AT_ONCE: &str = "64 at once";
 
@@ -83,8 +83,8 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
 /// motion.
 ///
-/// Returns an outline of the table it prints: of each scene the run of rocking-wall, `OpenSeesPy` at the
-/// record's step, and each tool's cheapest good settings. It names a peer that cannot be installed or fails.
+/// Returns a table, of each scene `OpenSeesPy` at the record's step and each tool's fastest good setting, and
+/// prints it with those whose peak alone is good. It names a peer that cannot be installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     remove_folder(&folder)?;
@@ -104,16 +104,17 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
         }
     }
     let mut text = read(folder.join("rows.csv"))?;
-    let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
-    let [table, outline] = [false, true].map(|is_outline| report(&rows, &missing, is_outline));
-    print!("{table}");
+    let mut rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
+    rows.sort_by_key(|row| row.scene);
+    let [table, printed] = [false, true].map(|with_peaks| report(&rows, &missing, with_peaks));
+    print!("{printed}");
     for (tool, reason) in &missing {
         // writing to a string does not fail
         let _ = writeln!(text, "all,{tool},missing: {},,,,,", reason.replace(',', ";"));
     }
     write(PEERS, text)?;
     println!("written {}", root().join(PEERS).display());
-    Ok(outline)
+    Ok(table)
 }
 
 fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
@@ -147,12 +148,11 @@ impl<'a> Row<'a> {
     }
 }
 
-fn report(rows: &[Row<'_>], missing: &[(&str, String)], is_outline: bool) -> String {
+fn report(rows: &[Row<'_>], missing: &[(&str, String)], with_peaks: bool) -> String {
     let mut text = String::new();
-    let all: Vec<&Row<'_>> = rows.iter().collect();
-    for scene in distinct(&all, |row| row.scene) {
-        let rows: Vec<&Row<'_>> = all.iter().copied().filter(|row| row.scene == scene).collect();
-        let _ = write_scene(&mut text, scene, &rows, is_outline);
+    for rows in rows.chunk_by(|one, other| one.scene == other.scene) {
+        // writing to a string does not fail
+        let _ = write_scene(&mut text, rows, with_peaks);
     }
     for (tool, reason) in missing {
         let _ = writeln!(text, "missing: {tool}: {reason}");
@@ -160,108 +160,69 @@ fn report(rows: &[Row<'_>], missing: &[(&str, String)], is_outline: bool) -> Str
     text
 }
 
-fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>], is_outline: bool) -> std::fmt::Result {
-    let Some(base) = own_run(rows) else {
+fn write_scene(text: &mut String, rows: &[Row<'_>], with_peaks: bool) -> std::fmt::Result {
+    let of = |tool| rows.iter().filter(move |row| row.tool == tool);
+    // the time of a run in a batch is a share
+    let in_batch = |row: &Row<'_>| row.setting.ends_with(AT_ONCE);
+    let good = |row: &Row<'_>| row.error <= GOOD && !in_batch(row);
+    let scene = rows[0].scene;
+    // without a closed form, the fastest good one
+    let own = of(OURS).find(|row| row.setting == "exact" && !row.error.is_nan());
+    let Some(own) = own.or_else(|| fastest(of(OURS), good)) else {
         return writeln!(text, "\n{scene}: rocking-wall has no row");
     };
-    let own = format!("{OURS} {}", base.setting);
-    writeln!(text, "\n{scene}; times relative to {own}, {:.3} ms", base.seconds * 1e3)?;
+    writeln!(text, "\n{scene}; times relative to {OURS} {}, {:.3} ms", own.setting, own.seconds * 1e3)?;
     writeln!(
         text,
         "{:<14}{:<26}{:>12}{:>18}{:>12}",
         "tool", "setting", "time [ms]", "error/u_ins [-]", "time ratio"
     )?;
-    let first = |tool| rows.iter().position(|row| row.tool == tool);
-    let outline = [first(OURS), first(OPENSEES)];
-    for (place, row) in rows.iter().enumerate() {
-        if !is_outline || outline.contains(&Some(place)) {
-            write_row(text, row, base.seconds, row.error)?;
-        }
-    }
-    writeln!(text, "cheapest setting with an error of at most {GOOD:.0e} u_ins:")?;
-    for tool in distinct(rows, |row| row.tool) {
-        let mut of_tool = rows.iter().copied().filter(|row| row.tool == tool);
-        match cheapest(of_tool.clone()) {
-            Some(row) => write_row(text, row, base.seconds, row.error)?,
-            None if of_tool.clone().any(|row| !row.error.is_nan()) => writeln!(text, "{tool:<14}none")?,
-            None => {
-                of_tool.next().map_or(Ok(()), |row| write_row(text, row, base.seconds, row.error))?;
-            }
-        }
-    }
-    write_peaks(text, rows)?;
     // its first row is at the record's step
-    let Some(opensees) = rows.iter().find(|row| row.tool == OPENSEES && !row.error.is_nan()) else {
+    let opensees = of(OPENSEES).next().filter(|row| !row.error.is_nan());
+    if let Some(opensees) = opensees {
+        write_row(text, opensees, own.seconds, opensees.error)?;
+    }
+    writeln!(text, "fastest setting with an error of at most {GOOD:.0e} u_ins:")?;
+    for tool in TOOLS {
+        match (fastest(of(tool), good), of(tool).find(|row| row.error.is_nan())) {
+            (Some(row), _) => write_row(text, row, own.seconds, row.error)?,
+            (None, why) => writeln!(text, "{tool:<14}{}", why.map_or("none", |row| row.setting))?,
+        }
+    }
+    let batch = of(OURS).find(|row| row.setting == "exact 64 at once" && !row.error.is_nan());
+    if let Some((opensees, batch)) = opensees.zip(batch) {
+        writeln!(
+            text,
+            "{OPENSEES} at the record's step takes {:.0} times a run of {OURS} exact in a batch of 64, {:.4} ms",
+            opensees.seconds / batch.seconds,
+            batch.seconds * 1e3
+        )?;
+    }
+    let good = |row: &Row<'_>| row.peak <= GOOD_PEAK;
+    let Some(own) = fastest(of(OURS), |row| good(row) && in_batch(row)).filter(|_| with_peaks) else {
         return Ok(());
     };
-    writeln!(
-        text,
-        "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error {:.1e} u_ins",
-        opensees.seconds * 1e3,
-        opensees.seconds / base.seconds,
-        opensees.error
-    )?;
-    let batch = rows.iter().find(|row| row.tool == OURS && row.setting == BATCH && !row.error.is_nan());
-    let Some(batch) = batch else { return Ok(()) };
-    writeln!(
-        text,
-        "and {:.0} times a run of rocking-wall exact in a batch of 64, {:.4} ms",
-        opensees.seconds / batch.seconds,
-        batch.seconds * 1e3
-    )
-}
-
-/// Writes the fastest run of each tool whose peak is good, beside a run of rocking-wall in a batch: what a
-/// study with peaks of that accuracy costs.
-fn write_peaks(text: &mut String, rows: &[&Row<'_>]) -> std::fmt::Result {
-    let good = |row: &&&Row<'_>| row.peak <= GOOD_PEAK;
-    let fastest = |one: &&&Row<'_>, other: &&&Row<'_>| one.seconds.total_cmp(&other.seconds);
-    let own = rows.iter().filter(|row| row.tool == OURS && row.setting.ends_with(AT_ONCE));
-    let Some(own) = own.filter(good).min_by(fastest) else { return Ok(()) };
+    // what a study with peaks of that accuracy costs
     writeln!(
         text,
         "peaks to {GOOD_PEAK:.0e} u_ins; times relative to {OURS} {}, errors of peaks:",
         own.setting
     )?;
-    for tool in distinct(rows, |row| row.tool) {
-        let of_tool = rows.iter().filter(|row| row.tool == tool);
-        if let Some(row) = of_tool.filter(good).min_by(fastest) {
-            write_row(text, row, own.seconds, row.peak)?;
-        }
-    }
-    Ok(())
+    TOOLS
+        .iter()
+        .filter_map(|tool| fastest(of(tool), good))
+        .try_for_each(|row| write_row(text, row, own.seconds, row.peak))
 }
 
-/// Finds rocking-wall's exact run or, without a closed form, its cheapest good one.
-fn own_run<'a>(rows: &[&'a Row<'a>]) -> Option<&'a Row<'a>> {
-    let mut own = rows.iter().copied().filter(|row| row.tool == OURS && !row.error.is_nan());
-    let exact = own.clone().find(|row| row.setting == "exact");
-    exact.or_else(|| cheapest(own.by_ref().filter(|row| row.setting.starts_with("adaptive"))))
-}
-
-/// Returns the fastest single run with a good error. Runs in a batch are left out: their time is a share.
-fn cheapest<'a>(rows: impl Iterator<Item = &'a Row<'a>>) -> Option<&'a Row<'a>> {
-    let good = rows.filter(|row| row.error <= GOOD && !row.setting.ends_with(AT_ONCE));
-    good.min_by(|one, other| one.seconds.total_cmp(&other.seconds))
+fn fastest<'a>(
+    rows: impl Iterator<Item = &'a Row<'a>>,
+    good: impl Fn(&Row<'a>) -> bool,
+) -> Option<&'a Row<'a>> {
+    rows.filter(|row| good(row)).min_by(|one, other| one.seconds.total_cmp(&other.seconds))
 }
 
 fn write_row(text: &mut String, row: &Row<'_>, base: f64, error: f64) -> std::fmt::Result {
     let Row { tool, setting, seconds, .. } = row;
-    if error.is_nan() {
-        return writeln!(text, "{tool:<14}{setting}");
-    }
     let (milliseconds, ratio) = (seconds * 1e3, seconds / base);
     writeln!(text, "{tool:<14}{setting:<26}{milliseconds:>12.3}{error:>18.1e}{ratio:>12.2}")
-}
-
-/// Returns the values of a column in order of appearance.
-fn distinct<'a>(rows: &[&Row<'a>], column: impl Fn(&Row<'a>) -> &'a str) -> Vec<&'a str> {
-    let mut values = Vec::new();
-    for row in rows {
-        let value = column(row);
-        if !values.contains(&value) {
-            values.push(value);
-        }
-    }
-    values
 }

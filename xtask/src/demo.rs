@@ -17,7 +17,7 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
         (built, python.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned())))
     });
     let ((library, programs), python) = (built?, python?);
-    let unit = fmu::pack_version(fmu::WALL, &[(fmu::host(), library)], &programs, "2")?;
+    let unit = fmu::pack_version(fmu::WALL, &[library], &programs, "2")?;
     let wall = programs.join("wall");
     let out = root().join("fmu_out");
     shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;

@@ -1,5 +1,6 @@
 //! `cargo xtask fmu`: builds the library, then the archive.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -43,7 +44,7 @@ pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
-    pack(unit, &[(host(), library(unit, None)?)], &packer()?)
+    pack(unit, &[library(unit, None)?], &[], &packer()?)
 }
 
 /// Builds `fmu-pack`, and returns its folder.
@@ -58,7 +59,10 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
     for unit in UNITS {
         let path = match &platforms {
             None => build(unit)?,
-            Some(platforms) => pack(unit, &libraries(unit, platforms)?, &packer()?)?,
+            Some(platforms) => {
+                let (of_2, of_3) = libraries(unit, platforms)?;
+                pack(unit, &of_2, &of_3, &packer()?)?
+            }
         };
         println!("{}", path.display());
         built.push(path);
@@ -66,23 +70,23 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
     Ok(built)
 }
 
-/// Builds the library for each platform, and returns platforms with their libraries, as [`pack`] takes
-/// them.
-fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'static str, PathBuf)>> {
-    let mut libraries: Vec<(&str, PathBuf)> = Vec::new();
+/// Builds the library for each platform. Returns those that FMI 2.0 has a folder for, of which several
+/// processors may share one, and those for FMI 3.0 alone.
+fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<(Vec<PathBuf>, Vec<PathBuf>)> {
+    let (mut of_2, mut of_3) = (BTreeMap::new(), Vec::new());
     for platform in platforms {
-        let folder = platform.fmi2.unwrap_or(platform.fmi3);
         let library = library(unit, Some(platform))?;
-        match libraries.iter_mut().find(|(other, _)| *other == folder) {
-            Some((_, joined)) => {
-                let universal = library.with_extension("universal");
-                platform::join(&[joined, &library], &universal)?;
-                *joined = universal;
-            }
-            None => libraries.push((folder, library)),
+        let Some(folder) = platform.fmi2 else {
+            of_3.push(library);
+            continue;
+        };
+        if let Some(other) = of_2.insert(folder, library.clone()) {
+            let universal = library.with_extension("universal");
+            platform::join(&[&other, &library], &universal)?;
+            of_2.insert(folder, universal);
         }
     }
-    Ok(libraries)
+    Ok((of_2.into_values().collect(), of_3))
 }
 
 /// Builds the programs of packages with a profile, and returns their folder.
@@ -147,24 +151,23 @@ pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ("", ".wasm"))))
 }
 
-/// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 and, below `fmi3/`, for FMI 3.0. Returns
-/// the path of the first. `libraries` are platforms by their names in FMI 2.0, if they have one there, with
-/// their libraries. FMI 3.0 also gets the WebAssembly component; where this machine cannot build it, that is
-/// said.
-pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
-    let mut of_3 = libraries.to_vec();
+/// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 of some libraries and, below `fmi3/`, for
+/// FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the WebAssembly component; where
+/// this machine cannot build it, that is said.
+pub(crate) fn pack(unit: Unit, of_2: &[PathBuf], more: &[PathBuf], programs: &Path) -> Result<PathBuf> {
+    let mut of_3 = [of_2, more].concat();
     match check_component() {
-        Ok(()) => of_3.push((COMPONENT, component(unit)?)),
+        Ok(()) => of_3.push(component(unit)?),
         Err(missing) => println!("{} has no WebAssembly component: {missing}", unit.file),
     }
     pack_version(unit, &of_3, programs, "3")?;
-    pack_version(unit, libraries, programs, "2")
+    pack_version(unit, of_2, programs, "2")
 }
 
 /// Zips the FMU for one version of FMI, and returns its path.
 pub(crate) fn pack_version(
     unit: Unit,
-    libraries: &[(&str, PathBuf)],
+    libraries: &[PathBuf],
     programs: &Path,
     version: &str,
 ) -> Result<PathBuf> {
@@ -176,22 +179,10 @@ pub(crate) fn pack_version(
     pack.args(["--fmi", version]);
     pack.arg("--description").arg(description.join("modelDescription.xml"));
     pack.arg("--documentation").arg(description.join("documentation"));
-    let is_of_2 = |name: &str| platform::PLATFORMS.iter().any(|platform| platform.fmi2 == Some(name));
-    for (platform, library) in libraries.iter().filter(|(name, _)| version == "3" || is_of_2(name)) {
-        pack.arg("--binary").arg(library).args(["--platform", platform]);
+    for library in libraries {
+        pack.arg("--binary").arg(library);
     }
     pack.arg("--output").arg(&output);
     succeed(&mut pack, "see its message above")?;
     Ok(output)
-}
-
-/// Returns FMI 2.0's name for this machine.
-pub(crate) fn host() -> &'static str {
-    if cfg!(target_os = "windows") {
-        "win64"
-    } else if cfg!(target_os = "macos") {
-        "darwin64"
-    } else {
-        "linux64"
-    }
 }

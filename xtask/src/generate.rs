@@ -2,17 +2,16 @@
 
 use crate::command::{Result, cargo, succeed};
 use crate::python::Environment;
-use crate::{codemeta, fmu, wheel};
+use crate::{fmu, wheel};
 
 /// Writes parts of what is derived, or all of it. With `check` they are compared instead: a stale one is an
 /// error.
 pub(crate) fn run(parts: &[&str], check: bool) -> Result<()> {
-    let parts = if parts.is_empty() { &["metadata", "documents", "python"] } else { parts };
+    let parts = if parts.is_empty() { &["documents", "python"] } else { parts };
     parts.iter().try_for_each(|part| match *part {
-        "metadata" => codemeta::run(check),
         "documents" => documents(check),
         "python" => python(check),
-        other => Err(format!("`{other}` is not one of metadata, documents, python")),
+        other => Err(format!("`{other}` is not one of documents, python")),
     })
 }
 

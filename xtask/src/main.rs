@@ -7,7 +7,6 @@
 
 mod bench;
 mod book;
-mod codemeta;
 mod command;
 mod coupling;
 mod demo;
@@ -16,7 +15,6 @@ mod fmu;
 mod fuzz;
 mod generate;
 mod images;
-mod mutants;
 mod platform;
 mod playground;
 mod portable;
@@ -55,15 +53,12 @@ The jobs of the project.
                                    checksums; and target/fmi-compatibility/; TAG is checked;
                                    --platforms as for fmu, to compare a part
   cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
-  cargo xtask generate [PART]      write what is derived: metadata (codemeta.json), documents (their marked
-                                   parts), python (the parameters in the package); or one of these
+  cargo xtask generate [PART]      write what is derived: documents (their marked parts), python (the
+                                   parameters in the package); or one of these
                                    --check: say what is stale instead
   cargo xtask fuzz                 feed mutated inputs to five readers for a minute each, and call the FMI
                                    functions 10^6 times at random, and 50,000 times under AddressSanitizer
                                    (nightly)
-  cargo xtask mutants [--count N] [--seed S] [PATH...]
-                                   change the code in about N places, one at a time, and count what no
-                                   Rust test notices, by cargo-mutants
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
                                    write docs/accuracy.md, docs/validation.md, docs/verification.md, the
                                    pages, and the pictures of docs/images
@@ -102,8 +97,7 @@ fn main() -> ExitCode {
         ["wheel", "--platforms", names] => wheel::portable(names),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
-        ["figures", "--peers"] => figures::peers(None),
-        ["figures", "--peers", record] => figures::peers(Some(record)),
+        ["figures", "--peers", record @ ..] if record.len() <= 1 => figures::peers(record.first().copied()),
         ["figures", "--images"] => images::run(),
         ["figures", "--reliability"] => reliability::run(),
         ["figures", "--validation"] => figures::validation(),
@@ -120,11 +114,11 @@ fn main() -> ExitCode {
         ["workflows"] => release::check_workflows(),
         ["generate", "--check", parts @ ..] => generate::run(parts, true),
         ["generate", parts @ ..] => generate::run(parts, false),
-        ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
-        ["bench", "--peers"] => bench::peers(None).map(drop),
-        ["bench", "--peers", record] => bench::peers(Some(record)).map(drop),
+        ["bench", "--peers", record @ ..] if record.len() <= 1 => {
+            bench::peers(record.first().copied()).map(drop)
+        }
         [] | ["help" | "-h" | "--help", ..] => {
             print!("{HELP}");
             Ok(())

@@ -51,7 +51,7 @@ const MACOS: Platform = Platform {
 };
 
 /// Every platform.
-pub(crate) const PLATFORMS: [Platform; 5] = [
+const PLATFORMS: [Platform; 5] = [
     LINUX,
     Platform { target: "aarch64-unknown-linux-gnu", fmi2: None, fmi3: "aarch64-linux", ..LINUX },
     WINDOWS,

@@ -138,16 +138,15 @@ fn programs() -> PathBuf {
 
 /// Packs an FMU of the release library.
 fn packed(unit: fmu::Unit) -> Result<PathBuf> {
-    fmu::pack(unit, &[(fmu::host(), fmu::library(unit, None)?)], &programs())
+    fmu::pack(unit, &[fmu::library(unit, None)?], &[], &programs())
 }
 
 /// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
 fn example() -> Result<PathBuf> {
     succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
     let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
-    let libraries = [(fmu::host(), library)];
-    fmu::pack_version(fmu::BALL, &libraries, &programs(), "3")?;
-    fmu::pack_version(fmu::BALL, &libraries, &programs(), "2")
+    fmu::pack_version(fmu::BALL, std::slice::from_ref(&library), &programs(), "3")?;
+    fmu::pack_version(fmu::BALL, &[library], &programs(), "2")
 }
 
 fn python() -> Result<()> {

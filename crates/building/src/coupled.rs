@@ -68,19 +68,12 @@ pub struct Coupled {
 
 impl Coupled {
     /// Runs a building under a motion of the ground, with the step halved until that changes every peak by
-    /// less than the tolerance.
+    /// less than the tolerance; stops once `is_wanted` returns `false`.
     ///
     /// # Errors
-    /// [`BuildingError`] where a unit fails, the loop does not close, or the step would become too small.
-    pub fn run(parts: &Parts, ground: &GroundMotion, settings: Settings) -> Result<Self, BuildingError> {
-        Self::run_while(parts, ground, settings, &|| true)
-    }
-
-    /// Runs a building as [`run`](Self::run) does, and stops once `is_wanted` returns `false`.
-    ///
-    /// # Errors
-    /// As [`run`](Self::run), and [`BuildingError::Stopped`].
-    pub fn run_while(
+    /// [`BuildingError`] where a unit fails, the loop does not close, the step would become too small, or the
+    /// run is no longer wanted.
+    pub fn run(
         parts: &Parts,
         ground: &GroundMotion,
         settings: Settings,

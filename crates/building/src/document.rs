@@ -29,6 +29,16 @@ pub enum Support {
     Floor(usize),
 }
 
+impl Support {
+    /// Returns the index of the storey; `None` for the ground.
+    pub fn floor(self) -> Option<usize> {
+        match self {
+            Self::Ground => None,
+            Self::Floor(index) => Some(index),
+        }
+    }
+}
+
 /// A storey.
 #[derive(Debug)]
 pub struct Floor {
@@ -167,8 +177,7 @@ impl Building {
     fn from_document(document: Document, place: &Place<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
         let stop_time = place.within("stop_time", stop_time.as_ref(), DEFAULT_STOP_TIME, LONGEST_RUN)?;
-        let within = |given| place.within("step", Some(&given), stop_time, stop_time);
-        let step = step.map(within).transpose()?;
+        let step = step.map(|step| place.within("step", Some(&step), stop_time, stop_time)).transpose()?;
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
             let reason = format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members");
             return Err(SceneError::File { file: place.name().to_owned(), reason });
@@ -199,22 +208,20 @@ pub fn fmu_path(name: &str) -> String {
 /// The most letters of a name, which becomes a file name.
 const LONGEST_NAME: usize = 100;
 
-/// Checks that FMUs, connectors and files can have a name, and that no other member has it.
+/// Checks that FMUs, connectors and files can have a name, and that no other member has it. Strip.fmu and
+/// strip.fmu are one file on many machines.
 fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>) -> Result<()> {
     let text = name.get_ref();
-    let refused = |message: String| Err(place.error(name.span(), message));
     let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if !plain || !text.starts_with(|c: char| c.is_ascii_alphabetic()) || text == GROUND {
-        return refused(format!(
-            "name = {text:?}: use letters, digits and _, a letter first, and not {GROUND:?}, which is taken"
-        ));
-    }
-    if text.len() > LONGEST_NAME {
-        return refused(format!("name has {} letters; use at most {LONGEST_NAME}", text.len()));
-    }
-    // Strip.fmu and strip.fmu are one file on many machines
-    if let Some(other) = names.iter().find(|other| other.eq_ignore_ascii_case(text)) {
-        return refused(format!("name = {text:?}: {other:?} exists already; choose another"));
+    let plain = plain && text.starts_with(|c: char| c.is_ascii_alphabetic());
+    let taken =
+        names.iter().map(String::as_str).chain([GROUND]).any(|other| other.eq_ignore_ascii_case(text));
+    if !plain || taken || text.len() > LONGEST_NAME {
+        let message = format!(
+            "name = {text:?}: use at most {LONGEST_NAME} letters, digits and _, a letter first, and not {GROUND:?} \
+             or a name that is taken, in small or capital letters"
+        );
+        return Err(place.error(name.span(), message));
     }
     names.push(text.clone());
     Ok(())

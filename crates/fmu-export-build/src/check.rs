@@ -6,9 +6,11 @@ use crate::names::camel_case;
 use crate::structure;
 use crate::usage;
 use crate::variable::{
-    BaseType, Causality, EnumerationType, Initial, Item, Kind, Variability, Variable, simple_type,
+    BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, simple_type,
 };
 use std::collections::HashMap;
+use std::fmt::Display;
+use std::hash::Hash;
 
 /// Makes every check and reports the first problem in this order.
 pub(crate) fn all(
@@ -16,11 +18,22 @@ pub(crate) fn all(
     variables: &[Variable],
     enumerations: &[EnumerationType],
 ) -> Result<(), Fault> {
-    units_of_types(root)?;
-    enumerations.iter().try_for_each(items)?;
+    for kind in root.children_of("TypeDefinitions") {
+        if let Some(real) = kind.child("Real") {
+            let name = kind.attribute("name").unwrap_or_default();
+            unit(root, (real.line, name), real.attribute("unit"), real.attribute("displayUnit"))?;
+        }
+    }
+    for EnumerationType { items, .. } in enumerations {
+        rust_names(items.iter().map(|item| (item.line, item.name.as_str())))?;
+        unique("value", items.iter().map(|item| ((item.line, item.name.as_str()), item.value)))?;
+    }
     rust_names(enumerations.iter().map(|kind| (kind.line, kind.name.as_str())))?;
-    names(variables)?;
-    references(variables)?;
+    unique("name", variables.iter().map(|variable| (named(variable), &variable.name)))?;
+    for base in BaseType::ALL {
+        rust_names(variables.iter().filter(|variable| variable.base() == base).map(named))?;
+    }
+    unique("value reference", variables.iter().map(|variable| (named(variable), variable.reference)))?;
     let grouped = variables.iter().any(|variable| variable.group.is_some());
     for variable in variables {
         combination(variable)?;
@@ -45,75 +58,58 @@ pub(crate) fn all(
 /// the number of its event indicators.
 fn interfaces(root: &Element, variables: &[Variable]) -> Result<(), Fault> {
     let (exchange, steps) = (root.child("ModelExchange"), root.child("CoSimulation"));
-    let mut identifier = None;
+    let mut identifiers = Vec::new();
     for element in [exchange, steps].into_iter().flatten() {
-        let own = element.required("modelIdentifier")?;
-        if let Some(other) = identifier.replace(own).filter(|other| *other != own) {
-            return Err(element.fault(format!(
-                "the modelIdentifier is {own:?} here and {other:?} in <ModelExchange>: one library serves \
-                 both kinds"
-            )));
-        }
+        identifiers.push(element.required("modelIdentifier")?);
     }
     let count = root.parsed::<usize>("numberOfEventIndicators", "a number of event indicators")?;
     let derivative = variables.iter().any(|variable| variable.derivative.is_some());
     let listed = root.child("ModelStructure").is_some_and(|list| list.child("Derivatives").is_some());
-    match exchange {
-        None if steps.is_none() => Err(root.missing("CoSimulation")),
-        None if count.is_some() => {
-            Err(root.fault("numberOfEventIndicators belongs to <ModelExchange>, which is missing"))
+    match (&identifiers[..], exchange) {
+        ([], _) => Err(root.missing("CoSimulation")),
+        ([one, other], _) if one != other => Err(root.fault(format!(
+            "the modelIdentifiers {one:?} and {other:?} differ: one library serves both kinds"
+        ))),
+        _ if exchange.is_some() != count.is_some() => {
+            Err(root
+                .fault("<ModelExchange> and numberOfEventIndicators belong together; 0 if there are none"))
         }
-        Some(_) if count.is_none() => Err(root
-            .fault("numberOfEventIndicators is missing, which <ModelExchange> needs; 0 if there are none")),
-        Some(element) if derivative && !listed => Err(element.missing("Derivatives")),
+        (_, Some(element)) if derivative && !listed => Err(element.missing("Derivatives")),
         _ => Ok(()),
     }
 }
 
-fn names(variables: &[Variable]) -> Result<(), Fault> {
+/// A line and the name of what stands there.
+type Named<'a> = (usize, &'a str);
+
+fn named(variable: &Variable) -> Named<'_> {
+    (variable.line, &variable.name)
+}
+
+/// No two may have the same value of `what`.
+fn unique<'a, V: Copy + Display + Eq + Hash>(
+    what: &str,
+    all: impl IntoIterator<Item = (Named<'a>, V)>,
+) -> Result<(), Fault> {
     let mut seen = HashMap::new();
-    for variable in variables {
-        if let Some(first) = seen.insert(&variable.name, variable.line) {
-            let name = &variable.name;
-            return Err(variable.fault(format!("the name `{name}` was used on line {first} already")));
+    for ((line, name), value) in all {
+        if let Some((first, other)) = seen.insert(value, (line, name)) {
+            let problem =
+                format!("`{name}` has the {what} {value}, which `{other}` on line {first} has already");
+            return Err(Fault::new(line, problem));
         }
-    }
-    for base in BaseType::ALL {
-        let of_base = variables.iter().filter(|variable| variable.base() == base);
-        rust_names(of_base.map(|variable| (variable.line, variable.name.as_str())))?;
     }
     Ok(())
 }
 
-/// The names, with their lines, must become different Rust names.
-fn rust_names<'a>(names: impl Iterator<Item = (usize, &'a str)>) -> Result<(), Fault> {
-    let mut seen: HashMap<String, (usize, &str)> = HashMap::new();
+/// The names must become different Rust names.
+fn rust_names<'a>(names: impl Iterator<Item = Named<'a>>) -> Result<(), Fault> {
+    let mut all = Vec::new();
     for (line, name) in names {
-        let rust = camel_case(name)
-            .ok_or_else(|| Fault::new(line, format!("`{name}` cannot be turned into a Rust name")))?;
-        if let Some((first, other)) = seen.insert(rust.clone(), (line, name)) {
-            let clash = format!("`{name}` and `{other}` on line {first} both become the Rust name {rust}");
-            return Err(Fault::new(line, clash));
-        }
+        let no_name = || Fault::new(line, format!("`{name}` cannot be turned into a Rust name"));
+        all.push(((line, name), camel_case(name).ok_or_else(no_name)?));
     }
-    Ok(())
-}
-
-fn references(variables: &[Variable]) -> Result<(), Fault> {
-    let mut seen: HashMap<u32, &Variable> = HashMap::new();
-    for variable in variables {
-        let reference = variable.reference;
-        let Some(other) = seen.insert(reference, variable) else { continue };
-        // Some value of 0..=count is free, there being count variables.
-        let taken = |free: &u32| variables.iter().any(|variable| variable.reference == *free);
-        let free = (0..=u32::MAX).find(|free| !taken(free)).unwrap_or_default();
-        return Err(variable.fault(format!(
-            "`{}` has value reference {reference}, which `{}` on line {} has already; take a free one, \
-             {free} for example",
-            variable.name, other.name, other.line
-        )));
-    }
-    Ok(())
+    unique("Rust name", all.iter().map(|(named, rust)| (*named, rust)))
 }
 
 /// FMI 2.0.5, section 2.2.7: which causality, variability and initial go together.
@@ -150,63 +146,53 @@ fn start_presence(variable: &Variable) -> Result<(), Fault> {
         Kind::Boolean { start } => start.is_some(),
         Kind::String { start } => start.is_some(),
     };
-    let name = &variable.name;
-    let (needed, why) = match (variable.causality, variable.initial_or_default()) {
-        (Causality::Input, _) => (true, "an input"),
-        (Causality::Parameter, _) => (true, "a parameter"),
-        (Causality::Independent, _) => (false, "the independent variable"),
-        (_, Some(Initial::Exact)) => (true, "exact at the start"),
-        (_, Some(Initial::Approx)) => (true, "approximate at the start"),
-        (_, Some(Initial::Calculated) | None) => (false, "calculated"),
-    };
-    match (needed, present) {
-        (true, false) => Err(variable.fault(format!("`{name}` needs a start value, being {why}"))),
-        (false, true) => Err(variable.fault(format!("`{name}` must not have a start value, being {why}"))),
-        _ => Ok(()),
+    let initial = variable.initial_or_default();
+    let needed =
+        variable.causality == Causality::Input || matches!(initial, Some(Initial::Exact | Initial::Approx));
+    if needed == present {
+        return Ok(());
     }
-}
-
-fn units_of_types(root: &Element) -> Result<(), Fault> {
-    for declared in root.children_of("TypeDefinitions") {
-        let Some(real) = declared.child("Real") else { continue };
-        let name = declared.attribute("name").unwrap_or_default();
-        unit_is_declared(root, name, real.attribute("unit"), real.attribute("displayUnit"))
-            .map_err(|problem| real.fault(problem))?;
-    }
-    Ok(())
+    let (name, verb) = (&variable.name, if needed { "needs" } else { "must not have" });
+    let what = [Some(variable.causality.name()), initial.map(Initial::name)];
+    let what = what.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    Err(variable.fault(format!("`{name}` ({what}) {verb} a start value")))
 }
 
 fn units(root: &Element, variable: &Variable) -> Result<(), Fault> {
-    let declared = variable.declared_type.as_deref().and_then(|name| simple_type(root, name, "Real"));
-    let (name, unit) = (&variable.name, variable.unit.as_deref());
-    if let (Some(type_unit), Some(unit)) = (declared.and_then(|real| real.attribute("unit")), unit)
-        && type_unit != unit
+    let Variable { line, name, declared_type, .. } = variable;
+    let of_type =
+        declared_type.as_deref().and_then(|name| simple_type(root, name, "Real")?.attribute("unit"));
+    if let (Some(of_type), Some(unit)) = (of_type, &variable.unit)
+        && of_type != unit
     {
-        let of_type = variable.declared_type.as_deref().unwrap_or_default();
-        let problem = format!("`{name}` has the unit `{unit}`, but its type `{of_type}` has `{type_unit}`");
-        return Err(variable.fault(problem));
+        return Err(variable.fault(format!("`{name}` has the unit `{unit}`, but its type has `{of_type}`")));
     }
-    unit_is_declared(root, name, unit, variable.display_unit.as_deref())
-        .map_err(|problem| variable.fault(problem))
+    unit(root, (*line, name), variable.unit.as_deref(), variable.display_unit.as_deref())
 }
 
-fn unit_is_declared(
+/// Checks that a unit and its display unit are declared.
+fn unit(
     root: &Element,
-    name: &str,
+    (line, name): Named<'_>,
     unit: Option<&str>,
     display_unit: Option<&str>,
-) -> Result<(), String> {
+) -> Result<(), Fault> {
     let Some(unit) = unit else { return Ok(()) };
-    let named = |element: &&Element, name: &str| element.attribute("name") == Some(name);
-    let mut units = root.children_of("UnitDefinitions").iter();
-    let declared = units
-        .find(|element| named(element, unit))
-        .ok_or_else(|| format!("the unit `{unit}` of `{name}` is not declared in UnitDefinitions"))?;
-    match display_unit {
-        Some(shown) if shown != unit && !declared.children.iter().any(|element| named(&element, shown)) => {
-            Err(format!("the display unit `{shown}` of `{name}` is not declared with the unit `{unit}`"))
+    let is = |element: &Element, name: &str| element.attribute("name") == Some(name);
+    let declared = root.children_of("UnitDefinitions").iter().find(|element| is(element, unit));
+    let has =
+        |shown: &str| shown == unit || declared.is_some_and(|one| one.children.iter().any(|e| is(e, shown)));
+    match (declared, display_unit) {
+        (Some(_), Some(shown)) if !has(shown) => {
+            let problem =
+                format!("the display unit `{shown}` of `{name}` is not declared with the unit `{unit}`");
+            Err(Fault::new(line, problem))
         }
-        _ => Ok(()),
+        (Some(_), _) => Ok(()),
+        (None, _) => {
+            let problem = format!("the unit `{unit}` of `{name}` is not declared in UnitDefinitions");
+            Err(Fault::new(line, problem))
+        }
     }
 }
 
@@ -228,23 +214,6 @@ fn limits(variable: &Variable) -> Result<(), Fault> {
             .fault(format!("the start value {start} of `{name}` is outside its limits {least} to {most}"))),
         None => Ok(()),
     }
-}
-
-fn items(enumeration: &EnumerationType) -> Result<(), Fault> {
-    rust_names(enumeration.items.iter().map(|item| (item.line, item.name.as_str())))?;
-    let mut seen = HashMap::new();
-    for item in &enumeration.items {
-        if let Some(first) = seen.insert(item.value, item.line) {
-            let Item { line, name, value, .. } = item;
-            return Err(Fault::new(
-                *line,
-                format!(
-                    "the item `{name}` has the value {value}, which the item on line {first} has already"
-                ),
-            ));
-        }
-    }
-    Ok(())
 }
 
 fn enumeration_start(variable: &Variable, enumerations: &[EnumerationType]) -> Result<(), Fault> {

@@ -2,7 +2,7 @@
 //! matter. It knows no FMI.
 
 use crate::description::Description;
-use crate::names::{HEAD, camel, field, markdown, type_name};
+use crate::names::{DERIVE, HEAD, camel, field, markdown, type_name};
 use crate::usage;
 use crate::variable::{Causality, EnumerationType, Item, Kind, Variable};
 use std::fmt::Write as _;
@@ -76,11 +76,7 @@ pub(crate) use start_values;
 fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     let name = camel(&enumeration.name);
     let documentation = markdown(&enumeration.description);
-    let _ = write!(
-        code,
-        "\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n\
-         pub enum {name} {{\n"
-    );
+    let _ = write!(code, "\n/// {documentation}.\n{DERIVE}pub enum {name} {{\n");
     for item in &enumeration.items {
         let (variant, text) = (camel(&item.name), markdown(&item.description));
         let _ = write!(code, "    /// `{}`: {text}.\n    {variant},\n", item.name);

@@ -4,7 +4,7 @@
 //! the parameters by variable.
 
 use crate::description::Description;
-use crate::names::{HEAD, camel, field, markdown, type_name};
+use crate::names::{DERIVE, HEAD, camel, field, markdown, type_name};
 use crate::usage::described;
 use crate::variable::{BaseType, Causality, Item, Kind, Variable};
 use std::fmt::Write as _;
@@ -153,8 +153,6 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], descrip
             .replace("@rows@", &rows.collect::<String>()),
     );
 }
-
-const DERIVE: &str = "#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n";
 
 const EMPTY: &str = "
 impl ::fmu_export::VariableId for @name@ {

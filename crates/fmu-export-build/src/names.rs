@@ -38,21 +38,11 @@ pub(crate) fn field(parameter: &Variable) -> String {
     field
 }
 
-/// `text` as rustdoc's Markdown: identifiers in backticks, brackets as they are.
+/// `text` as rustdoc's Markdown: brackets as they are.
 pub(crate) fn markdown(text: &str) -> String {
-    let words = text.split(' ').map(|word| {
-        let core = word.trim_matches(|c: char| !c.is_alphanumeric() && c != '_');
-        let letters: Vec<char> = core.chars().collect();
-        let camel = letters.windows(2).any(|pair| pair[0].is_lowercase() && pair[1].is_uppercase());
-        let numbered = core.contains(|c: char| c.is_ascii_digit()) && core.contains(char::is_alphabetic);
-        let escaped = |text: &str| text.replace('[', "\\[").replace(']', "\\]").replace('<', "\\<");
-        match word.find(core) {
-            Some(at) if !core.is_empty() && (core.contains('_') || camel || numbered) => {
-                let (before, after) = (escaped(&word[..at]), escaped(&word[at + core.len()..]));
-                format!("{before}`{core}`{after}")
-            }
-            _ => escaped(word),
-        }
-    });
-    words.collect::<Vec<_>>().join(" ")
+    text.replace('[', "\\[").replace(']', "\\]").replace('<', "\\<")
 }
+
+/// What a generated enum begins with. Its items are described in the words of the model description.
+pub(crate) const DERIVE: &str = "#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n\
+    #[allow(clippy::doc_markdown, reason = \"the words of the model description\")]\n";

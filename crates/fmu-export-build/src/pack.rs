@@ -5,7 +5,7 @@
 //!
 //! let package = Package {
 //!     description: "modelDescription/modelDescription.xml".into(),
-//!     binaries: vec![("linux64".to_owned(), "target/release/libclock.so".into())],
+//!     libraries: vec!["target/release/libclock.so".into()],
 //!     documentation: "modelDescription/documentation".into(),
 //!     resources: None,
 //!     fmi3: false,
@@ -18,20 +18,21 @@ use crate::archive::Archive;
 use crate::library;
 use crate::sources::Sources;
 use crate::{Description, DescriptionError};
+use std::fmt::Display;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
-/// FMI 2.0's platforms, the ending of their libraries, and FMI 3.0's folders for these.
-const PLATFORMS: [(&str, &str, &[&str]); 8] = [
-    ("linux64", "so", &["x86_64-linux"]),
-    ("win64", "dll", &["x86_64-windows"]),
-    ("darwin64", "dylib", &["x86_64-darwin", "aarch64-darwin"]),
-    ("linux32", "so", &["x86-linux"]),
-    ("win32", "dll", &["x86-windows"]),
-    ("darwin32", "dylib", &["x86-darwin"]),
-    ("aarch64-linux", "so", &["aarch64-linux"]),
-    (COMPONENT, "wasm", &[COMPONENT]),
+/// FMI 3.0's folders for libraries, FMI 2.0's, if there is one, and the ending of their names.
+const PLATFORMS: [(&str, Option<&str>, &str); 9] = [
+    ("x86_64-linux", Some("linux64"), "so"),
+    ("x86_64-windows", Some("win64"), "dll"),
+    ("x86_64-darwin", Some("darwin64"), "dylib"),
+    ("aarch64-darwin", Some("darwin64"), "dylib"),
+    ("x86-linux", Some("linux32"), "so"),
+    ("x86-windows", Some("win32"), "dll"),
+    ("x86-darwin", Some("darwin32"), "dylib"),
+    ("aarch64-linux", None, "so"),
+    (COMPONENT, None, "wasm"),
 ];
 
 /// The platform of a WebAssembly component.
@@ -55,9 +56,9 @@ const MAX_DEPTH: usize = 8;
 pub struct Package {
     /// The model description; a `model.png` and a folder `extra` beside it go in as well.
     pub description: PathBuf,
-    /// Platform by its name in FMI 2.0 (such as `linux64`), and library, which was built from this
-    /// description. FMI 3.0 also has `aarch64-linux`, and `wasm32-wasip2` for a WebAssembly component.
-    pub binaries: Vec<(String, PathBuf)>,
+    /// The libraries, which were built from this description: each goes into the folders of the machines that
+    /// it is for. FMI 3.0 also takes a WebAssembly component.
+    pub libraries: Vec<PathBuf>,
     /// Folder that becomes `documentation/`.
     pub documentation: PathBuf,
     /// Folder that becomes `resources/`.
@@ -74,50 +75,15 @@ pub enum PackError {
     /// The model description is not usable.
     #[error(transparent)]
     Description(#[from] DescriptionError),
-    /// A file or folder cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Read { path: PathBuf, source: io::Error },
-    /// The folder has folders inside folders without end.
-    #[error("{}: more than {MAX_DEPTH} folders deep", path.display())]
-    TooDeep { path: PathBuf },
-    /// A file's name is not valid Unicode, or not usable in an archive.
-    #[error("{}: this name cannot be used inside an FMU", path.display())]
-    BadName { path: PathBuf },
-    /// The platform is not one of FMI.
-    #[error(
-        "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
-         darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0"
-    )]
-    UnknownPlatform { platform: String },
-    /// The library is some other file.
-    #[error(
-        "{}: is neither a shared library of Linux, Windows or macOS nor a WebAssembly component",
-        path.display()
-    )]
-    NoLibrary { path: PathBuf },
-    /// The library is for other machines.
-    #[error("{}: is for {found}, and not for the platform {platform}", path.display())]
-    OtherPlatform { path: PathBuf, found: String, platform: String },
-    /// The library is of another version of FMI.
-    #[error(
-        "{}: does not export the functions of FMI {version}.0; fmu_export::export_fmu! says which model gets \
-         which",
-        path.display()
-    )]
-    OtherVersion { path: PathBuf, version: u8 },
-    /// The library was built from another description.
-    #[error(
-        "{}: does not hold the guid {guid} of this description, so it was built from another one; build it \
-         again",
-        path.display()
-    )]
-    OtherModel { path: PathBuf, guid: String },
-    /// The documentation does not have the page importers open.
-    #[error("{}: has no index.html, the page that importers open", path.display())]
-    NoIndex { path: PathBuf },
-    /// The documentation asks for a condition that the description does not have.
-    #[error("documentation/index.html: {{where {name}}}, but the description has no <Where> of `{name}`")]
-    NoCondition { name: String },
+    /// A file or folder cannot be read, or not be used.
+    #[error("{}: {problem}", path.display())]
+    File { path: PathBuf, problem: String },
+}
+
+impl PackError {
+    fn file(path: &Path, problem: impl Into<String>) -> Self {
+        Self::File { path: path.to_path_buf(), problem: problem.into() }
+    }
 }
 
 impl Package {
@@ -125,9 +91,9 @@ impl Package {
     /// variables where it says `{where NAME}`.
     ///
     /// # Errors
-    /// A description that contradicts itself, files that cannot be read, an unknown platform, a library of
-    /// another platform, version of FMI or model, no `index.html`, or one that asks for a condition that is
-    /// not there.
+    /// A description that contradicts itself, files that cannot be read, a library for a machine that FMI has
+    /// no folder for, of another version of FMI or model, no `index.html`, or one that asks for a condition
+    /// that is not there.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = read_text(&self.description)?;
         let invalid = |path: &Path, fault| DescriptionError::Invalid { path: path.to_path_buf(), fault };
@@ -151,22 +117,13 @@ impl Package {
         } else {
             archive.insert("modelDescription.xml", text);
         }
-        for (platform, library) in &self.binaries {
-            let (content, machines) = self.library(library, &guid)?;
-            let (folders, ending) = self.folders(platform, library, &machines)?;
-            for folder in folders {
-                let name = description.model_identifier();
-                archive.insert(format!("binaries/{folder}/{name}.{ending}"), content.clone());
-            }
-            if platform == COMPONENT {
-                for name in MANIFESTS {
-                    archive.insert(name, MANIFEST);
-                }
-            }
+        for path in &self.libraries {
+            self.add_library(&mut archive, path, &description, &guid)?;
         }
         add_folder(&mut archive, "documentation", &self.documentation, MAX_DEPTH)?;
-        let page =
-            archive.get(PAGE).ok_or_else(|| PackError::NoIndex { path: self.documentation.clone() })?;
+        let no_page =
+            || PackError::file(&self.documentation, "has no index.html, the page that importers open");
+        let page = archive.get(PAGE).ok_or_else(no_page)?;
         let page = with_conditions(&String::from_utf8_lossy(page), &description)?;
         archive.insert(PAGE, page);
         if let Some(resources) = &self.resources {
@@ -179,38 +136,55 @@ impl Package {
         Ok(archive)
     }
 
-    /// Reads a library, which must be of this version of FMI and of the model with this guid. Returns it with
-    /// the folders of FMI 3.0 that it belongs into.
-    fn library(&self, path: &Path, guid: &str) -> Result<(Vec<u8>, Vec<&'static str>), PackError> {
-        let (content, path) = (read(path)?, path.to_path_buf());
-        let Some(machines) = library::platforms(&content) else { return Err(PackError::NoLibrary { path }) };
+    /// Adds a library, which must be of this version of FMI and of the model with this guid.
+    fn add_library(
+        &self,
+        archive: &mut Archive,
+        path: &Path,
+        description: &Description,
+        guid: &str,
+    ) -> Result<(), PackError> {
+        let content = read(path)?;
+        let refused = |problem: String| PackError::file(path, problem);
+        let machines = library::platforms(&content).ok_or_else(|| {
+            refused(
+                "is neither a shared library of Linux, Windows or macOS nor a WebAssembly component".into(),
+            )
+        })?;
+        let version = if self.fmi3 { 3 } else { 2 };
+        let mut names = Vec::new();
+        for machine in machines {
+            let platform = PLATFORMS.iter().find(|(of_3, ..)| *of_3 == machine);
+            let folder = platform.and_then(|(of_3, of_2, _)| if self.fmi3 { Some(*of_3) } else { *of_2 });
+            let (Some(folder), Some((.., ending))) = (folder, platform) else {
+                return Err(refused(format!("is for {machine}, which FMI {version}.0 has no folder for")));
+            };
+            names.push(format!("binaries/{folder}/{}.{ending}", description.model_identifier()));
+        }
         if !library::is_of_version(&content, self.fmi3) {
-            return Err(PackError::OtherVersion { path, version: if self.fmi3 { 3 } else { 2 } });
+            return Err(refused(format!(
+                "does not export the functions of FMI {version}.0; fmu_export::export_fmu! says which model \
+                 gets which"
+            )));
         }
         if !library::is_of_model(&content, guid) {
-            return Err(PackError::OtherModel { path, guid: guid.to_owned() });
+            return Err(refused(format!(
+                "does not hold the guid {guid} of this description, so it was built from another one; build \
+                 it again"
+            )));
         }
-        Ok((content, machines))
-    }
-
-    /// The folders for `platform` of the library at `path`, which is for these machines, and its ending.
-    fn folders(
-        &self,
-        platform: &str,
-        path: &Path,
-        machines: &[&'static str],
-    ) -> Result<(Vec<&'static str>, &'static str), PackError> {
-        let found = PLATFORMS
-            .iter()
-            .find(|(known, _, of_3)| *known == platform && (self.fmi3 || !of_3.contains(&platform)));
-        let unknown = || PackError::UnknownPlatform { platform: platform.to_owned() };
-        let &(of_2, ending, of_3) = found.ok_or_else(unknown)?;
-        let folders: Vec<_> = of_3.iter().copied().filter(|folder| machines.contains(folder)).collect();
-        if folders.is_empty() {
-            let (path, platform) = (path.to_path_buf(), platform.to_owned());
-            return Err(PackError::OtherPlatform { path, found: machines.join(" and "), platform });
+        if let Some(name) = names.iter().find(|name| archive.get(name).is_some()) {
+            return Err(refused(format!("another library is {name} already")));
         }
-        Ok((if self.fmi3 { folders } else { vec![of_2] }, ending))
+        for name in names {
+            if name.contains(COMPONENT) {
+                for manifest in MANIFESTS {
+                    archive.insert(manifest, MANIFEST);
+                }
+            }
+            archive.insert(name, content.clone());
+        }
+        Ok(())
     }
 }
 
@@ -223,8 +197,10 @@ fn with_conditions(page: &str, description: &Description) -> Result<String, Pack
     let mut text = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let (name, rest) = part.split_once('}').unwrap_or((part, ""));
-        let condition =
-            description.condition(name).ok_or_else(|| PackError::NoCondition { name: name.to_owned() })?;
+        let condition = description.condition(name).ok_or_else(|| {
+            let problem = format!("{{where {name}}}, but the description has no <Where> of `{name}`");
+            PackError::file(Path::new(PAGE), problem)
+        })?;
         text.push_str("; where ");
         text.push_str(&condition);
         text.push_str(rest);
@@ -233,31 +209,28 @@ fn with_conditions(page: &str, description: &Description) -> Result<String, Pack
 }
 
 fn read_text(path: &Path) -> Result<String, PackError> {
-    String::from_utf8(read(path)?).map_err(|error| PackError::Read {
-        path: path.to_path_buf(),
-        source: io::Error::new(io::ErrorKind::InvalidData, error),
-    })
+    String::from_utf8(read(path)?).map_err(|error| unreadable(path, error))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, PackError> {
-    fs::read(path).map_err(|source| PackError::Read { path: path.to_path_buf(), source })
+    fs::read(path).map_err(|error| unreadable(path, error))
+}
+
+fn unreadable(path: &Path, error: impl Display) -> PackError {
+    PackError::file(path, format!("cannot be read: {error}"))
 }
 
 /// Adds the files of `folder` and of the folders inside, without hidden ones (`.gitignore`).
 fn add_folder(archive: &mut Archive, name: &str, folder: &Path, depth: usize) -> Result<(), PackError> {
-    let unreadable = |source| PackError::Read { path: folder.to_path_buf(), source };
     if depth == 0 {
-        return Err(PackError::TooDeep { path: folder.to_path_buf() });
+        return Err(PackError::file(folder, format!("more than {MAX_DEPTH} folders deep")));
     }
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
-        let bad_name = || PackError::BadName { path: path.clone() };
-        let file = path.file_name().and_then(|file| file.to_str()).ok_or_else(bad_name)?;
+    for entry in fs::read_dir(folder).map_err(|error| unreadable(folder, error))? {
+        let path = entry.map_err(|error| unreadable(folder, error))?.path();
+        let file = path.file_name().and_then(|file| file.to_str()).filter(|file| !file.contains(['\\', ':']));
+        let file = file.ok_or_else(|| PackError::file(&path, "this name cannot be used inside an FMU"))?;
         if file.starts_with('.') {
             continue;
-        }
-        if file.contains(['\\', ':']) {
-            return Err(bad_name());
         }
         let inside = format!("{name}/{file}");
         if path.is_dir() {

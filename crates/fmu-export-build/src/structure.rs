@@ -51,18 +51,6 @@ impl<'a> Rules<'a> {
     }
 }
 
-/// What is said of a variable that belongs into a list, of one that does not, and of one that its unknowns
-/// cannot depend on.
-fn words(list: &str) -> [&'static str; 3] {
-    match list {
-        "Outputs" => ["is an output", "is not an output", "is neither an input nor a state"],
-        "Derivatives" => {
-            ["is a derivative", "has no attribute `derivative`", "is neither an input nor a state"]
-        }
-        _ => ["is calculated at the start", "is not calculated at the start", "is not known at the start"],
-    }
-}
-
 /// Checks the three lists of `structure` against the variables.
 pub(crate) fn check(variables: &[Variable], structure: &Element) -> Result<(), Fault> {
     let rules = Rules::new(variables, structure);
@@ -86,8 +74,7 @@ impl Rules<'_> {
                 .map_err(|problem| unknown.fault(problem))?;
             let name = &self.variables[at].name;
             if !self.belongs(list, at) {
-                let [_, belongs_not, _] = words(list);
-                return Err(unknown.fault(format!("{list} lists `{name}`, which {belongs_not}")));
+                return Err(unknown.fault(format!("{list} lists `{name}`, which does not belong there")));
             }
             if !listed.insert(at) {
                 return Err(unknown.fault(format!("{list} lists `{name}` twice")));
@@ -100,8 +87,7 @@ impl Rules<'_> {
     fn complete(&self, list: &str, listed: &HashSet<usize>, line: usize) -> Result<(), Fault> {
         let missing = (0..self.variables.len()).find(|at| self.belongs(list, *at) && !listed.contains(at));
         let Some(at) = missing else { return Ok(()) };
-        let ([belongs, ..], name) = (words(list), &self.variables[at].name);
-        Err(Fault::new(line, format!("{list} leaves out `{name}`, which {belongs}")))
+        Err(Fault::new(line, format!("{list} leaves out `{}`", self.variables[at].name)))
     }
 
     fn dependencies(&self, list: &str, unknown: &Element, name: &str) -> Result<(), String> {
@@ -113,8 +99,8 @@ impl Rules<'_> {
             let index = index.map_err(|_| format!("dependencies=\"{word}\" is not an index"))?;
             let at = position(self.variables.len(), index, "dependencies", name)?;
             if !self.is_known(list, at) {
-                let ([.., why], on) = (words(list), &self.variables[at].name);
-                return Err(format!("in {list}, `{name}` cannot depend on `{on}`, which {why}"));
+                let on = &self.variables[at].name;
+                return Err(format!("in {list}, `{name}` cannot depend on `{on}`"));
             }
             dependencies += 1;
         }

@@ -21,17 +21,13 @@ pub(crate) fn check(variables: &[Variable], enumerations: &[EnumerationType]) ->
             for Test { parameter, values, .. } in &alternative.tests {
                 let of = parameter_called(variables, parameter)
                     .ok_or_else(|| wrong(&format!("names `{parameter}`, which is not a parameter")))?;
-                let is_value = |value: &&String| match of.kind {
-                    Kind::Enumeration { .. } => {
-                        of.items(enumerations).iter().any(|item| item.name == **value)
-                    }
+                let is_value = |value: &String| match of.kind {
+                    Kind::Enumeration { .. } => of.items(enumerations).iter().any(|item| item.name == *value),
                     _ => value.parse::<f64>().is_ok_and(f64::is_finite),
                 };
-                if values.is_empty() {
-                    return Err(wrong(&format!("gives no value of `{parameter}`")));
-                }
-                if let Some(value) = values.iter().find(|value| !is_value(value)) {
-                    return Err(wrong(&format!("gives {value:?}, which `{parameter}` cannot be")));
+                if values.is_empty() || !values.iter().all(is_value) {
+                    let given = values.join(" ");
+                    return Err(wrong(&format!("gives {given:?}, which `{parameter}` cannot be")));
                 }
             }
         }

@@ -210,8 +210,7 @@ fn type_of<'a>(
 
 impl Kind {
     fn read(typed: &Element, inherited: Option<&Element>) -> Result<Self, Fault> {
-        const WHOLE: &str = "a whole number of 32 bits";
-        let real = |name: &str, inherited| {
+        let real = |name: &str| {
             let value: Option<f64> = own_or_inherited(typed, inherited, name, "a number")?;
             // Importers write these as text, and infinity has several spellings.
             match value.filter(|value| !value.is_finite()) {
@@ -219,20 +218,13 @@ impl Kind {
                 None => Ok(value),
             }
         };
+        let whole = |name: &str| own_or_inherited(typed, inherited, name, "a whole number of 32 bits");
         match typed.name.as_str() {
-            "Real" => Ok(Self::Real {
-                start: real("start", None)?,
-                min: real("min", inherited)?,
-                max: real("max", inherited)?,
-            }),
-            "Integer" => Ok(Self::Integer {
-                start: typed.parsed("start", WHOLE)?,
-                min: own_or_inherited(typed, inherited, "min", WHOLE)?,
-                max: own_or_inherited(typed, inherited, "max", WHOLE)?,
-            }),
+            "Real" => Ok(Self::Real { start: real("start")?, min: real("min")?, max: real("max")? }),
+            "Integer" => Ok(Self::Integer { start: whole("start")?, min: whole("min")?, max: whole("max")? }),
             "Enumeration" => {
                 typed.required("declaredType")?;
-                Ok(Self::Enumeration { start: typed.parsed("start", WHOLE)? })
+                Ok(Self::Enumeration { start: whole("start")? })
             }
             "Boolean" => Ok(Self::Boolean { start: boolean(typed)? }),
             "String" => Ok(Self::String { start: typed.attribute("start").map(str::to_owned) }),
@@ -241,17 +233,15 @@ impl Kind {
     }
 }
 
-/// The value of the attribute `name` of a variable, or else of its type.
+/// The value of the attribute `name` of a variable, or else of its type, which has no `start`.
 fn own_or_inherited<T: std::str::FromStr>(
     typed: &Element,
     inherited: Option<&Element>,
     name: &str,
     expected: &'static str,
 ) -> Result<Option<T>, Fault> {
-    match typed.parsed(name, expected)? {
-        None => inherited.map_or(Ok(None), |element| element.parsed(name, expected)),
-        own => Ok(own),
-    }
+    let of = [Some(typed), inherited].into_iter().flatten().find(|element| element.attribute(name).is_some());
+    of.map_or(Ok(None), |element| element.parsed(name, expected))
 }
 
 /// The start value of a Boolean: XML Schema writes it as true, false, 1 or 0.

@@ -65,9 +65,8 @@ impl Building {
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let settings = Settings::new(&ground.0, tail, tolerance).map_err(refused)?;
-        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            Coupled::run_while(&self.parts, &ground.0, settings, is_wanted)
-        };
+        let work =
+            |is_wanted: &(dyn Fn() -> bool + Sync)| Coupled::run(&self.parts, &ground.0, settings, is_wanted);
         let run = watched(py, work, || Ok(()))?.map_err(failed)?;
         self.values(py, &run)
     }

@@ -1,10 +1,9 @@
 //! The page of `wall building --record`: storeys that sway, walls that rock and fall, and their histories.
 
 use crate::document::Support;
-use crate::{Building, Coupled, Parts};
+use crate::{Building, Coupled, Parts, table};
 use report::escaped;
 use report::palette::{DARK_GREY, RED, SERIES};
-use report::plot::Plot;
 use rocking_wall::response::Fate;
 use run::figure::{cut, histories};
 use serde_json::json;
@@ -33,6 +32,10 @@ pub fn render(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> 
     let frames = frames(run.times.partition_point(|&time| time <= end));
     let of = |values: &[f64]| rounded(frames.iter().map(|&frame| values[frame]));
     let open = telling(run, &frames);
+    let mut peaks = table::floors(building, run).html();
+    if !building.walls.is_empty() {
+        peaks += &table::walls(building, parts, run).html();
+    }
     let data = json!({
         "t": rounded(frames.iter().map(|&frame| run.times[frame])),
         "ground": of(&run.ground.values),
@@ -49,8 +52,8 @@ pub fn render(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> 
         style: include_str!("building.css"),
         picture: "<svg id=\"scene\" role=\"img\" aria-label=\"the building in motion\"></svg>",
         choices: &(factors("sway", &FACTORS, sway(building, run)) + &factors("rocking", &ROCKING, 1.0)),
-        facts: &peaks(building, run),
-        figures: &figures(building, run, end),
+        facts: "",
+        figures: &(figures(building, run, end) + &peaks),
         data: &data,
         script: include_str!("building.js"),
         frames: frames.len(),
@@ -72,10 +75,9 @@ fn floors(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -
     let most = (0..building.floors.len()).map(on).max().unwrap_or(0);
     let width = LEAST_WIDTH.max(FOR_A_WALL * most as f64);
     let shown = building.floors.iter().zip(&absolute).enumerate().map(|(index, (floor, x))| {
-        let below = if let Support::Floor(below) = floor.base { Some(below) } else { None };
         json!({
-            "name": floor.name.replace('_', " "),
-            "below": below,
+            "name": shown(&floor.name),
+            "below": floor.base.floor(),
             "height": heights[index],
             "width": width,
             "x": rounded(frames.iter().map(|&frame| x[frame])),
@@ -86,7 +88,7 @@ fn floors(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -
 }
 
 /// Heights of the storeys: that of a wall that spans one, or the usual \[m\].
-pub(super) fn heights(building: &Building, parts: &Parts) -> Vec<f64> {
+fn heights(building: &Building, parts: &Parts) -> Vec<f64> {
     let height = |index: usize| {
         let mut spanning = building.walls.iter().zip(&parts.walls);
         let (base, top) = (building.floors[index].base, Some(Support::Floor(index)));
@@ -97,16 +99,15 @@ pub(super) fn heights(building: &Building, parts: &Parts) -> Vec<f64> {
 }
 
 fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -> Vec<serde_json::Value> {
-    let index = |support: Support| if let Support::Floor(floor) = support { Some(floor) } else { None };
     let (own, times) = (parts.walls.iter().zip(&parts.scenes), &run.times);
     let shown = building.walls.iter().zip(&run.walls).zip(own).map(|((wall, history), (own, scene))| {
         let body = own.body();
         let beside = building.walls.iter().filter(|other| other.bottom == wall.bottom);
         let place = beside.clone().position(|other| other.name == wall.name).unwrap_or(0);
         json!({
-            "name": wall.name.replace('_', " "),
-            "bottom": index(wall.bottom),
-            "top": wall.top.and_then(index),
+            "name": shown(&wall.name),
+            "bottom": wall.bottom.floor(),
+            "top": wall.top.and_then(Support::floor),
             "place": (place as f64 + 0.5) / beside.count() as f64,
             "height": body.height,
             "thickness": scene.parameters.thickness,
@@ -119,7 +120,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
 }
 
 /// Largest sway of any floor over its height above the ground, without a factor.
-pub(super) fn sway(building: &Building, run: &Coupled) -> f64 {
+fn sway(building: &Building, run: &Coupled) -> f64 {
     let drifts = run.floors.iter().map(|floor| floor.drift.peak.value.abs()).sum::<f64>();
     let largest = drifts / (STOREY * building.floors.len() as f64);
     let fits = FACTORS.iter().rev().find(|factor| **factor * largest <= SWAY);
@@ -127,7 +128,7 @@ pub(super) fn sway(building: &Building, run: &Coupled) -> f64 {
 }
 
 /// Lists the walls that overturn, in order of time: the time, the name, and whether the wall falls.
-pub(super) fn overturned<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str, Fate)> {
+fn overturned<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str, Fate)> {
     let walls = building.walls.iter().zip(&run.walls);
     let mut overturned: Vec<_> = walls
         .filter_map(|(wall, history)| {
@@ -151,22 +152,21 @@ fn telling(run: &Coupled, frames: &[usize]) -> usize {
 }
 
 /// Describes what becomes of the building.
-pub(super) fn said(building: &Building, run: &Coupled) -> String {
+fn said(building: &Building, run: &Coupled) -> String {
     let overturned = overturned(building, run);
     let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
         let ratio = |wall: &crate::histories::WallHistory| wall.ratio.peak.value.abs();
         ratio(a.1).total_cmp(&ratio(b.1))
     });
-    let name = |name: &str| name.replace('_', " ");
     match (&overturned[..], worst) {
         ([], None) => "No wall stands on this building.".to_owned(),
         ([], Some((wall, history))) => {
             let ratio = 100.0 * history.ratio.peak.value.abs();
-            format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", name(&wall.name))
+            format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", shown(&wall.name))
         }
         (overturned, _) => {
             let part =
-                |(_, wall, fate): &(f64, &str, Fate)| Some(format!("the {} {}", name(wall), fate.words(1)?));
+                |(_, wall, fate): &(f64, &str, Fate)| Some(format!("the {} {}", shown(wall), fate.words(1)?));
             let text = overturned.iter().filter_map(part).collect::<Vec<_>>().join("; ");
             format!("{}{}.", text[..1].to_uppercase(), &text[1..])
         }
@@ -174,44 +174,11 @@ pub(super) fn said(building: &Building, run: &Coupled) -> String {
 }
 
 /// Returns the end of the time axes: soon after the last fall or peak, whichever is later.
-pub(super) fn end(run: &Coupled) -> f64 {
+fn end(run: &Coupled) -> f64 {
     let floors = run.floors.iter().flat_map(|floor| [floor.acceleration.peak.time, floor.drift.peak.time]);
     let walls = run.walls.iter().map(|wall| wall.fate(&run.times).falling().unwrap_or(wall.ratio.peak.time));
     let last = floors.chain(walls).fold(0.0, f64::max);
     (last + AFTER_ALL).min(run.times.last().copied().unwrap_or(AFTER_ALL))
-}
-
-/// Peaks of floors and walls as tables.
-fn peaks(building: &Building, run: &Coupled) -> String {
-    let row = |cells: [String; 3]| {
-        let [name, first, second] = cells;
-        format!("<tr><td>{}</td><td>{first}</td><td>{second}</td></tr>", escaped(&name.replace('_', " ")))
-    };
-    let head = |cells: [&str; 3]| {
-        let cells: Vec<_> = cells.iter().map(|cell| format!("<th>{cell}</th>")).collect();
-        format!("<tr>{}</tr>", cells.concat())
-    };
-    let mut table = head(["floor", "acceleration", "drift"]);
-    for (floor, history) in building.floors.iter().zip(&run.floors) {
-        let acceleration = format!("{:.2} m/s²", history.acceleration.peak.value.abs());
-        let drift = format!("{:.1} mm", 1000.0 * history.drift.peak.value.abs());
-        table += &row([floor.name.clone(), acceleration, drift]);
-    }
-    if !building.walls.is_empty() {
-        table += &head(["wall", "largest u/u_ins", "force at its foot"]);
-    }
-    for (wall, history) in building.walls.iter().zip(&run.walls) {
-        let ratio = match history.fate(&run.times) {
-            Fate::Stands => format!("{:.2}", history.ratio.peak.value.abs()),
-            Fate::ComesBack { exceeds } => {
-                format!("{:.2}, above 1 from {exceeds:.2} s", history.ratio.peak.value.abs())
-            }
-            Fate::Falls { falls, .. } => format!("1, falls at {falls:.2} s"),
-        };
-        let force = format!("{:.2} kN", history.reaction_bottom.peak.value.abs() / 1000.0);
-        table += &row([wall.name.clone(), ratio, force]);
-    }
-    format!("<table>{table}</table>")
 }
 
 /// A name, a history and its colour.
@@ -223,46 +190,40 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
         let pairs = run.times.iter().copied().zip(values.iter().map(|value| scale * value));
         pairs.take_while(|(time, _)| *time <= end).collect()
     };
-    let color = |index: usize| SERIES[index % SERIES.len()].0;
-    let marks: Vec<_> = overturned(building, run)
-        .into_iter()
-        .map(|(time, name, fate)| (fate.falling().unwrap_or(time), name.replace('_', " ")))
-        .collect();
-    let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
-    let drawn = |lines: Vec<Line>, label: &str, shown: &[f64]| {
-        let keys: Vec<_> = lines
-            .iter()
-            .map(|(name, _, color)| {
-                let name = escaped(&name.replace('_', " "));
-                format!(
-                    " <span class=\"key\"><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>"
-                )
-            })
-            .collect();
-        let drawn: Vec<_> = lines.iter().map(|(_, points, color)| (&points[..], *color)).collect();
-        (keys.concat(), histories(&drawn, [0.0, end], label, shown))
+    let drawn = |id, caption: &str, label, lines: Vec<Line>, limits: &[f64], marks: &[(f64, String)]| {
+        let keys = lines.iter().map(|(name, _, color)| {
+            let name = escaped(&shown(name));
+            format!(" <span class=\"key\"><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>")
+        });
+        let caption = format!("{caption}:{}", keys.collect::<String>());
+        let lines: Vec<_> = lines.iter().map(|(_, points, color)| (&points[..], *color)).collect();
+        let mut figure = histories(&lines, [0.0, end], label, limits);
+        figure.limits = limits.iter().map(|limit| (*limit, RED)).collect();
+        let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
+        plot(id, &caption, &figure, &marks, true)
     };
+    let color = |index: usize| SERIES[index % SERIES.len()].0;
     let mut floors = vec![("ground".to_owned(), points(&run.ground.values, 1.0), DARK_GREY)];
-    for (index, floor) in building.floors.iter().enumerate() {
-        let history = points(&run.floors[index].acceleration.values, 1.0);
-        floors.push((floor.name.clone(), history, color(index)));
+    for (index, (floor, history)) in building.floors.iter().zip(&run.floors).enumerate() {
+        floors.push((floor.name.clone(), points(&history.acceleration.values, 1.0), color(index)));
     }
-    let (keys, figure) = drawn(floors, "acceleration (m/s²)", &[]);
-    let mut text = plot("floors", &format!("Floor accelerations:{keys}"), &figure, &[], true);
+    let text = drawn("floors", "Floor accelerations", "acceleration (m/s²)", floors, &[], &[]);
     if building.walls.is_empty() {
         return text;
     }
-    let walls = building.walls.iter().zip(&run.walls).enumerate();
-    let ratio = walls.clone().map(|(index, (wall, history))| {
-        (wall.name.clone(), cut(points(&history.ratio.values, 1.0)), color(index))
-    });
-    let (keys, figure) = drawn(ratio.collect(), "u / u_ins", &[-1.0, 1.0]);
-    let figure = Plot { limits: vec![(-1.0, RED), (1.0, RED)], ..figure };
-    text += &plot("ratios", &format!("Walls; dashed: static instability:{keys}"), &figure, &marks, true);
-    let forces = walls.map(|(index, (wall, history))| {
-        (wall.name.clone(), points(&history.reaction_bottom.values, 1e-3), color(index))
-    });
-    let (keys, figure) = drawn(forces.collect(), "force (kN)", &[]);
-    let caption = format!("Forces of the floors on the feet of the walls:{keys}");
-    text + &plot("forces", &caption, &figure, &[], true)
+    let (mut ratios, mut forces) = (Vec::new(), Vec::new());
+    for (index, (wall, history)) in building.walls.iter().zip(&run.walls).enumerate() {
+        ratios.push((wall.name.clone(), cut(points(&history.ratio.values, 1.0)), color(index)));
+        forces.push((wall.name.clone(), points(&history.reaction_bottom.values, 1e-3), color(index)));
+    }
+    let mark = |(time, name, fate): (f64, &str, Fate)| (fate.falling().unwrap_or(time), shown(name));
+    let marks: Vec<_> = overturned(building, run).into_iter().map(mark).collect();
+    let caption = "Walls; dashed: static instability";
+    text + &drawn("ratios", caption, "u / u_ins", ratios, &[-1.0, 1.0], &marks)
+        + &drawn("forces", "Forces of the floors on the feet of the walls", "force (kN)", forces, &[], &[])
+}
+
+/// The name of a storey or a wall in words.
+fn shown(name: &str) -> String {
+    name.replace('_', " ")
 }

@@ -20,11 +20,15 @@ fn refused_at(from: &str, to: &str, message: &str) {
 
 #[test]
 fn names() {
-    refused("name='x_dot'", "name='force'", "the name `force` was used on line 20 already");
+    refused(
+        "name='x_dot'",
+        "name='force'",
+        "`force` has the name force, which `force` on line 20 has already",
+    );
     refused(
         "name='x_start'",
         "name='x.dot'",
-        "`x.dot` and `x_dot` on line 22 both become the Rust name XDot",
+        "`x.dot` has the Rust name XDot, which `x_dot` on line 22 has already",
     );
     refused("name='weight'", "name='1'", "`1` cannot be turned into a Rust name");
     refused("name='weight'", "name='self'", "`self` cannot be turned into a Rust name");
@@ -37,8 +41,7 @@ fn value_references_are_unique_over_all_types() {
     refused(
         "valueReference='60'",
         "valueReference='10'",
-        "`surface` has value reference 10, which `force` on line 20 has already; take a free one, \
-         0 for example",
+        "`surface` has the value reference 10, which `force` on line 20 has already",
     );
     refused("valueReference='60'", "valueReference='-1'", "valueReference=\"-1\" is not a value reference");
     refused("valueReference='60'", "", "<ScalarVariable> needs the attribute `valueReference`");
@@ -46,23 +49,19 @@ fn value_references_are_unique_over_all_types() {
 
 #[test]
 fn start_values_are_there_where_they_must_be_and_only_there() {
-    refused("unit='N' start='0'", "unit='N'", "`force` needs a start value, being an input");
-    refused("max='9' start='3'", "max='9'", "`layers` needs a start value, being a parameter");
-    refused("initial='calculated'", "initial='exact'", "`x` needs a start value, being exact at the start");
-    refused(
-        "initial='calculated'",
-        "initial='approx'",
-        "`x` needs a start value, being approximate at the start",
-    );
+    refused("unit='N' start='0'", "unit='N'", "`force` (input) needs a start value");
+    refused("max='9' start='3'", "max='9'", "`layers` (parameter, exact) needs a start value");
+    refused("initial='calculated'", "initial='exact'", "`x` (output, exact) needs a start value");
+    refused("initial='calculated'", "initial='approx'", "`x` (output, approx) needs a start value");
     refused(
         "derivative='2'",
         "derivative='2' start='0'",
-        "`x_dot` must not have a start value, being calculated",
+        "`x_dot` (output, calculated) must not have a start value",
     );
     refused(
         "<Boolean/>",
         "<Boolean start='true'/>",
-        "`moving` must not have a start value, being calculated",
+        "`moving` (output, calculated) must not have a start value",
     );
 }
 
@@ -87,7 +86,7 @@ fn units_and_types_are_declared() {
     refused(
         "<Real declaredType='Length'/>",
         "<Real declaredType='Length' unit='N'/>",
-        "`x` has the unit `N`, but its type `Length` has `m`",
+        "`x` has the unit `N`, but its type has `m`",
     );
     refused(
         "<Real declaredType='Length'/>",
@@ -158,12 +157,12 @@ fn enumerations() {
     refused(
         "name='sand' value='2'",
         "name='sand' value='1'",
-        "the item `sand` has the value 1, which the item on line 13 has already",
+        "`sand` has the value 1, which `wet_ice` on line 13 has already",
     );
     refused(
         "name='sand'",
         "name='wet-ice'",
-        "`wet-ice` and `wet_ice` on line 13 both become the Rust name WetIce",
+        "`wet-ice` has the Rust name WetIce, which `wet_ice` on line 13 has already",
     );
 }
 
@@ -189,7 +188,7 @@ fn the_structure_lists_exactly_what_it_must() {
     refused(
         "index='4' dependencies",
         "index='8' dependencies",
-        "Outputs lists `weight`, which is not an output",
+        "Outputs lists `weight`, which does not belong there",
     );
     refused("index='4' dependencies", "index='2' dependencies", "Outputs lists `x` twice");
     refused(
@@ -197,29 +196,21 @@ fn the_structure_lists_exactly_what_it_must() {
         "index='9' dependencies",
         "`Outputs` gives the index 9 in `index`, but there are only the variables 1 to 8",
     );
-    refused_at(
-        "      <Unknown index='4' dependencies=''/>\n",
-        "",
-        "line 30: Outputs leaves out `moving`, which is an output",
-    );
+    refused_at("      <Unknown index='4' dependencies=''/>\n", "", "line 30: Outputs leaves out `moving`");
     refused(
         "index='3' dependencies='1'",
         "index='2' dependencies='1'",
-        "Derivatives lists `x`, which has no attribute `derivative`",
+        "Derivatives lists `x`, which does not belong there",
     );
     refused(
         "<Unknown index='4'/>",
         "<Unknown index='5'/>",
-        "InitialUnknowns lists `x_start`, which is not calculated at the start",
+        "InitialUnknowns lists `x_start`, which does not belong there",
     );
-    refused_at(
-        "      <Unknown index='4'/>\n",
-        "",
-        "line 38: InitialUnknowns leaves out `moving`, which is calculated at the start",
-    );
+    refused_at("      <Unknown index='4'/>\n", "", "line 38: InitialUnknowns leaves out `moving`");
     let whole =
         &BLOCK[BLOCK.find("    <InitialUnknowns>").unwrap()..BLOCK.find("  </ModelStructure>").unwrap()];
-    refused_at(whole, "", "line 29: InitialUnknowns leaves out `x`, which is calculated at the start");
+    refused_at(whole, "", "line 29: InitialUnknowns leaves out `x`");
 }
 
 #[test]
@@ -235,16 +226,8 @@ fn dependencies() {
         "dependencies='12'",
         "`x_dot` gives the index 12 in `dependencies`, but there are only the variables 1 to 8",
     );
-    refused(
-        "dependencies='1'",
-        "dependencies='5'",
-        "in Derivatives, `x_dot` cannot depend on `x_start`, which is neither an input nor a state",
-    );
-    refused(
-        "dependencies='5'",
-        "dependencies='8'",
-        "in InitialUnknowns, `x` cannot depend on `weight`, which is not known at the start",
-    );
+    refused("dependencies='1'", "dependencies='5'", "in Derivatives, `x_dot` cannot depend on `x_start`");
+    refused("dependencies='5'", "dependencies='8'", "in InitialUnknowns, `x` cannot depend on `weight`");
     refused(
         "dependenciesKind='dependent constant'",
         "dependenciesKind='dependent fixed'",
@@ -283,17 +266,14 @@ fn either_kind_or_both() {
         assert_eq!(description.event_indicators(), 2);
     }
     let error = exchange(">\n", EXCHANGE, CO_SIMULATION).unwrap_err();
-    let missing = "numberOfEventIndicators is missing, which <ModelExchange> needs; 0 if there are none";
-    assert_eq!(error, format!("line 2: {missing}"));
+    let apart = "<ModelExchange> and numberOfEventIndicators belong together; 0 if there are none";
+    assert_eq!(error, format!("line 2: {apart}"));
     let error = exchange(INDICATORS, "", CO_SIMULATION).unwrap_err();
-    assert!(
-        error.ends_with("numberOfEventIndicators belongs to <ModelExchange>, which is missing"),
-        "{error}"
-    );
+    assert_eq!(error, format!("line 2: {apart}"));
     let error = exchange(" numberOfEventIndicators='-1'>\n", EXCHANGE, "").unwrap_err();
     assert!(error.ends_with("numberOfEventIndicators=\"-1\" is not a number of event indicators"), "{error}");
     let error = exchange(INDICATORS, &EXCHANGE.replace("block", "brick"), CO_SIMULATION).unwrap_err();
-    assert!(error.contains("\"block\" here and \"brick\" in <ModelExchange>"), "{error}");
+    assert!(error.contains("the modelIdentifiers \"brick\" and \"block\" differ"), "{error}");
     let error = exchange(INDICATORS, "<ModelExchange/>", "").unwrap_err();
     assert!(error.ends_with("<ModelExchange> needs the attribute `modelIdentifier`"), "{error}");
 }
@@ -319,6 +299,6 @@ fn the_message_of_generate_starts_with_file_and_line() {
     assert!(matches!(missing, DescriptionError::Read { .. }), "{missing}");
     std::fs::write(&xml, block_with("start='0.1'", "")).unwrap();
     let broken = generate(&xml, &folder.0).unwrap_err().to_string();
-    assert_eq!(broken, format!("{}:24: `x_start` needs a start value, being a parameter", xml.display()));
+    assert_eq!(broken, format!("{}:24: `x_start` (parameter, exact) needs a start value", xml.display()));
     assert!(!folder.path("variables.rs").exists());
 }

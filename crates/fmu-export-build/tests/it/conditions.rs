@@ -77,7 +77,7 @@ fn a_wrong_condition_is_refused_with_its_line() {
     for (place, why) in [
         ("<Where/>", "is empty"),
         ("<Where x=\"1\"/>", "names `x`, which is not a parameter"),
-        ("<Where surface=\"\"/>", "gives no value of `surface`"),
+        ("<Where surface=\"\"/>", "gives \"\", which `surface` cannot be"),
         ("<Where surface=\"gravel\"/>", "gives \"gravel\", which `surface` cannot be"),
         ("<Where x_start=\"many\"/>", "gives \"many\", which `x_start` cannot be"),
         ("<Where layers=\"1\"/>", "depends on itself, by way of others"),

@@ -106,7 +106,7 @@ fn an_fmu_has_its_files_in_their_places() {
     let build = Build::new("places");
     let (first, second) = (build.path("a.fmu"), build.path("b.fmu"));
     let resources = build.path("resources");
-    let arguments = ["--platform", "linux64", "--resources", resources.to_str().unwrap()];
+    let arguments = ["--resources", resources.to_str().unwrap()];
     let archive = build.packed(&first, &arguments);
     let names: Vec<_> = archive.names().collect();
     assert_eq!(
@@ -134,7 +134,7 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
     let build = Build::new("fmi3");
     fs::write(build.path("fmi3.xml"), "<fmi3 mightReturnEarlyFromDoStep=\"true\"/>").unwrap();
     fs::write(build.path("libblock.so"), library("universal")).unwrap();
-    let mut archive = build.packed(&build.path("a.fmu"), &["--platform", "darwin64", "--fmi", "3"]);
+    let mut archive = build.packed(&build.path("a.fmu"), &["--fmi", "3"]);
     let names: Vec<_> = archive.names().collect();
     assert_eq!(
         names,
@@ -168,7 +168,7 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
 fn a_component_goes_in_with_its_manifest() {
     let build = Build::new("component");
     fs::write(build.path("libblock.so"), library("wasm32-wasip2")).unwrap();
-    let archive = build.packed(&build.path("a.fmu"), &["--platform", "wasm32-wasip2", "--fmi", "3"]);
+    let archive = build.packed(&build.path("a.fmu"), &["--fmi", "3"]);
     assert_eq!(archive.get("binaries/wasm32-wasip2/block.wasm"), Some(&library("wasm32-wasip2")[..]));
     // the draft's name, and that of FMI 3.0.2
     let [manifest, other] = ["manifest.xml", "fmi-ls-manifest.xml"]
@@ -190,27 +190,20 @@ fn bad_input_gives_one_message_exit_code_2_and_no_file() {
         assert_eq!(said.lines().count(), 1, "{said}");
         assert!(!output.exists());
     };
-    let platform = ["--platform", "linux64"];
-    refused(&[], "1 --binary and 0 --platform: each library needs its platform; see --help");
-    refused(&["--platform"], "--platform needs a value; see --help");
-    refused(&["--platfrom", "linux64"], "\"--platfrom\" is not an option; see --help");
-    refused(&["--platform", "linux64", "--output", "b"], "--output is given twice");
-    refused(&["--platform", "linux64", "--fmi", "1"], "--fmi 1: there are 2 and 3");
-    for name in ["linux", "aarch64-linux"] {
-        let message = format!(
-            "the platform {name:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
-             darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0"
-        );
-        refused(&["--platform", name], &message);
-    }
+    refused(&["--fmi"], "--fmi needs a value; see --help");
+    refused(&["--platform", "linux64"], "\"--platform\" is not an option; see --help");
+    refused(&["--output", "b"], "--output is given twice");
+    refused(&["--fmi", "1"], "--fmi 1: there are 2 and 3");
+    let library = build.path("libblock.so");
+    refused(&["--binary", library.to_str().unwrap()], "another library is binaries/linux64/block.so already");
     fs::write(build.path("fmi3.xml"), "\n<fmi2/>").unwrap();
-    refused(&["--platform", "linux64", "--fmi", "3"], "fmi3.xml:2: expected <fmi3>, found <fmi2>");
+    refused(&["--fmi", "3"], "fmi3.xml:2: expected <fmi3>, found <fmi2>");
     fs::remove_file(build.path("documentation/index.html")).unwrap();
-    refused(&platform, "has no index.html, the page that importers open");
+    refused(&[], "has no index.html, the page that importers open");
     fs::write(build.path("modelDescription.xml"), BLOCK.replace("start=\"3\"", "start=\"30\"")).unwrap();
-    refused(&platform, ":26: the start value 30 of `layers` is outside its limits 1 to 9");
+    refused(&[], ":26: the start value 30 of `layers` is outside its limits 1 to 9");
     fs::remove_file(build.path("modelDescription.xml")).unwrap();
-    assert_eq!(build.pack(&output, &platform).status.code(), Some(2));
+    assert_eq!(build.pack(&output, &[]).status.code(), Some(2));
 }
 
 /// A library goes into the folders of its machines, and into no other.
@@ -219,7 +212,7 @@ fn a_library_belongs_to_its_platform() {
     const MACHINES: [(&str, &[&str], &[&str]); 9] = [
         ("x86_64-linux", &["linux64"], &["x86_64-linux"]),
         ("x86-linux", &["linux32"], &["x86-linux"]),
-        ("aarch64-linux", &["aarch64-linux"], &["aarch64-linux"]),
+        ("aarch64-linux", &[], &["aarch64-linux"]),
         ("x86_64-windows", &["win64"], &["x86_64-windows"]),
         ("x86-windows", &["win32"], &["x86-windows"]),
         ("x86_64-darwin", &["darwin64"], &["x86_64-darwin"]),
@@ -228,24 +221,20 @@ fn a_library_belongs_to_its_platform() {
         ("universal", &["darwin64"], &["aarch64-darwin", "x86_64-darwin"]),
     ];
     let build = Build::new("platforms");
-    for (machine, own, folders) in MACHINES {
+    for (machine, of_2, of_3) in MACHINES {
         fs::write(build.path("libblock.so"), library(machine)).unwrap();
-        for platform in MACHINES.iter().flat_map(|(_, platforms, _)| *platforms) {
-            let output = build.path("a.fmu");
-            let done = build.pack(&output, &["--fmi", "3", "--platform", platform]);
+        for (version, folders) in [("2", of_2), ("3", of_3)] {
+            let output = build.path(&format!("{machine}{version}.fmu"));
+            let done = build.pack(&output, &["--fmi", version]);
             let said = String::from_utf8_lossy(&done.stderr).into_owned();
-            if own.contains(platform) {
-                let archive = Archive::open(&output).unwrap();
-                let found: Vec<_> = archive
-                    .names()
-                    .filter_map(|name| name.strip_prefix("binaries/")?.split('/').next().map(str::to_owned))
-                    .collect();
-                assert_eq!(found, folders, "{said}");
-            } else {
-                let found = if machine == "universal" { "x86_64-darwin and aarch64-darwin" } else { machine };
-                let end = format!("is for {found}, and not for the platform {platform}\n");
-                assert!(said.ends_with(&end), "{said}");
+            if folders.is_empty() {
+                let end = format!("is for {machine}, which FMI {version}.0 has no folder for\n");
+                assert!(said.ends_with(&end) && !output.exists(), "{said}");
+                continue;
             }
+            let archive = Archive::open(&output).unwrap();
+            let found = archive.names().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next());
+            assert_eq!(found.collect::<Vec<_>>(), folders, "{machine}: {said}");
         }
     }
 }
@@ -276,14 +265,14 @@ fn what_is_no_library_of_this_model_is_refused() {
         (library("program of darwin"), "2", no_library),
         (java, "2", no_library),
         (b"\0asm\x01\0\0\0".to_vec(), "3", no_library),
-        (library("riscv64-linux"), "2", "is for another processor, and not for the platform linux64"),
+        (library("riscv64-linux"), "2", "is for another processor, which FMI 2.0 has no folder for"),
         (without("fmi2GetVersion"), "2", "does not export the functions of FMI 2.0; fmu_export::export_fmu!"),
         (without("fmi3GetVersion"), "3", "does not export the functions of FMI 3.0; fmu_export::export_fmu!"),
         (without(&guid), "2", "does not hold the guid {"),
     ] {
         let (output, path) = (build.path("a.fmu"), build.path("libblock.so"));
         fs::write(&path, bytes).unwrap();
-        let done = build.pack(&output, &["--fmi", fmi, "--platform", "linux64"]);
+        let done = build.pack(&output, &["--fmi", fmi]);
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert_eq!(done.status.code(), Some(2), "{message}");
         assert!(said.starts_with(&format!("fmu-pack: {}: {message}", path.display())), "{said}");
@@ -296,9 +285,7 @@ fn help_names_every_option() {
     let done = Command::new(env!("CARGO_BIN_EXE_fmu-pack")).arg("--help").output().unwrap();
     let help = String::from_utf8(done.stdout).unwrap();
     assert!(done.status.success());
-    for option in
-        ["--description", "--binary", "--platform", "--documentation", "--resources", "--fmi", "--output"]
-    {
+    for option in ["--description", "--binary", "--documentation", "--resources", "--fmi", "--output"] {
         assert!(help.contains(&format!("\n  {option} ")), "{option}");
     }
 }

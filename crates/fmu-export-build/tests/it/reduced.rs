@@ -114,7 +114,7 @@ fn start_values_are_checked() {
         ("layers", "10", "the start value 10 of `layers` is outside its limits 1 to 9"),
         ("x_start", "51", "the start value 51 of `x_start` is outside its limits -0.00000005 to 50"),
         ("surface", "3", "the start value 3 of `surface` is not an item of its type `Surface`"),
-        ("weight", "3", "`weight` must not have a start value, being calculated"),
+        ("weight", "3", "`weight` (calculatedParameter, calculated) must not have a start value"),
         ("x_start", "inf", "start=\"inf\" is not a finite number"),
     ] {
         let error = reduce(BLOCK, &all, &[(name, start)]).unwrap_err().to_string();

@@ -46,6 +46,9 @@ macro_rules! __fmi2_module {
             $($crate::$functions! { Exported })+
 
             $crate::__fmi_functions! { Exported, common,
+                fn fmi2Instantiate = instantiate[&$crate::ffi::Kinds::<Exported>::$kinds](
+                    instanceName: Text, fmuType: Type, fmuGUID: Text, fmuResourceLocation: Text,
+                    functions: *const CallbackFunctions, visible: Boolean, loggingOn: Boolean) -> Component;
                 fn fmi2GetTypesPlatform = get_types_platform() -> Text;
                 fn fmi2GetVersion = get_version() -> Text;
                 fn fmi2SetDebugLogging = set_debug_logging(
@@ -82,64 +85,23 @@ macro_rules! __fmi2_module {
                 fn fmi2DeSerializeFMUstate = de_serialize_fmu_state(
                     c: Component, serializedState: *const Byte, size: usize, state: *mut FmuState) -> Status;
             }
-
-            #[doc = "`fmi2Instantiate` of FMI 2.0."]
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi2Instantiate(
-                instanceName: Text,
-                fmuType: Type,
-                fmuGUID: Text,
-                fmuResourceLocation: Text,
-                functions: *const CallbackFunctions,
-                visible: Boolean,
-                loggingOn: Boolean,
-            ) -> Component {
-                // SAFETY: the standard asks of the importer that the texts are NULL or end with a NUL, and
-                // that `functions` is NULL or points to callbacks of the stated types.
-                unsafe {
-                    $crate::ffi::common::instantiate::<Exported>(
-                        &$crate::ffi::Kinds::<Exported>::$kinds,
-                        instanceName,
-                        fmuType,
-                        fmuGUID,
-                        fmuResourceLocation,
-                        functions,
-                        visible,
-                        loggingOn,
-                    )
-                }
-            }
         }
     };
 }
 
-/// Defines the getters and setters of the values of some types.
+/// Defines the getters and setters of the values of some types. There are as many values as references.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __fmi2_values {
     (
         $model:ident,
         $($type:ty: $get:ident = $get_generic:ident, $set:ident = $set_generic:ident;)*
-    ) => { $(
-        #[doc = concat!("`", stringify!($get), "`")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $get(
-            c: Component, vr: *const ValueReference, nvr: usize, value: *mut $type
-        ) -> Status {
-            // SAFETY: the standard asks of the importer that the component is NULL or an instance of this
-            // model that is not freed, and that pointers are NULL or point to as many elements as stated.
-            unsafe { $crate::ffi::values::$get_generic::<$model>(c, vr, nvr, value, nvr) }
-        }
-
-        #[doc = concat!("`", stringify!($set), "`")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $set(
-            c: Component, vr: *const ValueReference, nvr: usize, value: *const $type
-        ) -> Status {
-            // SAFETY: as for the getter; texts end with a NUL.
-            unsafe { $crate::ffi::values::$set_generic::<$model>(c, vr, nvr, value, nvr) }
-        }
-    )* };
+    ) => { $crate::__fmi_functions! { $model, values, $(
+        fn $get = $get_generic(
+            c: Component, vr: *const ValueReference, nvr: usize, value: *mut $type)[nvr] -> Status;
+        fn $set = $set_generic(
+            c: Component, vr: *const ValueReference, nvr: usize, value: *const $type)[nvr] -> Status;
+    )* } };
 }
 
 /// The functions of co-simulation alone.
@@ -198,13 +160,15 @@ macro_rules! __fmi2_model_exchange {
     };
 }
 
-/// Defines C functions that pass their arguments on to the generic ones of a module of [`ffi`](crate::ffi).
+/// Defines C functions that pass their arguments on to the generic ones of a module of [`ffi`](crate::ffi),
+/// after the `first` and before the `last`, which these have in addition.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __fmi_functions {
     (
         $model:ident, $module:ident,
-        $(fn $name:ident = $generic:ident($($argument:ident: $type:ty),*) -> $result:ty;)*
+        $(fn $name:ident = $generic:ident $([$first:expr])?
+            ($($argument:ident: $type:ty),*) $([$last:expr])? -> $result:ty;)*
     ) => { $(
         #[doc = concat!("`", stringify!($name), "`: see [`", stringify!($generic), "`].")]
         #[doc = concat!("\n[`", stringify!($generic), "`]: fmu_export::ffi::", stringify!($module), "::",
@@ -214,7 +178,7 @@ macro_rules! __fmi_functions {
             // SAFETY: the standard asks of the importer that a component is NULL or an instance of this model
             // that is not freed, that pointers are NULL or point to as many elements as stated, that texts
             // end with a NUL, and that callbacks are of their types.
-            unsafe { $crate::ffi::$module::$generic::<$model>($($argument),*) }
+            unsafe { $crate::ffi::$module::$generic::<$model>($($first,)? $($argument,)* $($last)?) }
         }
     )* };
 }

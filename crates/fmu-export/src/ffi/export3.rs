@@ -77,11 +77,11 @@ macro_rules! __fmi3_module {
                 fn fmi3EnterInitializationMode = start_initialization(
                     c: Instance, toleranceDefined: Boolean, tolerance: f64, startTime: f64,
                     stopTimeDefined: Boolean, stopTime: f64) -> Status;
-                fn fmi3GetDirectionalDerivative = get_directional_derivative(
+                fn fmi3GetDirectionalDerivative = derivatives_along[false](
                     c: Instance, unknowns: *const ValueReference, nUnknowns: usize,
                     knowns: *const ValueReference, nKnowns: usize, seed: *const f64, nSeed: usize,
                     sensitivity: *mut f64, nSensitivity: usize) -> Status;
-                fn fmi3GetAdjointDerivative = get_adjoint_derivative(
+                fn fmi3GetAdjointDerivative = derivatives_along[true](
                     c: Instance, unknowns: *const ValueReference, nUnknowns: usize,
                     knowns: *const ValueReference, nKnowns: usize, seed: *const f64, nSeed: usize,
                     sensitivity: *mut f64, nSensitivity: usize) -> Status;

@@ -5,8 +5,7 @@ use crate::call::{Call, Phase};
 use crate::ffi::arguments::{array, array_mut, check_count, place, to_get};
 use crate::ffi::guard::{self, functions};
 use crate::ffi::types::{Component, OK, Status, ValueReference};
-use crate::instance::Instance;
-use crate::model::{Experiment, Failure, Model, ModelExchange, Update};
+use crate::model::{Experiment, Model, ModelExchange, Update};
 
 /// `fmi3DoStep`
 ///
@@ -126,52 +125,42 @@ functions! {
         unsafe { place("nContinuousStates", count) }?.write(M::STATES.len());
         Ok(())
     };
-    /// `fmi3GetDirectionalDerivative`
-    get_directional_derivative<Model>(
-        unknowns: *const ValueReference, unknown_count: usize,
-        knowns: *const ValueReference, known_count: usize,
-        seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
-    ): GetDirectionalDerivative, |instance| {
-        let variables = [(unknowns, unknown_count), (knowns, known_count)];
-        let numbers = (seeds, seed_count, sensitivity, sensitivity_count);
-        // SAFETY: all are NULL or point to as many elements as stated, those of `sensitivity` used by nobody
-        // else during the call.
-        unsafe { derivatives_along(instance, variables, numbers, false) }
-    };
-    /// `fmi3GetAdjointDerivative`
-    get_adjoint_derivative<Model>(
-        unknowns: *const ValueReference, unknown_count: usize,
-        knowns: *const ValueReference, known_count: usize,
-        seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
-    ): GetAdjointDerivative, |instance| {
-        let variables = [(unknowns, unknown_count), (knowns, known_count)];
-        let numbers = (seeds, seed_count, sensitivity, sensitivity_count);
-        // SAFETY: all are NULL or point to as many elements as stated, those of `sensitivity` used by nobody
-        // else during the call.
-        unsafe { derivatives_along(instance, variables, numbers, true) }
-    };
 }
 
-/// Directional derivatives of the unknowns by the knowns; if `adjoint`, adjoint derivatives.
+/// `fmi3GetDirectionalDerivative`, and `fmi3GetAdjointDerivative` if `adjoint`
 ///
 /// # Safety
-/// As for [`array`] and [`array_mut`].
-unsafe fn derivatives_along<M: Model>(
-    instance: &mut Instance<M>,
-    [(unknowns, unknown_count), (knowns, known_count)]: [(*const ValueReference, usize); 2],
-    (seeds, seed_count, sensitivity, sensitivity_count): (*const f64, usize, *mut f64, usize),
+/// `component` is NULL or an instance; pointers are NULL or point to as many elements as stated.
+#[allow(clippy::too_many_arguments, reason = "the standard's")]
+pub unsafe fn derivatives_along<M: Model>(
     adjoint: bool,
-) -> Result<(), Failure> {
-    // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
-    let (unknowns, knowns) =
-        unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
-    let (seeded, wanted) = if adjoint { (unknowns, knowns) } else { (knowns, unknowns) };
-    check_count("nSeed", seed_count, seeded.len())?;
-    check_count("nSensitivity", sensitivity_count, wanted.len())?;
-    // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state, those of
-    // `sensitivity` used by nobody else during the call.
-    let (seeds, values) = unsafe {
-        (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count, 0.0)?)
-    };
-    instance.derivatives_along([seeded, wanted], seeds, values, adjoint)
+    component: Component,
+    unknowns: *const ValueReference,
+    unknown_count: usize,
+    knowns: *const ValueReference,
+    known_count: usize,
+    seeds: *const f64,
+    seed_count: usize,
+    sensitivity: *mut f64,
+    sensitivity_count: usize,
+) -> Status {
+    let call = if adjoint { Call::GetAdjointDerivative } else { Call::GetDirectionalDerivative };
+    // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
+    guard::run(unsafe { guard::instance::<M>(component) }, call, |instance| {
+        // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
+        let (unknowns, knowns) =
+            unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
+        let (seeded, wanted) = if adjoint { (unknowns, knowns) } else { (knowns, unknowns) };
+        check_count("nSeed", seed_count, seeded.len())?;
+        check_count("nSensitivity", sensitivity_count, wanted.len())?;
+        // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state, those
+        // of `sensitivity` used by nobody else during the call.
+        let (seeds, values) = unsafe {
+            (
+                array("seed", seeds, seed_count)?,
+                array_mut("sensitivity", sensitivity, sensitivity_count, 0.0)?,
+            )
+        };
+        instance.derivatives_along([seeded, wanted], seeds, values, adjoint)
+    })
 }

@@ -49,7 +49,7 @@ pub(super) fn run(
 ) -> Result<String> {
     let &Options { tail, tolerance, .. } = options;
     let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
-    let run = Coupled::run(parts, ground, settings)?;
+    let run = Coupled::run(parts, ground, settings, &|| true)?;
     console.save(options.csv.as_ref(), || table::histories(building, &run).csv())?;
     console.save(options.html.as_ref(), || render(building, parts, &run, note))?;
     if options.json {
