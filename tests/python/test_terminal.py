@@ -21,7 +21,7 @@ def test_progress_is_shown_and_a_lost_terminal_changes_nothing(wall, tmp_path):
     with subprocess.Popen(command, cwd=tmp_path, stdout=theirs, stderr=theirs) as process:
         os.close(theirs)
         shown = ""
-        while not (found := re.search(r"\[[#-]{30}\] (\d+)/(\d+)", shown)):
+        while not (found := re.search(r"(\d+) of (\d+) done, [0-9.]+ min left", shown)):
             shown += os.read(ours, 1000).decode()
         done, total = map(int, found.groups())
         assert 0 < done < total, shown

@@ -5,11 +5,13 @@ a study from its schema.
 """
 
 import json
+import re
 import sys
 import textwrap
 from pathlib import Path
 from typing import Any
 
+import rocking_wall as rw
 from rocking_wall import _native
 
 FOLDER = Path(__file__).parents[2] / "crates/python/python/rocking_wall"
@@ -21,36 +23,14 @@ GIVEN_HEAD = "    _native: _native.Wall\n"
 
 HEAD = '''"""The parameters of a wall.
 
-Written by `cargo xtask generate python` from the model description.
+Written by `cargo xtask generate python` from the schema of scenes.
 """
 
 from collections.abc import Sequence
 from typing import Literal, TypedDict
-
-
-class Parameters(TypedDict, total=False):
-    """The parameters of a wall, by the names of the FMU's variables; in SI units."""
 '''
-TAIL = '''
-    kinematics: Literal["linear", "trigonometric"]
-    """Small rotations, or full ones (rigid-linear walls with restitution)."""
-    points: Sequence[Sequence[float]]
-    """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
-    bar_diameter: float
-    """Diameter of the bar of the tie [m]; a bar stands for tie_stiffness, tie_strength and tie_ultimate."""
-    bar_length: float
-    """Free length of the bar between its anchors [m]."""
-    bar_young_modulus: float
-    """Young's modulus of the bar [Pa]; default 210e9."""
-    bar_yield_stress: float
-    """Stress at which the bar yields [Pa]."""
-    bar_ultimate_strain: float
-    """Strain at which the bar tears; where none is given, the tie stays elastic."""
-    bar_anchor_capacity: float
-    """Force at which an anchor fails, without warning [N]; by default it is stronger than the bar."""
-    bar_spacing: float
-    """Distance between bars along the wall [m]; by default one bar holds its width."""
-'''
+ABOUT = "The parameters of a wall, by the names of the FMU's variables; in SI units."
+GROUPS = ("geometry", "force_law", "damping", "impact", "start", "solver", "tie")
 
 GIVEN_TAIL = '''\
     points = Attribute[list[list[float]] | None](
@@ -59,34 +39,27 @@ GIVEN_TAIL = '''\
 '''
 
 
+def schemas() -> tuple[dict[str, Any], dict[str, Any]]:
+    """Returns the schemas of scenes and of studies."""
+    scene, study = map(json.loads, _native.schemas())
+    return scene, study
+
+
 def text() -> str:
     """Returns the text of the file."""
-    lines = []
-    for variable in _native.variables():
-        # a scene has one law more than the FMU
-        more = ["multilinear"] if variable["name"] == "force_law" else []
-        choices = ", ".join(f'"{choice}"' for choice in variable["choices"] + more)
-        kind = f"Literal[{choices}]" if choices else "float"
-        low, high = variable["limits"]
-        limits = (f", at least {low:g}" if low is not None else "") + (
-            f", at most {high:g}" if high is not None else ""
-        )
-        told = f"{limited(variable['description'], variable['unit'], limits)}; default {variable['default']}."
-        lines.append("")
-        if len(f"    {variable['name']}: {kind}") <= 110:
-            lines.append(f"    {variable['name']}: {kind}")
-        else:
-            lines.append(f"    {variable['name']}: Literal[")
-            lines += textwrap.wrap(choices, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
-            lines.append("    ]")
-        lines += textwrap.wrap(f'"""{told}"""', 110, initial_indent=" " * 4, subsequent_indent=" " * 4)
-    return HEAD + "\n".join(lines) + "\n" + TAIL
+    tables = schemas()[0]["properties"]
+    known = {name: value for group in GROUPS for name, value in tables[group]["properties"].items()}
+    bar = {f"bar_{name}": value for name, value in known["bar"]["properties"].items()}
+    names = [*rw.Wall().parameters, "kinematics", "points"]
+    made = Options({"$defs": {}, "properties": {}})
+    made.table("Parameters", {"description": ABOUT, "properties": {n: known[n] for n in names} | bar})
+    return HEAD + "".join(made.classes.values())
 
 
 def given() -> str:
     """Returns the text of the file of the attributes."""
     head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
-    names = [(each["name"], "str" if each["choices"] else "float") for each in _native.variables()]
+    names = [(name, type(value).__name__) for name, value in rw.Wall().parameters.items()]
     lines = [f"    {name} = Attribute[{kind}]()\n" for name, kind in [*names, ("kinematics", "str")]]
     for name, description, unit in _native.calculated():
         told = json.dumps(f"{limited(description, unit)}.", ensure_ascii=False)
@@ -135,7 +108,8 @@ class Options:
         self.tables = schema["$defs"]
         self.classes: dict[str, str] = {}
         for key in OPTIONS_OF_STUDY:
-            self.kind(schema["properties"][key], key)
+            if key in schema["properties"]:
+                self.kind(schema["properties"][key], key)
 
     def kind(self, value: dict[str, Any], key: str) -> str:
         """Returns the type of a value, and writes the classes that it needs."""
@@ -175,11 +149,11 @@ class Options:
 
 def told(value: dict[str, Any]) -> str:
     """Returns what a schema says of a key: description, limits, default."""
-    words = value.get("description", "").removesuffix(".")
+    words, unit = re.fullmatch(r"(.*?)\.?(?: \[([^]]+)\])?", value.get("description", "")).groups()
     limits = [f"{word} {value[limit]:g}" for limit, word in LIMITS.items() if limit in value]
     default = f"; default {shown(value['default'])}" if "default" in value else ""
-    said = ", ".join([words, *limits] if words else limits) + default
-    return f": {said}." if said else ""
+    said = limited(words, unit if unit != "1" else "", "".join(f", {limit}" for limit in limits)) + default
+    return f": {said.removeprefix(', ')}." if said else ""
 
 
 def shown(value: object) -> str:
@@ -197,7 +171,7 @@ LIMITS = {
 
 def options() -> str:
     """Returns the text of the file of the options."""
-    return OPTIONS_HEAD + "".join(Options(json.loads(_native.study_schema())).classes.values())
+    return OPTIONS_HEAD + "".join(Options(schemas()[1]).classes.values())
 
 
 def wrapped(words: str, indent: str = "") -> list[str]:

@@ -7,9 +7,9 @@
 //! | module | holds |
 //! |---|---|
 //! | [`Comparison`] | the row of every table: what, computed, given, allowed |
-//! | [`accuracy`] | error against run time of every solver; error of small rotations |
+//! | [`reproduce`] | the tables and figures of the paper; error of small rotations |
+//! | [`accuracy`] | error against run time of every solver |
 //! | [`stability`] | stability maps and extremes |
-//! | [`reproduce`] | the tables and figures of the paper |
 //! | [`validation`] | the model beside published tests |
 //! | [`verification`] | every formula against a reference of its own |
 

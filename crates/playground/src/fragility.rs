@@ -2,9 +2,8 @@
 
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
 use report::number;
-use report::palette::{AMBER, BLUE, GREY, Mark};
-use report::plot::{Axis, Look, Plot, Series};
-use report::table::Digits;
+use report::plot::{Plot, Series};
+use report::table::{Digits, Table};
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Damping, Parameters};
 use run::model::{EnergyLoss, Model};
@@ -19,8 +18,8 @@ const MOTIONS: u32 = 20;
 /// Their length and step \[s\].
 const DURATION: f64 = 20.0;
 const STEP: f64 = 0.01;
-/// Limit states as fractions of `u_ins`, their names and colours.
-const STATES: [(f64, &str, &str); 2] = [(0.4, "moderate damage, 0.4 u_ins", AMBER), (1.0, "collapse", BLUE)];
+/// Limit states as fractions of `u_ins`, and their names.
+const STATES: [(f64, &str); 2] = [(0.4, "moderate damage, 0.4 u_ins"), (1.0, "collapse")];
 /// Resamples of the bootstrap, and its seed.
 const RESAMPLES: usize = 400;
 const SEED: u64 = 1;
@@ -30,14 +29,13 @@ const SEED: u64 = 1;
 pub(crate) struct Fragility {
     study: Study,
     curves: Vec<Curve>,
-    width: f64,
     /// Peak acceleration of the motion that the page shows \[m/s²\].
     peak: Option<f64>,
 }
 
 impl Fragility {
     /// Prepares the fragility of a wall.
-    pub(crate) fn new(parameters: Parameters, width: f64, peak: Option<f64>) -> Result<Self, String> {
+    pub(crate) fn new(parameters: Parameters, peak: Option<f64>) -> Result<Self, String> {
         let model = Model::new(energy_loss(&parameters)?);
         let walls = vec![NamedWall::new("the wall", parameters)];
         let record = |seed: u32| {
@@ -55,7 +53,7 @@ impl Fragility {
         };
         let study = Study::new(walls, records, vec![model], IntensityMeasure::Pga, levels);
         let study = study.map_err(|error| error.to_string())?;
-        Ok(Self { study, curves: Vec::new(), width, peak })
+        Ok(Self { study, curves: Vec::new(), peak })
     }
 
     /// Runs the next motion. Returns how many are done, and after the last one the result too.
@@ -71,54 +69,54 @@ impl Fragility {
     }
 
     fn result(&self) -> Value {
-        let fractions = STATES.map(|(fraction, ..)| fraction);
+        let fractions = STATES.map(|(fraction, _)| fraction);
         let sample = |fraction| Sample::of_curves(&self.curves, fraction, Crossing::First, None);
         let states: Vec<Sample> = fractions.into_iter().map(sample).collect();
         let bootstrap = Bootstrap::new(self.curves.len(), RESAMPLES, SEED);
         let estimator = Estimator::new(Dispersion::Own, &fractions);
         let summaries = compare(std::slice::from_ref(&states), 0, &estimator, &bootstrap);
         let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
-        let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
+        let rows = summaries.iter().zip(STATES).map(|(summary, (_, name))| {
             let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, Digits::Decimals(2));
             let dispersion = summary.fitted.map(|curve| number(curve.dispersion, 2));
-            json!({
-                "name": name,
-                "color": color,
-                "median": median,
-                "interval": [low, high],
-                "dispersion": dispersion.unwrap_or_else(|error| error.to_string()),
-                "never": summary.censored,
-            })
-        };
-        let rows: Vec<_> = summaries.iter().zip(&STATES).map(row).collect();
-        json!({ "states": rows, "svg": self.chart(&states, &summaries).svg() })
+            let dispersion = dispersion.unwrap_or_else(|error| error.to_string());
+            (name, [median, format!("{low} to {high}"), dispersion])
+        });
+        let table = Table::over(rows)
+            .text("", "limit state", |(name, _)| *name)
+            .text("", "median PGA (g)", |(_, cells)| cells[0].clone())
+            .text("", "95 % interval", |(_, cells)| cells[1].clone())
+            .text("", "dispersion β", |(_, cells)| cells[2].clone())
+            .done();
+        json!({ "table": table.html(), "figure": self.chart(&states, &summaries).figure() })
     }
 
     fn chart(&self, states: &[Sample], summaries: &[&Summary]) -> Plot {
         let in_g = |intensity: f64| intensity / STANDARD_GRAVITY;
-        let mut empirical: Vec<Vec<(f64, f64)>> = Vec::new();
-        for state in states {
+        let empirical = states.iter().map(|state| {
             let steps = steps(state.exceedances()).into_iter().filter(|step| step.0.is_finite());
-            empirical.push(steps.map(|(intensity, part)| (in_g(intensity), part)).collect());
-        }
+            steps.map(|(intensity, part)| (in_g(intensity), part)).collect::<Vec<_>>()
+        });
+        let empirical: Vec<_> = empirical.collect();
         let largest = empirical.iter().flatten().map(|point| point.0).fold(0.1, f64::max);
         let right = 1.1 * largest.max(self.peak.map_or(0.0, in_g).min(2.0 * largest));
         let mut series = Vec::new();
-        for ((marks, summary), (_, _, color)) in empirical.into_iter().zip(summaries).zip(STATES) {
+        for (color, ((marks, summary), (_, name))) in
+            empirical.into_iter().zip(summaries).zip(STATES).enumerate()
+        {
             if let Ok(curve) = summary.fitted {
                 let at = |k: u32| 0.005 * f64::from(k) * right;
                 let point = |x: f64| (x, curve.probability(x * STANDARD_GRAVITY));
-                series.push(Series::stroke(color, 1.8, (1..=200).map(at).map(point).collect()));
+                series.push(Series::line(name, color, (1..=200).map(at).map(point).collect()));
             }
-            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 2.5, marks) });
+            series.push(Series::marks("", color, marks));
         }
         if let Some(peak) = self.peak.map(in_g).filter(|peak| *peak <= right) {
-            let look = Look::Dashed;
-            series.push(Series { look, ..Series::stroke(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
+            series.push(Series::dashed("the motion above", 5, vec![(peak, 0.0), (peak, 1.0)]));
         }
-        let size = [self.width.clamp(280.0, 700.0), 280.0];
-        let x = Axis::over("peak ground acceleration (g)", [0.0, right]);
-        Plot::new(size, [x, Axis::over("probability", [0.0, 1.02])], series)
+        let (x, y) = (("peak ground acceleration (g)", [0.0, right]), ("probability", [0.0, 1.02]));
+        let title = "Probability over peak ground acceleration: lognormal fit, and one dot for each motion";
+        Plot::titled(title, x, y, series)
     }
 }
 

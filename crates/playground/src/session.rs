@@ -104,7 +104,7 @@ impl Session {
     fn start_fragility(&mut self, inputs: &Inputs) -> Result<Value, Faults> {
         let Prepared { scene, .. } = prepare(inputs, &mut self.upload)?;
         let peak = scene.excitation.as_ref().map(|excitation| excitation.bottom().peak());
-        let fragility = Fragility::new(scene.parameters, inputs.width, peak);
+        let fragility = Fragility::new(scene.parameters, peak);
         self.fragility = Some(fragility.map_err(|message| fault_of("fragility", message))?);
         Ok(Value::Null)
     }

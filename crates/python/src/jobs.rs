@@ -18,8 +18,8 @@ use study::calibration::{
 };
 use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
-    MOST_POINTS, PulseForm, QUANTITIES, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
-    over_pulses, over_walls,
+    MOST_POINTS, PulseForm, QUANTITIES, Quantity, RockingSpectrum, Size, Slenderness, SpectrumError,
+    common_motion, over_pulses, over_walls,
 };
 use study::tie::{self, AtLevel, Outcome, Row, TieError, TieStudy, at_level};
 
@@ -113,23 +113,12 @@ pub(crate) fn spectrum_over_walls<'py>(
     let motion = common_motion(&scene).map_err(of_scene)?;
     let size = if sizes.0 { Size::SemiDiagonal } else { Size::Height };
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
-    let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
-    check_count(columns.len(), rows.len())?;
-    let threads = threads_of(threads)?.get();
+    let (parameters, threads) = (&scene.parameters, threads_of(threads)?.get());
     let quantities = [size.quantity(), slenderness.quantity()];
-    let mut points = Vec::with_capacity(rows.len());
-    // between two rows this thread looks at Ctrl-C
-    for row in &rows {
-        let row = std::slice::from_ref(row);
-        let over = || over_walls(&scene.parameters, &motion, (size, &columns), (slenderness, row), threads);
-        points.extend(py.detach(over).map_err(of_spectrum)?.points);
-        py.check_signals()?;
-    }
-    values(py, RockingSpectrum { quantities, columns, rows, points })
+    computed(py, quantities, [&sizes.1, &slendernesses.1], threads, |columns, rows| {
+        over_walls(parameters, &motion, (size, columns), (slenderness, rows), threads)
+    })
 }
-
-/// Columns of pulses for each thread between two looks at Ctrl-C.
-const COLUMNS_AT_ONCE: usize = 2;
 
 /// Computes the dimensionless spectrum of pulses of one form.
 #[pyfunction]
@@ -142,26 +131,41 @@ pub(crate) fn spectrum_over_pulses<'py>(
     threads: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values<'py>> {
     let form = PulseForm::from_name(form).map_err(|message| refused(format!("form = {message}")))?;
-    let (columns, rows) = (samples(columns)?, samples(rows)?);
-    check_count(columns.len(), rows.len())?;
     let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());
-    let quantities = [QUANTITIES[4], QUANTITIES[5]];
+    computed(py, [QUANTITIES[4], QUANTITIES[5]], [columns, rows], threads, |columns, rows| {
+        over_pulses(parameters, form, columns, rows, threads)
+    })
+}
+
+/// Columns of a spectrum for each thread between two looks at Ctrl-C.
+const COLUMNS_AT_ONCE: usize = 2;
+
+/// Computes a spectrum column by column, along the values of its axes.
+fn computed<'py>(
+    py: Python<'py>,
+    quantities: [Quantity; 2],
+    axes: [&Bound<'py, PyAny>; 2],
+    threads: usize,
+    over: impl Fn(&[f64], &[f64]) -> Result<RockingSpectrum, SpectrumError> + Sync,
+) -> PyResult<Values<'py>> {
+    let (columns, rows) = (samples(axes[0])?, samples(axes[1])?);
+    match columns.len() * rows.len() {
+        0 => return Err(refused("a spectrum needs at least one value along each axis")),
+        found if found > MOST_POINTS => return Err(refused(SpectrumError::TooManyPoints { found })),
+        _ => {}
+    }
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
-        let over = || over_pulses(parameters, form, columns, &rows, threads);
-        let found = py.detach(over).map_err(of_spectrum)?.points;
+        let found = py.detach(|| over(columns, &rows)).map_err(of_spectrum)?.points;
         points.iter_mut().zip(found).for_each(|(row, found)| row.extend(found));
         py.check_signals()?;
     }
-    values(py, RockingSpectrum { quantities, columns, rows, points })
-}
-
-fn check_count(columns: usize, rows: usize) -> PyResult<()> {
-    let found = columns * rows;
-    if found == 0 {
-        return Err(refused("a spectrum needs at least one value along each axis"));
-    }
-    if found > MOST_POINTS { Err(refused(SpectrumError::TooManyPoints { found })) } else { Ok(()) }
+    let spectrum = RockingSpectrum { quantities, columns, rows, points };
+    let (title, table) = ("Rocking spectrum".to_owned(), table(py, spectrum.table())?);
+    let shown = Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None };
+    let [columns, rows] =
+        [&shown.spectrum.columns, &shown.spectrum.rows].map(|v| PyArray1::from_slice(py, v));
+    Ok((columns, rows, table, svg(&shown)))
 }
 
 fn of_spectrum(error: SpectrumError) -> PyErr {
@@ -169,14 +173,6 @@ fn of_spectrum(error: SpectrumError) -> PyErr {
         SpectrumError::Run { .. } => failed(error),
         _ => refused(error),
     }
-}
-
-fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
-    let (title, table) = ("Rocking spectrum".to_owned(), table(py, spectrum.table())?);
-    let shown = Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None };
-    let [columns, rows] =
-        [&shown.spectrum.columns, &shown.spectrum.rows].map(|v| PyArray1::from_slice(py, v));
-    Ok((columns, rows, table, svg(&shown)))
 }
 
 /// Runs for each thread between two looks at Ctrl-C.

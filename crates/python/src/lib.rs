@@ -11,7 +11,7 @@
 //! | `tables` | tables for Python |
 //! | `watch` | the number of threads, and work on another one while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
-//! | `variables` | the parameters of the model description, the schema of studies |
+//! | `variables` | the schemas of scenes and studies, what follows from parameters |
 //! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
 //! | `many` | runs of many walls through many records |
@@ -57,7 +57,7 @@ mod _native {
         },
         responses::picture_of_response,
         studies::Study,
-        variables::{calculated, study_schema, variables},
+        variables::{calculated, schemas},
         walls::Wall,
     };
     #[pymodule_export]

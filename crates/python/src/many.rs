@@ -1,17 +1,14 @@
 //! Runs of many walls through many records.
 
-use std::borrow::Cow;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::BTreeMap;
+use std::fmt::Display;
 
-use ground_motion::GroundMotion;
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
-use rocking_wall::scene::{SceneError, check_tail};
-use rocking_wall::solver::{Motion as Solved, SolverError};
-use rocking_wall::wall::Sides;
+use rocking_wall::scene::check_tail;
+use rocking_wall::solver::Motion as Solved;
 use run::parallel;
 use run::shaking::{Shaken, Shaking, felt, together};
 
@@ -21,18 +18,18 @@ use crate::walls::Wall;
 use crate::watch::{threads_of, watched};
 
 /// Most runs of a thread between two looks at Ctrl-C.
-const RUNS_AT_ONCE: usize = 256;
+const RUNS_AT_ONCE: usize = 1024;
 
 /// A wall as records find it.
-pub(crate) struct Prepared<'a> {
+struct Prepared<'a> {
     wall: &'a Wall,
-    pub(crate) motion: Solved,
+    motion: Solved,
     /// u and u̇ at the start of a record.
-    pub(crate) start: [f64; 2],
+    start: [f64; 2],
 }
 
 impl<'a> Prepared<'a> {
-    pub(crate) fn new(wall: &'a Wall) -> PyResult<Self> {
+    fn new(wall: &'a Wall) -> PyResult<Self> {
         let mut parameters = wall.scene.parameters.clone();
         parameters.u_start = wall.start.unwrap_or(0.0);
         let motion = Solved::of(&parameters, parameters.tolerance).map_err(refused)?;
@@ -40,40 +37,28 @@ impl<'a> Prepared<'a> {
         Ok(Self { wall, motion, start: [parameters.u_start, parameters.u_dot_start] })
     }
 
-    /// Returns the motion that the wall feels under a record: on storeys that of the floors, until the tail
-    /// ends.
-    pub(crate) fn felt<'r>(
-        &self,
-        record: &'r GroundMotion,
-        tail: f64,
-    ) -> Result<Cow<'r, GroundMotion>, SceneError> {
-        felt(self.wall.scene.floors.as_ref(), self.wall.equation.body(), record, tail)
-    }
-
     /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none).
-    pub(crate) fn peaks(&self, outcome: &Outcome) -> [f64; 3] {
-        let instability: Sides = self.wall.equation.body().instability;
+    fn peaks(&self, outcome: &Outcome) -> [f64; 3] {
+        let instability = self.wall.equation.body().instability;
         let [largest, ratio] = outcome.state.reported_peak(instability, outcome.overturning.is_some());
         [largest, ratio, outcome.overturning.unwrap_or(f64::NAN)]
     }
 }
 
-/// Checks the factors on a record.
-pub(crate) fn check_factor(record: &GroundMotion, factor: f64) -> PyResult<()> {
-    if (factor * record.peak()).is_finite() {
-        return Ok(());
-    }
-    Err(refused(format!("a factor is {factor}; give finite factors that keep the record finite")))
+/// A run: its number, those of its wall and of its record, and the factor.
+#[derive(Clone, Copy)]
+struct Numbered {
+    number: usize,
+    wall: usize,
+    record: usize,
+    factor: f64,
 }
 
-/// A run: the numbers of its wall and of its record, and the factor.
-type Numbered = (usize, usize, f64);
-
-/// Why a run has no peaks.
-enum Failure {
-    /// The motion of the floors could not be computed.
-    Floors(SceneError),
-    Run(SolverError),
+impl Numbered {
+    /// Names the run in an error.
+    fn named(self, error: impl Display) -> String {
+        format!("run {}, of factor {:?}: {error}", self.number, self.factor)
+    }
 }
 
 /// Runs walls through records, each run given by the numbers of both and a factor; returns `u_max`, its
@@ -92,82 +77,70 @@ pub(crate) fn simulate_many<'py>(
     check_tail(tail).map_err(of_scene)?;
     let (factors, threads) = (samples(factors)?, threads_of(threads)?.get());
     let walls = walls.iter().map(|wall| Prepared::new(wall.get())).collect::<PyResult<Vec<_>>>()?;
-    let records: Vec<_> = records.into_iter().map(|Motion(record)| record).collect();
-    let runs = wall_of.into_iter().zip(record_of).zip(factors);
-    let runs: Vec<Numbered> = runs.map(|((wall, record), factor)| (wall, record, factor)).collect();
-    runs.iter().try_for_each(|(_, record, factor)| check_factor(&records[*record], *factor))?;
+    let mut runs = Vec::with_capacity(factors.len());
+    for (number, ((wall, record), factor)) in wall_of.into_iter().zip(record_of).zip(factors).enumerate() {
+        if !(factor * records[record].0.peak()).is_finite() {
+            let remedy = "give finite factors that keep the record finite";
+            return Err(refused(format!("a factor is {factor}; {remedy}")));
+        }
+        runs.push(Numbered { number, wall, record, factor });
+    }
     // the runs of a wall and record beside each other, so that they are prepared once
-    let mut order: Vec<usize> = (0..runs.len()).collect();
-    order.sort_by_key(|&number| (runs[number].0, runs[number].1));
+    runs.sort_by_key(|run| (run.wall, run.record));
     let size = runs.len().div_ceil(threads).clamp(LANES, RUNS_AT_ONCE);
-    let groups: Vec<_> = order.chunks(size).collect();
+    let groups: Vec<_> = runs.chunks(size).collect();
     let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-        parallel::map(groups.len(), threads, |group| {
-            let numbers = groups[group];
-            let chosen: Vec<_> = numbers.iter().map(|&number| runs[number]).collect();
-            if !is_wanted() {
-                return Err(None);
-            }
-            let found = run_group(&walls, &records, &chosen, tail);
-            found.map_err(|(place, failure)| Some((numbers[place], failure)))
+        parallel::map(groups.len(), threads, |group| match is_wanted() {
+            true => run_group(&walls, &records, groups[group], tail),
+            false => Err(PyKeyboardInterrupt::new_err(())),
         })
     };
-    let found = watched(py, work, || Ok(()))?.map_err(|error| match error {
-        None => PyKeyboardInterrupt::new_err(()),
-        Some((number, failure)) => {
-            let run = format!("run {number}, of factor {:?}", runs[number].2);
-            match failure {
-                Failure::Floors(error) => refused(format!("{run}: {error}")),
-                Failure::Run(error) => failed(format!("{run}: {error}")),
-            }
-        }
-    })?;
+    let found = watched(py, work, || Ok(()))??;
     let mut peaks = vec![[f64::NAN; 3]; runs.len()];
-    for (number, found) in order.into_iter().zip(found.concat()) {
-        peaks[number] = found;
+    for (run, found) in runs.iter().zip(found.concat()) {
+        peaks[run.number] = found;
     }
     Ok([0, 1, 2].map(|part| PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks[part]))))
 }
 
-/// Runs some walls through some records together. A failure has the place of its run.
+/// Runs some walls through some records together; the runs of a wall and record are beside each other.
 fn run_group(
     walls: &[Prepared<'_>],
-    records: &[GroundMotion],
+    records: &[Motion],
     runs: &[Numbered],
     tail: f64,
-) -> Result<Vec<[f64; 3]>, (usize, Failure)> {
-    // the pairs of wall and record, and the walls with the steps of their records, in order of appearance
-    let (mut places, mut pairs) = (HashMap::new(), Vec::new());
-    for (number, &(wall, record, _)) in runs.iter().enumerate() {
-        if let Entry::Vacant(place) = places.entry((wall, record)) {
-            place.insert(pairs.len());
-            let felt = walls[wall].felt(&records[record], tail);
-            pairs.push((wall, felt.map_err(|error| (number, Failure::Floors(error)))?));
+) -> PyResult<Vec<[f64; 3]>> {
+    // what a wall feels under a record: on storeys the motion of the floors, until the tail ends
+    let (mut pairs, mut solvers) = (Vec::new(), BTreeMap::new());
+    for own in runs.chunk_by(|a, b| (a.wall, a.record) == (b.wall, b.record)) {
+        let (Prepared { wall, motion, .. }, record) = (&walls[own[0].wall], &records[own[0].record].0);
+        let felt = felt(wall.scene.floors.as_ref(), wall.equation.body(), record, tail);
+        let felt = felt.map_err(|error| refused(own[0].named(error)))?;
+        // walls share their solver between records of the same step
+        let key = (own[0].wall, felt.step().to_bits());
+        solvers.entry(key).or_insert_with(|| RecordSolver::new(motion, felt.step()));
+        pairs.push((own, felt, key));
+    }
+    let shakings = pairs.iter().map(|(own, felt, key)| {
+        let shaking = Shaking::new(&solvers[key], felt, tail);
+        if own.len() >= LANES {
+            shaking.prepare();
         }
-    }
-    let (mut of_step, mut solvers) = (HashMap::new(), Vec::new());
-    let mut of_pair = Vec::with_capacity(pairs.len());
-    for (wall, felt) in &pairs {
-        let place = *of_step.entry((*wall, felt.step().to_bits())).or_insert(solvers.len());
-        if place == solvers.len() {
-            solvers.push(RecordSolver::new(&walls[*wall].motion, felt.step()));
-        }
-        of_pair.push(place);
-    }
-    let mut shakings = Vec::with_capacity(pairs.len());
-    for ((_, felt), place) in pairs.iter().zip(of_pair) {
-        shakings.push(Shaking::new(&solvers[place], felt, tail));
-    }
-    let mut shaken = Vec::with_capacity(runs.len());
-    for &(wall, record, factor) in runs {
-        let shaking = &shakings[places[&(wall, record)]];
-        shaken.push(Shaken { shaking, start: walls[wall].start, factor });
-    }
-    let outcomes = together(&shaken, RunEnd::AtPeaks).into_iter().zip(runs).enumerate();
+        shaking
+    });
+    let shakings: Vec<_> = shakings.collect();
+    let own = pairs
+        .iter()
+        .zip(&shakings)
+        .flat_map(|((own, ..), shaking)| own.iter().map(move |run| (run, shaking)));
+    let start = |run: &Numbered| walls[run.wall].start;
+    let shaken: Vec<_> =
+        own.map(|(run, shaking)| Shaken { shaking, start: start(run), factor: run.factor }).collect();
+    let outcomes = together(&shaken, RunEnd::AtPeaks).into_iter().zip(runs);
     outcomes
-        .map(|(number, (outcome, (wall, ..)))| match outcome {
-            Ok(outcome) => Ok(walls[*wall].peaks(&outcome)),
-            Err(error) => Err((number, Failure::Run(error))),
+        .map(|(outcome, run)| {
+            let outcome = outcome.map_err(|error| failed(run.named(error)))?;
+            Ok(walls[run.wall].peaks(&outcome))
         })
         .collect()
 }

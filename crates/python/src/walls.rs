@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use check::Subject;
-use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use record::{RecordSolver, RunEnd};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
@@ -18,17 +16,12 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::Wall as Equation;
 use run::capacity::plot;
-use run::shaking::Shaking;
 use run::walls::{assumed, read_scene};
 use scene_fmu::General;
 
-use crate::arrays::{Motion, Numbers, samples};
-use crate::errors::{failed, of_file, of_scene, refused};
-use crate::many::{Prepared, check_factor};
+use crate::arrays::Motion;
+use crate::errors::{of_file, of_scene, refused};
 use crate::responses;
-
-/// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
-const RUNS_AT_ONCE: usize = 1024;
 
 /// A wall, valid since it was made.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -228,32 +221,6 @@ impl Wall {
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
         let more = of_floors.chain(of_motion.map(|warning| warning.to_string()));
         responses::values(py, &response, more)
-    }
-
-    /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none) under a
-    /// motion multiplied by each factor.
-    fn peaks<'py>(
-        &self,
-        py: Python<'py>,
-        record: Motion,
-        factors: &Bound<'py, PyAny>,
-        tail: f64,
-    ) -> PyResult<[Numbers<'py>; 3]> {
-        let (Motion(record), factors) = (record, samples(factors)?);
-        check_tail(tail).map_err(of_scene)?;
-        factors.iter().try_for_each(|factor| check_factor(&record, *factor))?;
-        let prepared = Prepared::new(self)?;
-        let felt = prepared.felt(&record, tail).map_err(of_scene)?;
-        let solver = RecordSolver::new(&prepared.motion, felt.step());
-        let shaking = Shaking::new(&solver, &felt, tail);
-        let mut outcomes = Vec::with_capacity(factors.len());
-        for factors in factors.chunks(RUNS_AT_ONCE) {
-            let runs = py.detach(|| shaking.runs(prepared.start, factors, RunEnd::AtPeaks));
-            outcomes.extend(runs.map_err(failed)?);
-            py.check_signals()?;
-        }
-        let peaks: Vec<_> = outcomes.iter().map(|outcome| prepared.peaks(outcome)).collect();
-        Ok([0, 1, 2].map(|part| PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks[part]))))
     }
 
     /// Writes the FMU of the scene, made from the general one at `base`; returns the number of its variables.

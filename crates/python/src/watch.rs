@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
@@ -27,17 +28,21 @@ pub(crate) fn watched<T: Send>(
 ) -> PyResult<T> {
     let asked_to_stop = AtomicBool::new(false);
     let is_wanted = || !asked_to_stop.load(Ordering::Relaxed);
-    let watcher = thread::current();
+    // closed when the work ends, by a panic too
+    let (sender, mut receiver) = mpsc::channel::<()>();
     let (outcome, watched) = thread::scope(|scope| {
+        let is_wanted = &is_wanted;
         let thread = thread::Builder::new().stack_size(STACK);
-        let work = thread.spawn_scoped(scope, || {
-            let outcome = work(&is_wanted);
-            watcher.unpark();
-            outcome
+        let work = thread.spawn_scoped(scope, move || {
+            let _closed = sender;
+            work(is_wanted)
         })?;
         let mut watched = Ok(());
-        while !work.is_finished() && watched.is_ok() {
-            py.detach(|| thread::park_timeout(LOOK));
+        while watched.is_ok() {
+            let receiver = &mut receiver;
+            if py.detach(move || receiver.recv_timeout(LOOK)) != Err(RecvTimeoutError::Timeout) {
+                break;
+            }
             watched = py.check_signals().and_then(|()| report());
         }
         asked_to_stop.store(watched.is_err(), Ordering::Relaxed);

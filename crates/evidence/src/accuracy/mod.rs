@@ -15,7 +15,6 @@
 //! ```
 
 pub mod figure;
-pub mod linearisation;
 pub mod page;
 mod problem;
 pub mod table;

@@ -8,8 +8,9 @@ use report::plot::{Picture, Plot};
 use report::{counted, escaped};
 
 use super::figure::{Point, SOLVERS, TOOLS, plot};
-use super::linearisation::{self, BothRotations};
 use super::{Measurement, WorkPrecision};
+use crate::reproduce::Figure;
+use crate::reproduce::page::drawn as section_of;
 
 /// Settings of each of [`SOLVERS`], in markup.
 const SETTINGS: [&str; 3] = [
@@ -30,8 +31,8 @@ amplifies a change of its motion. The points of <i>exact</i> are compared with t
 10<sup>−13</sup>. They divide the record's step by 1, 4 and 16; their error does not depend on the \
 step.</p>";
 
-/// Writes the page of problems, of small rotations and, if they are given, of other tools.
-pub fn page(studies: &[WorkPrecision], rotations: &[BothRotations], peers: Option<&Peers>) -> String {
+/// Writes the page of problems, of the figures of small rotations and, if they are given, of other tools.
+pub fn page(studies: &[WorkPrecision], rotations: &[Figure], peers: Option<&Peers>) -> String {
     let drawn = |study: &WorkPrecision| {
         let fate = match study.overturning {
             Some(time) => format!("overturns at {time:.3} s"),
@@ -56,19 +57,17 @@ pub fn page(studies: &[WorkPrecision], rotations: &[BothRotations], peers: Optio
             page.section("Beside other tools", &figures(key, peers.iter().map(drawn)))
         }
     };
-    page.section("What small rotations leave out", &linearisation::page::section(rotations)).html()
+    let rotations: String = rotations.iter().map(section_of).collect();
+    page.section("What small rotations leave out", &rotations).html()
 }
 
 /// A plot with its caption, which is markup.
-pub(super) fn figure(caption: &str, plot: &Plot) -> String {
+fn figure(caption: &str, plot: &Plot) -> String {
     format!("<figure><figcaption>{caption}</figcaption>{}</figure>\n", plot.svg())
 }
 
 /// Figures under a key: signs and words, which are markup.
-pub(super) fn figures(
-    key: impl IntoIterator<Item = (String, String)>,
-    figures: impl Iterator<Item = String>,
-) -> String {
+fn figures(key: impl IntoIterator<Item = (String, String)>, figures: impl Iterator<Item = String>) -> String {
     let key: Vec<_> = key.into_iter().map(|(sign, words)| sign + &words).collect();
     let (key, figures) = (key.join("</span>\n<span>"), figures.collect::<String>());
     format!("<p class=\"key\"><span>{key}</span></p>\n<main class=\"figures\">\n{figures}</main>")

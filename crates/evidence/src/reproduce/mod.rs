@@ -8,7 +8,7 @@
 //! | `figure` | figures as data |
 //! | `formulas` | Tables 1 and 2 |
 //! | [`tables`] | Tables 3, 4 and 5 |
-//! | `rotations` | Figures 2 and 3: full rotations |
+//! | [`rotations`] | Figures 2 and 3: full rotations |
 //! | `closed_forms` | Figures 4 and 13: closed forms |
 //! | `free_vibrations` | Figures 5, 6 and 7: free vibrations |
 //! | `section_5` | Figures 8 to 12: calibration |
@@ -28,7 +28,7 @@ mod free_vibrations;
 mod harmonic;
 pub mod page;
 pub mod printed;
-mod rotations;
+pub mod rotations;
 mod section_5;
 pub mod tables;
 
@@ -92,9 +92,10 @@ pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Repr
         section_5.equations(),
         free_vibrations::captions(threads)?,
     ];
+    let [figure_2, figure_3] = rotations::figures(&rotations::Rotations::of_both()?)?;
     let mut figures = vec![
-        rotations::free_vibrations()?,
-        rotations::periods()?,
+        figure_2,
+        figure_3,
         closed_forms::figure_4()?,
         free_vibrations::figure_5()?,
         free_vibrations::figure_6()?,

@@ -79,7 +79,8 @@ fn notes(notes: &str) -> String {
     notes.lines().map(|note| ["<p>", &escaped(note), "</p>\n"].concat()).collect()
 }
 
-fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {
+/// Draws a figure with its notes.
+pub(crate) fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {
     // two or four panels are laid out in rows of two
     let width = if matches!(charts.len(), 2 | 4) { " style=\"max-width: 900px\"" } else { "" };
     let charts: String = charts.iter().map(Plot::figure).collect();

@@ -3,7 +3,8 @@
 use crate::{Comparison, EvidenceError};
 
 use super::released::Released;
-use crate::accuracy::{linearisation::largest_difference, refined};
+use crate::accuracy::refined;
+use crate::reproduce::rotations::largest_difference;
 use record::{Forcing, RecordSolver, RunEnd, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};

@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::{Spanned, Value};
+use toml::Spanned;
 
-use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml, read_text};
+use rocking_wall::scene::{
+    Group, Place, SceneError, apply_group, check_limits, parse_toml, read_text, variable,
+};
 use rocking_wall::wall::Parameters;
 
 use super::decay::Decay;
@@ -45,24 +47,8 @@ struct Document {
     source: String,
     points: PathBuf,
     geometry: Group,
-    push: Option<Spanned<PushTable>>,
-    decay: Option<Spanned<DecayTable>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PushTable {
-    a1: Spanned<Value>,
-    d1: Spanned<Value>,
-    fit_from: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DecayTable {
-    a1: Spanned<Value>,
-    start: f64,
-    restitution: Option<f64>,
+    push: Option<Spanned<Push>>,
+    decay: Option<Spanned<Decay>>,
 }
 
 impl Case {
@@ -78,49 +64,45 @@ impl Case {
         apply_group(&mut parameters, "geometry", &document.geometry, place)?;
         let points_path = path.with_file_name(&document.points);
         let points = points(&points_path)?;
-        let test = match (document.push, document.decay) {
-            (Some(table), None) => {
-                let PushTable { a1, d1, fit_from } = table.get_ref();
-                let Parameters { a1, d1, .. } = law([("a1", a1), ("d1", d1)], place)?;
-                if points.iter().filter(|[displacement, _]| displacement >= fit_from).count() < 2 {
-                    let message = format!("fit_from = {fit_from}: fewer than two points from there on");
-                    return Err(place.error(table.span(), message));
-                }
-                Test::Push(Push { points, a1, d1, fit_from: *fit_from })
-            }
-            (None, Some(table)) => {
-                let DecayTable { a1, start, restitution } = table.get_ref();
-                let Parameters { a1, .. } = law([("a1", a1)], place)?;
-                let peaks = points.iter().filter(|[time, d]| time >= start && *d != 0.0);
-                if peaks.count() < 2 {
-                    let message = format!("start = {start} s: fewer than two peaks from there on");
-                    return Err(place.error(table.span(), message));
-                }
-                if let Some(e) = restitution.filter(|e| !(*e > 0.0 && *e <= 1.0)) {
-                    let message = format!("restitution = {e} must be above 0 and at most 1");
-                    return Err(place.error(table.span(), message));
-                }
-                Test::Decay(Decay { points, start: *start, a1, restitution: *restitution })
-            }
+        let (span, test) = match (document.push, document.decay) {
+            (Some(table), None) => (table.span(), Test::Push(Push { points, ..table.into_inner() })),
+            (None, Some(table)) => (table.span(), Test::Decay(Decay { points, ..table.into_inner() })),
             _ => {
                 let reason = "expected one table, [push] or [decay]".to_owned();
                 return Err(SceneError::File { file: name, reason });
             }
         };
+        test.check().map_err(|message| place.error(span, message))?;
         let inputs = [path.to_owned(), points_path];
         Ok(Self { title: document.title, source: document.source, parameters, test, inputs })
     }
 }
 
-/// Reads parameters of the force law, within the limits of the model description.
-fn law<const N: usize>(
-    entries: [(&str, &Spanned<Value>); N],
-    place: &Place<'_>,
-) -> Result<Parameters, SceneError> {
-    let entries = entries.map(|(name, value)| (Spanned::new(value.span(), name.to_owned()), value.clone()));
-    let mut parameters = Parameters::default();
-    apply_group(&mut parameters, "force_law", &entries.into(), place)?;
-    Ok(parameters)
+impl Test {
+    /// Checks the numbers of a test: those of the force law by the limits of the model description.
+    fn check(&self) -> Result<(), String> {
+        let within = |name, value| variable(name).map_or(Ok(()), |known| check_limits(known, value));
+        match self {
+            Self::Push(Push { points, a1, d1, fit_from }) => {
+                within("a1", *a1)?;
+                within("d1", *d1)?;
+                let count = points.iter().filter(|[displacement, _]| displacement >= fit_from).count();
+                if count < 2 {
+                    return Err(format!("fit_from = {fit_from}: fewer than two points from there on"));
+                }
+            }
+            Self::Decay(Decay { points, start, a1, restitution }) => {
+                within("a1", *a1)?;
+                if points.iter().filter(|[time, d]| time >= start && *d != 0.0).count() < 2 {
+                    return Err(format!("start = {start} s: fewer than two peaks from there on"));
+                }
+                if let Some(e) = restitution.filter(|e| !(*e > 0.0 && *e <= 1.0)) {
+                    return Err(format!("restitution = {e} must be above 0 and at most 1"));
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 fn text(path: &Path) -> Result<String, SceneError> {

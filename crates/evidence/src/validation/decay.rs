@@ -4,6 +4,7 @@ use rocking_wall::solver::{Memo, Motion, State};
 use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use run::model::{RATIO_MODELS, label};
+use serde::Deserialize;
 
 use super::Difference;
 use crate::EvidenceError;
@@ -21,9 +22,11 @@ const MOST_STEPS: usize = 20_000;
 const HALVINGS: u32 = 50;
 
 /// A free decay.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Decay {
     /// Time \[s\], and displacement over thickness of a peak \[-\]; 0 at a passage of the vertical.
+    #[serde(skip)]
     pub points: Vec<[f64; 2]>,
     /// Time of the peak from which the model is released \[s\].
     pub start: f64,

@@ -2,6 +2,7 @@
 
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Wall};
+use serde::Deserialize;
 
 use super::Difference;
 use crate::EvidenceError;
@@ -10,9 +11,11 @@ use crate::EvidenceError;
 const A3_STEP: f64 = 0.001;
 
 /// A push at the mid-height of a parapet or at the hinge of a strip.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Push {
     /// Displacement over thickness, and force over weight \[-\].
+    #[serde(skip)]
     pub points: Vec<[f64; 2]>,
     /// a₁ of the trilinear laws \[-\].
     pub a1: f64,

@@ -270,7 +270,7 @@ function fragility() {
     at("fragility_fault").textContent = Object.values(faults).join(" ");
     at("fragility_fault").hidden = Object.keys(faults).length === 0;
   };
-  const { faults } = ask({ fragility: inputs(Math.min(700, at("controls").parentElement.clientWidth)) });
+  const { faults } = ask({ fragility: inputs(0) });
   if (faults) { end(faults); return; }
   at("progress").hidden = false;
   at("progress").value = 0;
@@ -281,15 +281,8 @@ function fragility() {
     at("progress").value = answer.done;
     if (answer.result === null) { setTimeout(next); return; }
     end({});
-    const cell = textContent => make("td", { textContent });
-    at("states").replaceChildren(...answer.result.states.map(state => {
-      const name = cell(""), mark = make("i", { className: "chip" });
-      mark.style.background = state.color;
-      name.append(mark, state.name);
-      const interval = state.interval.join(" to ");
-      return make("tr", {}, name, cell(state.median), cell(interval), cell(state.dispersion));
-    }));
-    at("fragility_chart").innerHTML = answer.result.svg;
+    at("states").innerHTML = answer.result.table;
+    at("fragility_chart").innerHTML = answer.result.figure;
     at("fragility_result").hidden = false;
     fragilityOf = toml;
     tellAge();

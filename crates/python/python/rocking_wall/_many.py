@@ -27,8 +27,8 @@ def simulate_many(
 
     Walls, records and factors are broadcast as numpy does, and the results have the shape that comes out:
     three sequences of one length give that many runs. Runs go side by side on all cores, whatever their
-    walls, records and factors. Each has the peaks of `Wall.peaks`, which takes less processor time, on one
-    core, for many factors of one wall and record. Ctrl-C stops the work.
+    walls, records and factors. Each has the peaks of `Wall.peaks`, which works on one core. Ctrl-C stops the
+    work.
 
     :param walls: A wall, a list of walls, nested lists (`[[wall] for wall in walls]` is a column), or an
         array of objects.

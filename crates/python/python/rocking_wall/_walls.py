@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
+from inspect import getdoc
 from os import PathLike, fspath
 from typing import Any, Literal, NoReturn, Unpack
 from warnings import warn
@@ -218,8 +219,11 @@ class Wall(Given):
         >>> peaks.overturned
         array([False, False,  True])
         """
-        u_max, u_ratio_max, overturn_time = self._native.peaks(motion_of(record), factors, tail)
-        return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
+        of_runs = [0] * np.size(factors)
+        found = _native.simulate_many(
+            [self._native], [motion_of(record)], of_runs, of_runs, factors, tail, 1
+        )
+        return Peaks(np.array(factors, dtype=np.float64), *found)
 
     def check(
         self,
@@ -466,27 +470,6 @@ def package(
         return wall._native.package(fspath(path), fspath(general))
 
 
-def parameter_lines() -> str:
-    """Lists all parameters with their units, limits and defaults."""
-    lines = []
-    for group in dict.fromkeys(variable["group"] for variable in _native.variables()):
-        lines.append(f"\n{group.replace('_', ' ').capitalize()}:\n")
-        for variable in _native.variables():
-            if variable["group"] == group:
-                unit = f" [{variable['unit']}]" if variable["unit"] else ""
-                choices = ", ".join(variable["choices"])
-                limits = f"one of {choices}; " if choices else ""
-                told = f"{variable['description']}; {limits}default {variable['default']}"
-                lines.append(f"- {variable['name']}{unit}: {told}")
-    return "\n".join(lines)
-
-
-def calculated_lines() -> str:
-    """Lists what follows from the parameters, with units."""
-    units = ((name, told, f" [{unit}]" if unit else "") for name, told, unit in _native.calculated())
-    return "\n".join(f"- {name}{unit}: {told}" for name, told, unit in units)
-
-
 Wall.__doc__ = f"""A wall: a parapet, or a vertical spanning strip.
 
 Parameters are given by their names, height and thickness also by their places: `Wall(3, 0.25)`. What is not
@@ -498,14 +481,10 @@ given has its default. A wall that exists is valid and never changes; its parame
 >>> Wall(height=3, thickness=0.25, damping_model="none", impact="restitution")
 Wall(mechanism='parapet', height=3.0, thickness=0.25, force_law='bilinear', damping_model='none', \
 impact='restitution', ...)
-{parameter_lines()}
 
-What follows from them can be read:
+{getdoc(Parameters)}
 
-{calculated_lines()}
-
-Two parameters are those of scenes only: `kinematics` {{linear, trigonometric}}, and `points`
-[[u/u_ins, F/F0], ...] of `force_law="multilinear"`. A bar and its anchor stand for `tie_stiffness`,
-`tie_strength` and `tie_ultimate`: `bar_diameter`, `bar_length`, `bar_yield_stress`, and if they are known
-`bar_young_modulus`, `bar_ultimate_strain`, `bar_anchor_capacity` and `bar_spacing`.
+What follows from them, such as `u_ins`, can be read, too. `kinematics`, `points` of `force_law="multilinear"`
+and the bar of a tie are those of scenes only. A bar and its anchor stand for `tie_stiffness`, `tie_strength`
+and `tie_ultimate`.
 """

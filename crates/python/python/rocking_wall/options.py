@@ -326,12 +326,12 @@ class Levels(TypedDict, total=False):
 class Model(TypedDict, total=False):
     """A model.
 
-    - c_bar: Damping constant of a free-standing block; -1: computed from restitution (Eq. 23); where
-      damping_model = free_standing_block [1], at least -1, at most 100; default -1.0.
+    - c_bar: Damping constant of a free-standing block; -1: computed from restitution (Eq. 23), at least -1,
+      at most 100; where damping_model = free_standing_block; default -1.0.
     - name: Name in tables; by default that of the model.
-    - xi: Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22); where
-      damping_model = constant_coefficient, constant_ratio or stiffness_proportional [1], at least -1, at most
-      10; default -1.0.
+    - xi: Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22), at least
+      -1, at most 10; where damping_model = constant_coefficient, constant_ratio or stiffness_proportional;
+      default -1.0.
     """
 
     c_bar: float

@@ -1,7 +1,6 @@
 //! `wall check`: walls against a building code.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use check::{
@@ -14,7 +13,7 @@ use run::parallel;
 use run::walls::read_walls;
 
 use crate::args::{SceneArguments, apply_set, refuse};
-use crate::output::{Console, written};
+use crate::output::{Console, progress, written};
 
 #[derive(Debug, Args)]
 #[command(mut_arg("scene", |scene| scene.help("Scene, or file of walls, with a table [check] (TOML)")))]
@@ -94,8 +93,15 @@ fn one(
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
-        let found = find(code, subject, sought, &mut progress(console, code.takes_runs()))
-            .map_err(|error| file.located(error))?;
+        let is_long = code.takes_runs();
+        let found = progress::shown(|progress| {
+            find(code, subject, sought, &mut |_, of| {
+                if is_long {
+                    progress.add(of as usize)
+                }
+            })
+        });
+        let found = found.map_err(|error| file.located(error))?;
         console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
         if arguments.json {
             return console.json(&found.json());
@@ -123,19 +129,6 @@ fn project(arguments: &Arguments, file: &CheckFile<'_>) -> Result<ReportTable> {
     report.date = arguments.date.clone().or(report.date);
     report.language = arguments.lang.unwrap_or(report.language);
     Ok(report)
-}
-
-/// Tells every ten seconds how far a search with runs is, and what is left.
-fn progress<'a>(console: &'a Console<'_>, takes_runs: bool) -> impl FnMut(u32, u32) + 'a {
-    let (begin, mut told) = (Instant::now(), 0.0);
-    move |done, of| {
-        let passed = begin.elapsed().as_secs_f64();
-        if takes_runs && passed >= told + 10.0 {
-            told = passed;
-            let left = passed * f64::from(of - done) / f64::from(done);
-            console.report(&format!("{done} of {of} values tried, about {left:.0} s are left"));
-        }
-    }
 }
 
 /// Checks the walls of a file.

@@ -1,6 +1,5 @@
 //! Refuses an output that would overwrite an input or another output.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
@@ -8,33 +7,16 @@ use run::file::{behind_links, folder};
 
 use super::Console;
 
-/// What identifies a file, whatever path leads to it: its device and number, or else its canonical path. A
-/// file that does not exist yet is identified by its folder and its name.
-type Identity = (FileKey, Option<OsString>);
-
-#[cfg(unix)]
-type FileKey = (u64, u64);
-#[cfg(not(unix))]
-type FileKey = PathBuf;
-
-#[cfg(unix)]
-fn key(path: &Path) -> Option<FileKey> {
-    use std::os::unix::fs::MetadataExt;
-    std::fs::metadata(path).ok().map(|metadata| (metadata.dev(), metadata.ino()))
-}
-
-#[cfg(not(unix))]
-fn key(path: &Path) -> Option<FileKey> {
-    path.canonicalize().ok()
-}
-
-/// Returns nothing for pipes and devices, which any number of outputs may share.
-fn identity(path: &Path) -> Option<Identity> {
-    if let Ok(metadata) = std::fs::metadata(path) {
-        return if metadata.is_file() { Some((key(path)?, None)) } else { None };
+/// Returns the path behind all links that identifies a file, which need not exist; nothing for pipes and devices,
+/// which any number of outputs may share.
+fn identity(path: &Path) -> Option<PathBuf> {
+    match std::fs::metadata(path) {
+        Ok(metadata) => metadata.is_file().then(|| path.canonicalize().ok())?,
+        Err(_) => {
+            let path = behind_links(path);
+            Some(folder(&path).canonicalize().ok()?.join(path.file_name()?))
+        }
     }
-    let path = behind_links(path);
-    Some((key(folder(&path))?, path.file_name().map(OsString::from)))
 }
 
 /// Name of the output that goes to standard output.

@@ -27,17 +27,15 @@ fn an_output_is_no_input_and_no_other_output() {
     write("shaken.toml", "[motion]\nrecord = \"r.csv\"\nunit = \"g\"\n");
     let checked = crate::root().join("scenes/checked_parapet.toml");
     fs::copy(checked, folder.join("checked.toml")).unwrap();
-    fs::hard_link(folder.join("r.csv"), folder.join("same.csv")).unwrap();
     let record = ["--record", "r.csv", "--unit", "g"];
     let pdf = ["no output is a PDF", "ends in .html", "from a browser"];
-    let cases: [(&[&str], &[&str]); 10] = [
+    let cases: [(&[&str], &[&str]); 9] = [
         (&["check", "checked.toml", "--report", "a.pdf"], &pdf),
         (&["simulate", "s.toml", "--html", "a.PDF"], &pdf),
         (&["simulate", "s.toml", "--csv", "s.toml"], &["s.toml", "the input s.toml"]),
         (&["simulate", "s.toml", "--csv", "x", "--html", "./x"], &["./x", "the output x"]),
         (&["simulate", "shaken.toml", "--csv", "r.csv"], &["the input", "r.csv"]),
         (&[&["simulate", "--html", "r.csv"], &record[..]].concat(), &["the input r.csv"]),
-        (&["record", "r.csv", "--unit", "g", "--samples", "same.csv"], &["same.csv", "the input r.csv"]),
         (&["describe", "s.toml", "--csv", "y.svg", "--plot", "y.svg"], &["the output y.svg"]),
         (&["record", "r.csv", "--unit", "g", "--csv", "r.csv"], &["the input r.csv"]),
         (&["package", "s.toml", "-o", "s.toml", "--base", "b.fmu"], &["the input s.toml"]),
@@ -169,15 +167,6 @@ fn messages_are_short() {
     fs::write(folder.join("pulse.toml"), pulse).unwrap();
     let summary = printed(&folder, &["simulate", "pulse.toml"]);
     assert!(summary.split(|c: char| !c.is_ascii_digit()).all(|digits| digits.len() < 8), "{summary}");
-    for (arguments, number) in [
-        (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
-        (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
-        (["simulate", "--stop-time", "1e300"], "--stop-time = 1e300 s"),
-        (["simulate", "--thresholds", "1e22"], "1e22 is not"),
-        (["simulate", "--set", "xi=10.000000000000002"], "limit 10"),
-    ] {
-        refused(&folder, &arguments, &[number]);
-    }
 }
 
 #[test]

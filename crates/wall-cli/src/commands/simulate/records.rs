@@ -44,7 +44,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         // peaks and times come from the motion itself, not from samples
         scene.output_step = scene.stop_time;
         let response = Response::of(&scene).with_context(|| name.clone())?;
-        progress.add(runs, 1);
+        progress.add(runs);
         anyhow::Ok(Row { name: name.clone(), sign, peak_acceleration, summary: response.summary })
     };
     let threads = parallel::threads(None).get();

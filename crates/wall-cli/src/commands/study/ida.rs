@@ -4,13 +4,12 @@
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use report::counted;
-use report::table::{Column, Digits, Table};
 use run::parallel;
 use study::folder::{Folder, Report};
 use study::ida::Study;
@@ -19,8 +18,6 @@ use study::reliability::{self, Reliability};
 
 use crate::output::progress::{self, Progress};
 use crate::output::{self, Console};
-
-use super::processor;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -137,7 +134,7 @@ fn analyse(
     let Some(reliability) = reliability else { return Ok(()) };
     let walls = folder.contents().walls.len();
     let report = progress::shown(|progress| {
-        reliability::finish(&folder, &reliability, threads, || progress.add(walls, 0))
+        reliability::finish(&folder, &reliability, threads, || progress.add(walls))
     })?;
     told_of(console, &report)
 }
@@ -176,15 +173,7 @@ fn tell_of_resuming() -> Result<()> {
     .context("Ctrl-C")
 }
 
-/// Time spent on one model, and the work done in it.
-#[derive(Clone, Copy, Default)]
-struct Share {
-    seconds: f64,
-    runs: usize,
-    samples: f64,
-}
-
-/// Runs the missing parts, which hold `cases` combinations; returns the throughput of each model.
+/// Runs the missing parts, which hold `cases` combinations; says how many runs took how long.
 fn compute(
     study: &Study,
     folder: &Folder,
@@ -195,41 +184,22 @@ fn compute(
     if missing.is_empty() {
         return Ok(String::new());
     }
-    let shares = Mutex::new(vec![Share::default(); study.models().len()]);
-    let start = Instant::now();
-    processor::begin();
+    let (start, runs) = (Instant::now(), AtomicUsize::new(0));
     progress::shown(|progress| {
-        study::folder::compute(study, folder, missing, threads, |case, curve| {
-            let seconds = processor::since_last();
-            let runs = curve.runs().len();
-            if let Ok(mut shares) = shares.lock() {
-                let share = &mut shares[case.model];
-                share.seconds += seconds;
-                share.runs += runs;
-                share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
-            }
-            progress.add(cases, runs);
+        study::folder::compute(study, folder, missing, threads, |_, curve| {
+            runs.fetch_add(curve.runs().len(), Ordering::Relaxed);
+            progress.add(cases);
             ControlFlow::Continue(())
         })
     })?;
-    let shares = shares.into_inner().unwrap_or_default();
-    let runs: usize = shares.iter().map(|share| share.runs).sum();
-    let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
-    let rows = study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0);
-    let each = |(_, share): &(&_, &Share)| 1e9 * share.seconds / share.samples;
-    let table = Table::over(rows)
-        .text("", "model", |(model, _)| model.name.clone())
-        .column(Column::count("", "runs"), |(_, share)| share.runs)
-        .number("", "runs/s a core", Digits::Decimals(0), |(_, share)| share.runs as f64 / share.seconds)
-        .number("", "ns a sample and run", Digits::Decimals(1), each)
-        .done();
-    Ok(format!("{runs} in {seconds:.1} s on {}\n{}", counted(threads, "thread"), table.text()))
+    let (runs, seconds) = (counted(runs.into_inner(), "run"), start.elapsed().as_secs_f64());
+    Ok(format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread")))
 }
 
 /// Makes the final results of a folder whose parts are complete.
 fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> {
     let walls = folder.contents().walls.len();
-    let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls, 0));
+    let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls));
     let report = progress::shown(finished)?;
     told_of(console, &report)
 }

@@ -2,7 +2,6 @@
 
 mod calibrate;
 mod ida;
-mod processor;
 mod spectrum;
 mod tie;
 

@@ -82,10 +82,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
-        (Some(form), None, None) => pulses(console, arguments, &scene.parameters, form, threads)?,
-        (Some(form), Some(frequency), Some(amplitude)) => {
+        (Some(pulse), None, None) => pulses(console, arguments, &scene.parameters, &pulse, threads)?,
+        (Some((form, words)), Some(frequency), Some(amplitude)) => {
             let motion = form.motion(frequency)?.checked_scaled(amplitude)?;
-            let note = format!("{} of {amplitude} m/s² at {frequency} Hz", words(form));
+            let note = format!("{words} of {amplitude} m/s² at {frequency} Hz");
             walls(arguments, &scene.parameters, &motion, vec![note], threads)?
         }
         _ => {
@@ -104,7 +104,7 @@ fn pulses(
     console: &Console<'_>,
     arguments: &Arguments,
     parameters: &Parameters,
-    form: PulseForm,
+    (form, words): &(PulseForm, String),
     threads: usize,
 ) -> Result<Shown> {
     let Arguments { heights, radii, ratios, angles, .. } = arguments;
@@ -119,8 +119,8 @@ fn pulses(
     let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     Ok(Shown {
-        spectrum: over_pulses(parameters, form, &columns, &rows, threads)?,
-        title: format!("Rocking spectrum of a {}", words(form)),
+        spectrum: over_pulses(parameters, *form, &columns, &rows, threads)?,
+        title: format!("Rocking spectrum of a {words}"),
         notes: vec![format!(
             "{} of {} m × {} m, p = {:.4} rad/s, a₀ = {:.4} m/s²",
             parameters.mechanism.name().replace('_', " "),
@@ -184,19 +184,10 @@ fn motion(
     Ok((common_motion(&scene)?, scene.motion_notes))
 }
 
-fn form(name: &str) -> Result<PulseForm> {
-    PulseForm::from_name(name).map_err(|message| anyhow!("--pulse: {message}"))
-}
-
-fn words(form: PulseForm) -> &'static str {
-    match form {
-        PulseForm::Ricker => "Ricker pulse",
-        PulseForm::SineCycle => "sine cycle",
-        PulseForm::HalfSine => "half sine",
-        PulseForm::Rectangle => "rectangle",
-        PulseForm::Triangle => "triangle",
-        PulseForm::FallingTriangle => "falling triangle",
-    }
+/// The form of a pulse, and its name in words.
+fn form(name: &str) -> Result<(PulseForm, String)> {
+    let form = PulseForm::from_name(name).map_err(|message| anyhow!("--pulse: {message}"))?;
+    Ok((form, name.replace('_', " ").replace("ricker", "Ricker pulse")))
 }
 
 /// Evenly spaced values of `FROM:TO:COUNT`.

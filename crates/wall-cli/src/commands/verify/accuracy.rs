@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use evidence::accuracy::linearisation::{both_rotations, page as rotations_page};
 use evidence::accuracy::page::{Peers, page, picture, read_peers};
 use evidence::accuracy::table::{table, text};
 use evidence::accuracy::{Problem, defaults, measure};
+use evidence::reproduce::rotations::{self, Rotations};
 use rocking_wall::scene::Scene;
 
 use crate::args::RecordArguments;
@@ -74,15 +74,16 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         console.print(&text(&study))?;
         studies.push(study);
     }
-    let rotations = both_rotations()?;
+    let both = Rotations::of_both()?;
     // its walls are not those of the scenes given
     if arguments.scenes.is_empty() || arguments.linearisation.is_some() {
-        console.print(&rotations_page::text(&rotations))?;
+        console.print(&rotations::text(&both))?;
     }
     console.save(arguments.csv.as_ref(), || table(&studies).csv())?;
-    console.save(arguments.linearisation.as_ref(), || rotations_page::table(&rotations).csv())?;
+    console.save(arguments.linearisation.as_ref(), || rotations::table(&both).csv())?;
     console.picture(arguments.plot.as_ref(), || Ok(picture(&studies, peers.as_ref())))?;
-    console.save(arguments.html.as_ref(), || page(&studies, &rotations, peers.as_ref()))
+    let figures = rotations::figures(&both)?;
+    console.save(arguments.html.as_ref(), || page(&studies, &figures, peers.as_ref()))
 }
 
 fn peers(path: &Path) -> Result<Peers> {

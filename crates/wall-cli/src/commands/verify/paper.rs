@@ -33,10 +33,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let records =
         arguments.records.as_deref().map(|folder| records(console, folder, &arguments.output)).transpose()?;
     let threads = threads(arguments.threads);
-    let reproduction = progress::shown(|progress| reproduce(threads, |all| progress.add(all, 0)))?;
+    let reproduction = progress::shown(|progress| reproduce(threads, |all| progress.add(all)))?;
     console.print(&summary(&reproduction))?;
     let collapses = records
-        .map(|records| progress::shown(|progress| figure_15(records, threads, |all| progress.add(all, 0))));
+        .map(|records| progress::shown(|progress| figure_15(records, threads, |all| progress.add(all))));
     let collapses = collapses.transpose()?;
     if let Some(collapses) = &collapses {
         console.print(&format!("{MEDIANS}\n{}", collapses.table.text()))?;
