@@ -29,10 +29,6 @@ use crate::file::CheckFile;
 use crate::find::Sought;
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
-use crate::{circolare, fractions};
-
-/// The codes. A new one is a module and a line here.
-pub const CODES: [Entry; 2] = [circolare::ENTRY, fractions::ENTRY];
 
 /// A code among the others.
 #[derive(Clone, Copy, Debug)]
