@@ -129,7 +129,7 @@ pub trait Code: fmt::Debug + Send + Sync {
 pub struct Subject<'a> {
     /// Its parameters.
     pub parameters: &'a Parameters,
-    /// Storeys between ground and wall.
+    /// Storeys between ground and wall; a code that does not apply them warns of that.
     pub floors: Option<&'a Floors>,
     /// Parameters that decide, and that nobody stated: see [`CheckFile::assumed`].
     pub assumed: &'a [&'static str],
