@@ -8,19 +8,64 @@ use super::force_law::{Line, RestoringForce};
 use super::mechanism::Body;
 use super::parameters::{COMPUTED, Parameters, given};
 
-impl DampingModel {
-    /// Returns the name of the parameter with the model's ratio: `xi`, `c_bar`, or none without damping.
-    pub fn ratio_name(self) -> Option<&'static str> {
+/// A ratio that damping models take: the parameter of its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ratio {
+    /// ξ, or ξ₁, on the elastic branch \[-\].
+    Xi,
+    /// c̄ of a free-standing block \[-\].
+    CBar,
+}
+
+impl Ratio {
+    /// Every variant.
+    pub const ALL: [Self; 2] = [Self::Xi, Self::CBar];
+
+    /// Returns the name of the parameter.
+    pub fn name(self) -> &'static str {
         match self {
-            Self::None => None,
-            Self::FreeStandingBlock => Some("c_bar"),
-            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => Some("xi"),
+            Self::Xi => "xi",
+            Self::CBar => "c_bar",
         }
     }
 
-    /// Returns whether the model's ratio ξ refers to the elastic branch. A wall must then have one.
+    /// Returns the parameter: a number from 0 on, or [`COMPUTED`].
+    pub fn of(self, parameters: &Parameters) -> f64 {
+        match self {
+            Self::Xi => parameters.xi,
+            Self::CBar => parameters.c_bar,
+        }
+    }
+
+    fn of_mut(self, parameters: &mut Parameters) -> &mut f64 {
+        match self {
+            Self::Xi => &mut parameters.xi,
+            Self::CBar => &mut parameters.c_bar,
+        }
+    }
+}
+
+impl DampingModel {
+    /// Returns the model's ratio; none without damping.
+    pub fn ratio(self) -> Option<Ratio> {
+        match self {
+            Self::None => None,
+            Self::FreeStandingBlock => Some(Ratio::CBar),
+            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => Some(Ratio::Xi),
+        }
+    }
+
+    /// Returns the name of the parameter with the model's ratio: `xi`, `c_bar`, or none without damping.
+    pub fn ratio_name(self) -> Option<&'static str> {
+        self.ratio().map(Ratio::name)
+    }
+
+    /// Returns whether the model refers to the elastic branch. A wall must then have one.
     pub fn needs_elastic_branch(self) -> bool {
-        self.ratio_name() == Some("xi")
+        match self {
+            Self::None | Self::FreeStandingBlock => false,
+            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => true,
+        }
     }
 
     /// Returns the ratio \[-\] that a₁ and e predict, Eqs. (20)–(23): ξ, ξ₁ or c̄; 0 without damping.
@@ -75,10 +120,11 @@ impl Damping {
         Ok(Self { model, ratio: given(model.ratio_name().unwrap_or_default(), ratio)? })
     }
 
-    /// Checks the numbers of both ratios, and returns the damping that the parameters ask for.
+    /// Checks the numbers of all ratios, and returns the damping that the parameters ask for.
     pub(super) fn of(parameters: &Parameters) -> Result<Self, ParameterError> {
-        given("xi", parameters.xi)?;
-        given("c_bar", parameters.c_bar)?;
+        for ratio in Ratio::ALL {
+            given(ratio.name(), ratio.of(parameters))?;
+        }
         Ok(parameters.damping())
     }
 
@@ -95,17 +141,23 @@ impl Parameters {
     /// [`Wall::new`]: super::Wall::new
     pub fn damping(&self) -> Damping {
         let model = self.damping_model;
-        let number = if model.ratio_name() == Some("c_bar") { self.c_bar } else { self.xi };
-        Damping { model, ratio: model.ratio_name().map(|_| number).filter(|number| *number >= 0.0) }
+        Damping { model, ratio: model.ratio().map(|ratio| ratio.of(self)).filter(|number| *number >= 0.0) }
     }
 
-    /// Sets the damping model and its ratio, `xi` or `c_bar`. The parameter that the model does not use is
-    /// set to [`COMPUTED`].
+    /// Sets the damping model and its ratio. Ratios that the model does not use are set to [`COMPUTED`].
     pub fn set_damping(&mut self, Damping { model, ratio }: Damping) {
-        let [xi, c_bar] = ["xi", "c_bar"].map(|name| ratio.filter(|_| model.ratio_name() == Some(name)));
+        self.leave_out_ratios();
         self.damping_model = model;
-        self.xi = xi.unwrap_or(COMPUTED);
-        self.c_bar = c_bar.unwrap_or(COMPUTED);
+        if let (Some(own), Some(number)) = (model.ratio(), ratio) {
+            *own.of_mut(self) = number;
+        }
+    }
+
+    /// Sets every ratio to [`COMPUTED`].
+    pub fn leave_out_ratios(&mut self) {
+        for ratio in Ratio::ALL {
+            *ratio.of_mut(self) = COMPUTED;
+        }
     }
 }
 
@@ -234,6 +286,8 @@ impl<const N: usize> DampingSeries<N> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DampingLaw {
     pub(super) asked: Damping,
+    /// The model's own ratio in use \[-\]; 0 where there is none.
+    pub(super) own_ratio: f64,
     /// ξ in use \[-\]: for a free-standing block its equivalent at ω₁, and 0 where there is none.
     pub(super) ratio: f64,
     /// C/`m_eff` on the elastic branch \[1/s\].
@@ -283,7 +337,7 @@ impl DampingLaw {
                 (value, elastic, BranchDamping::SecantStiffness(factor))
             }
         };
-        Ok(Self { asked, ratio, elastic, rocking })
+        Ok(Self { asked, own_ratio: value, ratio, elastic, rocking })
     }
 
     /// Returns the damping on a branch: on the elastic branch, on another one before the force falls to zero,
