@@ -6,44 +6,8 @@ use super::equivalence;
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::Body;
-use super::parameters::{COMPUTED, Parameters, given};
-
-/// A ratio that damping models take: the parameter of its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ratio {
-    /// ξ, or ξ₁, on the elastic branch \[-\].
-    Xi,
-    /// c̄ of a free-standing block \[-\].
-    CBar,
-}
-
-impl Ratio {
-    /// Every variant.
-    pub const ALL: [Self; 2] = [Self::Xi, Self::CBar];
-
-    /// Returns the name of the parameter.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Xi => "xi",
-            Self::CBar => "c_bar",
-        }
-    }
-
-    /// Returns the parameter: a number from 0 on, or [`COMPUTED`].
-    pub fn of(self, parameters: &Parameters) -> f64 {
-        match self {
-            Self::Xi => parameters.xi,
-            Self::CBar => parameters.c_bar,
-        }
-    }
-
-    fn of_mut(self, parameters: &mut Parameters) -> &mut f64 {
-        match self {
-            Self::Xi => &mut parameters.xi,
-            Self::CBar => &mut parameters.c_bar,
-        }
-    }
-}
+use super::parameters::{Parameters, given};
+use super::ratio::Ratio;
 
 impl DampingModel {
     /// Returns the model's ratio; none without damping.
@@ -112,7 +76,8 @@ impl Damping {
         Self { model, ratio: Some(ratio) }
     }
 
-    /// Makes the damping of a model from its ratio as a parameter states it: 0 or more, or [`COMPUTED`].
+    /// Makes the damping of a model from its ratio as a parameter states it: 0 or more, or
+    /// [`COMPUTED`](super::COMPUTED).
     ///
     /// # Errors
     /// [`ParameterError::NotGiven`] for another negative number.
@@ -136,7 +101,7 @@ impl Damping {
 
 impl Parameters {
     /// Returns the damping that the parameters ask for. A negative ratio counts as not given; [`Wall::new`]
-    /// refuses negative ratios other than [`COMPUTED`].
+    /// refuses negative ratios other than [`COMPUTED`](super::COMPUTED).
     ///
     /// [`Wall::new`]: super::Wall::new
     pub fn damping(&self) -> Damping {
@@ -144,19 +109,13 @@ impl Parameters {
         Damping { model, ratio: model.ratio().map(|ratio| ratio.of(self)).filter(|number| *number >= 0.0) }
     }
 
-    /// Sets the damping model and its ratio. Ratios that the model does not use are set to [`COMPUTED`].
+    /// Sets the damping model and its ratio. Ratios that the model does not use are set to
+    /// [`COMPUTED`](super::COMPUTED).
     pub fn set_damping(&mut self, Damping { model, ratio }: Damping) {
         self.leave_out_ratios();
         self.damping_model = model;
         if let (Some(own), Some(number)) = (model.ratio(), ratio) {
             *own.of_mut(self) = number;
-        }
-    }
-
-    /// Sets every ratio to [`COMPUTED`].
-    pub fn leave_out_ratios(&mut self) {
-        for ratio in Ratio::ALL {
-            *ratio.of_mut(self) = COMPUTED;
         }
     }
 }
@@ -169,6 +128,11 @@ impl Parameters {
 pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
+///
+/// A wall moves by the series that any law has, `DampingSeries`; in records its branches are left to the
+/// general search, which is right and slower. A law c(ω²) may have a fast series, a `Secant` of the solver.
+/// c is monotone on each branch: the record path takes its bound from both ends. Where c divides by u, the
+/// branch must not reach u = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BranchDamping {
     /// c is constant.
@@ -342,6 +306,10 @@ impl DampingLaw {
 
     /// Returns the damping on a branch: on the elastic branch, on another one before the force falls to zero,
     /// or beyond that (`is_beyond`).
+    ///
+    /// On the elastic branch ω = ω₁ and c is constant. Beyond u₃, c = 0 unless it is constant on all
+    /// branches. A law that does otherwise returns before these two rules. One that depends on |u| on the
+    /// elastic branch, too, keeps the corner at u = 0 in `lay_out_corners`.
     pub(super) fn on_branch(&self, is_elastic: bool, is_beyond: bool) -> BranchDamping {
         if is_elastic {
             BranchDamping::Constant(self.elastic)

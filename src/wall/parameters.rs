@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::bar::Bar;
-use super::damping::Ratio;
 use super::error::ParameterError;
 use super::mechanism::Sides;
+use super::ratio::Ratio;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
     Solver, TieSide, start_values,
