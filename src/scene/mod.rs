@@ -22,7 +22,7 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{BooleanVariable, Mechanism, RealVariable};
-use crate::wall::{Bar, COMPUTABLE, Kinematics, Parameters, usage};
+use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
@@ -307,7 +307,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let usages: Vec<_> = usage(&scene.parameters).collect();
     // leaves out a parameter at its start value that has no effect beside the others, or that is computed
     let is_left_out = |name: &str| {
-        let is_computed = COMPUTABLE.contains(&name);
+        let is_computed = is_computable(name);
         usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
     };
     let is_of_bar = scene.parameters.weaker_part().is_some();

@@ -6,21 +6,30 @@ use super::equivalence;
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
 use super::mechanism::Body;
-use super::parameters::{COMPUTED, Parameters, given};
+use super::parameters::{Parameters, given};
+use super::ratio::Ratio;
 
 impl DampingModel {
-    /// Returns the name of the parameter with the model's ratio: `xi`, `c_bar`, or none without damping.
-    pub fn ratio_name(self) -> Option<&'static str> {
+    /// Returns the model's ratio; none without damping.
+    pub fn ratio(self) -> Option<Ratio> {
         match self {
             Self::None => None,
-            Self::FreeStandingBlock => Some("c_bar"),
-            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => Some("xi"),
+            Self::FreeStandingBlock => Some(Ratio::CBar),
+            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => Some(Ratio::Xi),
         }
     }
 
-    /// Returns whether the model's ratio ξ refers to the elastic branch. A wall must then have one.
+    /// Returns the name of the parameter with the model's ratio: `xi`, `c_bar`, or none without damping.
+    pub fn ratio_name(self) -> Option<&'static str> {
+        self.ratio().map(Ratio::name)
+    }
+
+    /// Returns whether the model refers to the elastic branch. A wall must then have one.
     pub fn needs_elastic_branch(self) -> bool {
-        self.ratio_name() == Some("xi")
+        match self {
+            Self::None | Self::FreeStandingBlock => false,
+            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => true,
+        }
     }
 
     /// Returns the ratio \[-\] that a₁ and e predict, Eqs. (20)–(23): ξ, ξ₁ or c̄; 0 without damping.
@@ -67,7 +76,8 @@ impl Damping {
         Self { model, ratio: Some(ratio) }
     }
 
-    /// Makes the damping of a model from its ratio as a parameter states it: 0 or more, or [`COMPUTED`].
+    /// Makes the damping of a model from its ratio as a parameter states it: 0 or more, or
+    /// [`COMPUTED`](super::COMPUTED).
     ///
     /// # Errors
     /// [`ParameterError::NotGiven`] for another negative number.
@@ -75,10 +85,11 @@ impl Damping {
         Ok(Self { model, ratio: given(model.ratio_name().unwrap_or_default(), ratio)? })
     }
 
-    /// Checks the numbers of both ratios, and returns the damping that the parameters ask for.
+    /// Checks the numbers of all ratios, and returns the damping that the parameters ask for.
     pub(super) fn of(parameters: &Parameters) -> Result<Self, ParameterError> {
-        given("xi", parameters.xi)?;
-        given("c_bar", parameters.c_bar)?;
+        for ratio in Ratio::ALL {
+            given(ratio.name(), ratio.of(parameters))?;
+        }
         Ok(parameters.damping())
     }
 
@@ -90,22 +101,22 @@ impl Damping {
 
 impl Parameters {
     /// Returns the damping that the parameters ask for. A negative ratio counts as not given; [`Wall::new`]
-    /// refuses negative ratios other than [`COMPUTED`].
+    /// refuses negative ratios other than [`COMPUTED`](super::COMPUTED).
     ///
     /// [`Wall::new`]: super::Wall::new
     pub fn damping(&self) -> Damping {
         let model = self.damping_model;
-        let number = if model.ratio_name() == Some("c_bar") { self.c_bar } else { self.xi };
-        Damping { model, ratio: model.ratio_name().map(|_| number).filter(|number| *number >= 0.0) }
+        Damping { model, ratio: model.ratio().map(|ratio| ratio.of(self)).filter(|number| *number >= 0.0) }
     }
 
-    /// Sets the damping model and its ratio, `xi` or `c_bar`. The parameter that the model does not use is
-    /// set to [`COMPUTED`].
+    /// Sets the damping model and its ratio. Ratios that the model does not use are set to
+    /// [`COMPUTED`](super::COMPUTED).
     pub fn set_damping(&mut self, Damping { model, ratio }: Damping) {
-        let [xi, c_bar] = ["xi", "c_bar"].map(|name| ratio.filter(|_| model.ratio_name() == Some(name)));
+        self.leave_out_ratios();
         self.damping_model = model;
-        self.xi = xi.unwrap_or(COMPUTED);
-        self.c_bar = c_bar.unwrap_or(COMPUTED);
+        if let (Some(own), Some(number)) = (model.ratio(), ratio) {
+            *own.of_mut(self) = number;
+        }
     }
 }
 
@@ -117,6 +128,11 @@ impl Parameters {
 pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
+///
+/// A wall moves by the series that any law has, `DampingSeries`; in records its branches are left to the
+/// general search, which is right and slower. A law c(ω²) may have a fast series, a `Secant` of the solver.
+/// c is monotone on each branch: the record path takes its bound from both ends. Where c divides by u, the
+/// branch must not reach u = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BranchDamping {
     /// c is constant.
@@ -234,6 +250,8 @@ impl<const N: usize> DampingSeries<N> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DampingLaw {
     pub(super) asked: Damping,
+    /// The model's own ratio in use \[-\]; 0 where there is none.
+    pub(super) own_ratio: f64,
     /// ξ in use \[-\]: for a free-standing block its equivalent at ω₁, and 0 where there is none.
     pub(super) ratio: f64,
     /// C/`m_eff` on the elastic branch \[1/s\].
@@ -288,11 +306,15 @@ impl DampingLaw {
                 (value, elastic, BranchDamping::SecantStiffness(factor))
             }
         };
-        Ok(Self { asked, ratio, elastic, rocking })
+        Ok(Self { asked, own_ratio: value, ratio, elastic, rocking })
     }
 
     /// Returns the damping on a branch: on the elastic branch, on another one before the force falls to zero,
     /// or beyond that (`is_beyond`).
+    ///
+    /// On the elastic branch ω = ω₁ and c is constant. Beyond u₃, c = 0 unless it is constant on all
+    /// branches. A law that does otherwise returns before these two rules. One that depends on |u| on the
+    /// elastic branch, too, keeps the corner at u = 0 in `lay_out_corners`.
     pub(super) fn on_branch(&self, is_elastic: bool, is_beyond: bool) -> BranchDamping {
         if is_elastic {
             BranchDamping::Constant(self.elastic)

@@ -259,6 +259,12 @@ impl Wall {
         self.statics.force.omega1(self.statics.body.effective_mass)
     }
 
+    /// The damping in use: the model with its own ratio \[-\], given or computed.
+    pub fn damping(&self) -> Damping {
+        let DampingLaw { asked: Damping { model, .. }, own_ratio, .. } = self.damping;
+        Damping { model, ratio: model.ratio().map(|_| own_ratio) }
+    }
+
     /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.
     pub fn damping_ratio(&self) -> f64 {
         self.damping.ratio

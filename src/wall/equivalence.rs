@@ -62,13 +62,14 @@ mod tests {
     #[test]
     fn damping_of_a_restitution_is_that_of_its_equation() {
         let e = (-1.0_f64).exp();
-        for (model, coefficient, power) in [
-            (DampingModel::None, 0.0, 0.0),
-            (DampingModel::ConstantCoefficient, 0.667, 0.450),
-            (DampingModel::FreeStandingBlock, 1.55, 0.0),
-            (DampingModel::ConstantRatio, 0.350, 0.074),
-            (DampingModel::StiffnessProportional, 0.218, -0.195),
-        ] {
+        for &model in DampingModel::ALL {
+            let (coefficient, power) = match model {
+                DampingModel::None => (0.0, 0.0),
+                DampingModel::ConstantCoefficient => (0.667, 0.450),
+                DampingModel::FreeStandingBlock => (1.55, 0.0),
+                DampingModel::ConstantRatio => (0.350, 0.074),
+                DampingModel::StiffnessProportional => (0.218, -0.195),
+            };
             for (a1, decades) in [(1.0, 0.0), (0.01, -2.0)] {
                 let expected = coefficient * (std::f64::consts::LN_10 * power * decades).exp();
                 let found = model.predicted_ratio(a1, e);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::bar::Bar;
 use super::error::ParameterError;
 use super::mechanism::Sides;
+use super::ratio::Ratio;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
     Solver, TieSide, start_values,
@@ -78,9 +79,12 @@ impl Default for Parameters {
     }
 }
 
-/// The parameters that are computed from the geometry where they are not given.
-pub const COMPUTABLE: [&str; 3] = ["xi", "c_bar", "restitution"];
-/// Their value that asks for the computed number.
+/// Returns whether a parameter is computed from the geometry where it is not given: e, and ratios of damping.
+pub fn is_computable(name: &str) -> bool {
+    name == "restitution" || Ratio::ALL.iter().any(|ratio| ratio.name() == name)
+}
+
+/// Value of such a parameter that asks for the computed number.
 pub const COMPUTED: f64 = -1.0;
 
 /// Returns the number that is given; `None` for one to be computed.

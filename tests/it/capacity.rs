@@ -114,7 +114,7 @@ fn corners_are_those_of_the_law() {
 /// The curve that is drawn goes through the corners on both sides.
 #[test]
 fn the_backbone_goes_through_the_corners() {
-    for model in [DampingModel::None, DampingModel::ConstantRatio] {
+    for &model in DampingModel::ALL {
         let parameters = Parameters { damping_model: model, overburden: 3000.0, ..Parameters::default() };
         let wall = made(&parameters);
         let points = wall.backbone();

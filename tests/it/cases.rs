@@ -154,6 +154,18 @@ macro_rules! cases {
     };
 }
 
+/// Whether the coefficient of a damping model is right, only a case of an independent program tells.
+#[test]
+fn every_damping_model_has_a_case() {
+    let files = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
+    let scenes = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    let models: Vec<_> = scenes.map(|path| Scene::read(&path).unwrap().parameters.damping_model).collect();
+    for model in DampingModel::ALL {
+        let name = model.name();
+        assert!(models.contains(model), "tests/data/cases: add one with {name}, by tests/data/restraints.py");
+    }
+}
+
 cases!(
     c01_elastic_free,
     c02_free_cdc,

@@ -131,6 +131,26 @@ fn times_are_shown_in_seconds() {
 }
 
 #[test]
+fn documents_name_every_choice() {
+    let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
+    let (list, manual) = (read("docs/variables.md"), read("docs/model.md"));
+    for variable in variables() {
+        let Kind::Enumeration { items, .. } = &variable.kind else { continue };
+        let (_, line) = list.split_once(&format!("`{}` {{", variable.name)).unwrap();
+        let line = line.split('}').next().unwrap();
+        for name in items.iter().map(|item| item.name) {
+            let is_listed =
+                line.split(|c: char| ",*".contains(c) || c.is_whitespace()).any(|own| own == name);
+            assert!(is_listed, "docs/variables.md: add {name} to {}", variable.name);
+        }
+    }
+    for model in DampingModel::ALL.iter().filter(|model| model.ratio().is_some()) {
+        let row = format!("\n| {}", model.name());
+        assert!(manual.contains(&row), "docs/model.md: add {} to the table of C(u)", model.name());
+    }
+}
+
+#[test]
 fn the_documentation_lists_every_variable_with_its_default() {
     for variable in variables() {
         let (name, row) = (variable.name, page::row(PAGE, variable));

@@ -9,7 +9,8 @@ use fmu_export::{Environment, Interface, Log, Model};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;
-use rocking_wall::wall::{Parameters, Support};
+use rocking_wall::variables::DampingModel;
+use rocking_wall::wall::{Parameters, Support, Wall};
 
 mod bars;
 mod broken;
@@ -46,6 +47,15 @@ mod yielding_unit;
 /// Returns the root of the workspace.
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Returns the damping models whose damping is not constant on each branch.
+fn secant_models() -> impl Iterator<Item = DampingModel> {
+    let is_secant = |damping_model: &DampingModel| {
+        let parameters = Parameters { damping_model: *damping_model, ..Parameters::default() };
+        !Wall::new(&parameters).expect("a valid wall").has_constant_damping()
+    };
+    DampingModel::ALL.iter().copied().filter(is_secant)
 }
 
 /// Returns a wall at its start, between supports that do not move.

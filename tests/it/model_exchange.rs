@@ -8,7 +8,7 @@ use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Rocking, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
 
-use crate::{instantiated, start};
+use crate::{instantiated, secant_models, start};
 
 /// A rigid parapet that starts at 0.02 m, with restitution 0.9.
 fn rigid() -> Parameters {
@@ -205,7 +205,7 @@ fn peaks_rise_with_completed_steps() {
 #[test]
 fn damping_goes_on_smoothly_beyond_a_branch() {
     let mut compared = 0;
-    for damping_model in [DampingModel::ConstantRatio, DampingModel::StiffnessProportional] {
+    for damping_model in secant_models() {
         for softening in [Softening::Parallel, Softening::Rotated] {
             let wall = Wall::new(&Parameters {
                 damping_model,
@@ -247,7 +247,8 @@ fn damping_goes_on_smoothly_beyond_a_branch() {
             }
         }
     }
-    assert_eq!(compared, 16);
+    // at least four branches of each softening
+    assert!(compared >= 8 * secant_models().count(), "{compared} branches");
 }
 
 #[track_caller]

@@ -25,7 +25,6 @@ pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
         let force_law = ForceLaw::ALL[usize::try_from(force_law).unwrap()];
         let model = DampingModel::ALL[model];
         let rigid = force_law == ForceLaw::RigidLinear;
-        let viscous = !matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
         let mechanism = if vertical { Mechanism::VerticalSpanning } else { Mechanism::Parapet };
         let thickness = h * slenderness * if vertical { hinge } else { 1.0 };
         Parameters {
@@ -45,7 +44,7 @@ pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
             a3,
             d1,
             softening: Softening::ALL[usize::try_from(softening).unwrap()],
-            damping_model: if rigid && viscous { DampingModel::None } else { model },
+            damping_model: if rigid && model.needs_elastic_branch() { DampingModel::None } else { model },
             xi,
             c_bar: xi,
             impact: if impact { Impact::Restitution } else { Impact::None },

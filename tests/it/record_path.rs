@@ -1,6 +1,7 @@
 //! Compares the record path with the path over segments, which the FMU uses.
 
 use proptest::prelude::*;
+use proptest::sample::select;
 use record::{Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::{Method, Motion, Segment};
@@ -9,6 +10,7 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 
 use crate::configuration::{configuration, mostly_of};
 use crate::properties::{motions, onset, walls};
+use crate::secant_models;
 
 /// A wall's motion and the start of a run under a forcing.
 fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, RunStart) {
@@ -59,12 +61,10 @@ proptest! {
     #[test]
     fn secant_damping_stays_within_the_tolerance(
         wall in walls(),
-        proportional in any::<bool>(),
+        damping_model in select(secant_models().collect::<Vec<_>>()),
         motion in motions(),
         exponent in -3.0_f64..0.3,
     ) {
-        let damping_model =
-            if proportional { DampingModel::StiffnessProportional } else { DampingModel::ConstantRatio };
         let force_law = match wall.force_law {
             ForceLaw::RigidLinear => ForceLaw::Bilinear,
             law => law,
@@ -284,10 +284,7 @@ fn moving() -> impl Strategy<Value = Parameters> {
     let points = proptest::collection::vec((0.02_f64..0.3, 0.05_f64..0.9), 2..5);
     (walls(), points, any::<bool>(), -0.95_f64..0.95, -1.0_f64..1.0).prop_map(
         |(mut parameters, points, multilinear, start, speed)| {
-            let secant = matches!(
-                parameters.damping_model,
-                DampingModel::ConstantRatio | DampingModel::StiffnessProportional
-            );
+            let secant = secant_models().any(|model| model == parameters.damping_model);
             if multilinear && !secant {
                 let mut corner = 0.0;
                 let mut corners: Vec<[f64; 2]> = Vec::new();

@@ -101,13 +101,11 @@ fn a_missing_motion_is_named() {
 /// The closed form needs damping that is constant on each branch.
 #[test]
 fn walls_without_a_closed_form_are_refused_by_the_exact_solver() {
-    for (damping_model, fits) in [
-        (DampingModel::None, true),
-        (DampingModel::ConstantCoefficient, true),
-        (DampingModel::FreeStandingBlock, true),
-        (DampingModel::ConstantRatio, false),
-        (DampingModel::StiffnessProportional, false),
-    ] {
+    for &damping_model in DampingModel::ALL {
+        let fits = match damping_model {
+            DampingModel::None | DampingModel::ConstantCoefficient | DampingModel::FreeStandingBlock => true,
+            DampingModel::ConstantRatio | DampingModel::StiffnessProportional => false,
+        };
         let wall = Parameters { solver: Solver::Exact, damping_model, ..Parameters::default() };
         let motion = Motion::of(&wall, 1e-8).map_err(|error| error.to_string());
         assert_eq!(motion.is_ok(), fits, "{damping_model:?}");

@@ -285,13 +285,15 @@ def test_a_calibration(program, tmp_path):
     program("study", "calibrate", *ARGUMENTS, *grid, "--csv", out)
     found = rw.Wall(**SET).calibrate(restitution=[0.85, 0.9], a1=[0.02, 0.04], start=[0.8, 0.9])
     assert_table(found.fits, out)
-    assert found.fits["samples"].dtype.kind == "i" and len(found.coefficients["x"]) == 3 * 2 * 2
+    models = len(set(found.fits["damping_model"].tolist()))
+    assert found.fits["samples"].dtype.kind == "i" and models >= 3
+    assert len(found.coefficients["x"]) == models * 2 * 2
     # two values of a1 lie on their law
     for model, start, q, r in zip(*found.laws.values()):
         for row in found.coefficients.rows():
             if (row["damping_model"], row["u0_over_u_ins"]) == (model, start):
                 assert row["x"] == pytest.approx(q * row["a1"] ** r, rel=1e-6)
-    assert found._repr_html_().count("<svg") == 3 + 2
+    assert found._repr_html_().count("<svg") == models + 2
 
 
 def test_a_calibration_of_a_law_with_its_own_a1():

@@ -29,10 +29,6 @@ use crate::file::CheckFile;
 use crate::find::Sought;
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
-use crate::{circolare, fractions};
-
-/// The codes. A new one is a module and a line here.
-pub const CODES: [Entry; 2] = [circolare::ENTRY, fractions::ENTRY];
 
 /// A code among the others.
 #[derive(Clone, Copy, Debug)]
@@ -133,7 +129,7 @@ pub trait Code: fmt::Debug + Send + Sync {
 pub struct Subject<'a> {
     /// Its parameters.
     pub parameters: &'a Parameters,
-    /// Storeys between ground and wall.
+    /// Storeys between ground and wall; a code that does not apply them warns of that.
     pub floors: Option<&'a Floors>,
     /// Parameters that decide, and that nobody stated: see [`CheckFile::assumed`].
     pub assumed: &'a [&'static str],

@@ -12,7 +12,8 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use crate::code::{CODES, Code};
+use crate::CODES;
+use crate::code::Code;
 use crate::error::CheckError;
 use crate::limits::fault;
 use crate::report::ReportTable;
@@ -24,7 +25,7 @@ const MAX_GRID_BYTES: u64 = 64 << 20;
 
 /// Says how to write a table `[check]`.
 pub fn how_to_write() -> String {
-    let names = CODES.map(|code| format!("{:?}", code.name)).join(" and ");
+    let names = CODES.map(|code| format!("{:?}", code.name)).join(", ");
     let example = CODES[0].example;
     format!("the codes are {names}; in one line above all tables: {example}")
 }

@@ -10,7 +10,8 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::code::{CODES, Code, Entry, Subject};
+use crate::CODES;
+use crate::code::{Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::{CheckFile, read};
 use crate::verdict::Verdict;

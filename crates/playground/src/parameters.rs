@@ -3,7 +3,7 @@
 use fmu_export::Kind;
 use report::number;
 use rocking_wall::scene::{GROUPS, Scene, parameter_text, variable};
-use rocking_wall::wall::{Bar, COMPUTABLE, Parameters, Wall, equivalence, usage};
+use rocking_wall::wall::{Bar, Damping, Parameters, Wall, is_computable, usage};
 use serde_json::{Value, json};
 
 use crate::request::Fields;
@@ -35,16 +35,16 @@ pub(crate) fn unused(fields: &Fields) -> Value {
 
 /// Returns the numbers that are computed where they are not given.
 pub(crate) fn computed(wall: &Wall) -> Value {
-    let e = wall.restitution();
-    let c_bar = if e > 0.0 { equivalence::free_standing_block(e) } else { 0.0 };
-    let [xi, c_bar, e] = [wall.damping_ratio(), c_bar, e].map(|value| number(value, 3));
-    json!({ "xi": xi, "c_bar": c_bar, "restitution": e })
+    let Damping { model, ratio } = wall.damping();
+    let ratio = model.ratio_name().zip(ratio);
+    let all = [("restitution", wall.restitution())].into_iter().chain(ratio);
+    all.map(|(name, value)| (name, number(value, 3))).collect()
 }
 
 fn described_one(name: &str) -> Value {
     let Some(variable) = variable(name) else { return Value::Null };
     let default = parameter_text(&Parameters::default(), name).unwrap_or_default();
-    let is_computable = COMPUTABLE.contains(&name);
+    let is_computable = is_computable(name);
     let choices: Vec<Value> = match variable.kind {
         Kind::Enumeration { items, .. } => {
             items.iter().map(|item| json!({ "name": item.name, "meaning": item.description })).collect()

@@ -4,14 +4,11 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Ratio};
 use run::walls::{NamedWall, assumed, wall_parameters};
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};
-
-/// Ratios of a wall object, which belong to the damping model of its own runs.
-const DAMPING: [&str; 2] = ["xi", "c_bar"];
 
 /// Makes the walls of a study, and warns of what the study does not use of them.
 pub(crate) fn named_walls(
@@ -53,8 +50,10 @@ fn unused_names(wall: &Wall) -> Vec<&'static str> {
         name => parameter_text(&wall.scene.parameters, name) != parameter_text(&default, name),
     };
     let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+    // ratios of a wall object belong to the damping model of its own runs
+    let is_ratio = |name: &str| Ratio::ALL.iter().any(|ratio| ratio.name() == name);
     let not_of_study =
-        names.filter(|name| DAMPING.contains(name) || wall_parameters().all(|of_study| of_study != *name));
+        names.filter(|name| is_ratio(name) || wall_parameters().all(|of_study| of_study != *name));
     let motion = wall.scene.excitation.is_some().then_some("the motion of its scene");
     not_of_study.filter(given).chain(motion).collect()
 }

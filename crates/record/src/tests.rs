@@ -282,12 +282,8 @@ fn what_does_not_suit_goes_one_by_one() {
 fn an_observed_run_is_the_same_run() {
     let samples = shaking();
     let forcing = Forcing::Samples(&samples);
-    for (model, impact) in [
-        (DampingModel::ConstantCoefficient, Impact::None),
-        (DampingModel::ConstantRatio, Impact::None),
-        (DampingModel::StiffnessProportional, Impact::None),
-        (DampingModel::None, Impact::Restitution),
-    ] {
+    for &model in DampingModel::ALL {
+        let impact = if model == DampingModel::None { Impact::Restitution } else { Impact::None };
         let motion = losing(0.018, model, impact);
         let solver = RecordSolver::new(&motion, 5e-3);
         for start in starts(&motion).into_iter().step_by(4) {

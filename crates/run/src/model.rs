@@ -9,7 +9,7 @@
 //! ```
 
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
-use rocking_wall::wall::{Damping, ParameterError, Parameters, Wall, Warning, equivalence};
+use rocking_wall::wall::{Damping, ParameterError, Parameters, Ratio, Wall, Warning, equivalence};
 
 /// How a damping model is called and shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +86,7 @@ impl EnergyLoss {
 
     /// Returns every energy loss with a name of its own: none, models, and models with the ratio of Eq. (14).
     pub fn all() -> impl Iterator<Item = Self> {
-        let of_equation_14 = damping_models().filter(|model| model.needs_elastic_branch());
+        let of_equation_14 = damping_models().filter(|model| model.ratio() == Some(Ratio::Xi));
         [Self::from(DampingModel::None)]
             .into_iter()
             .chain(Self::models())

@@ -3,15 +3,15 @@
 use rocking_wall::scene::{
     Document, Place, Scene, SceneError, apply_group, parse_toml, read_floors, to_toml,
 };
-use rocking_wall::wall::{COMPUTED, Parameters};
+use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
 use crate::walls::{NamedWall, WALL_GROUPS, is_of_models};
 
 /// Writes the parameters and storeys of a wall as tables of a study file.
 pub fn wall_text(wall: &NamedWall) -> String {
-    let Parameters { xi, c_bar, .. } = wall.parameters;
     // with a ratio of its own a scene leaves out e, which other models need
-    let parameters = Parameters { xi: COMPUTED, c_bar: COMPUTED, ..wall.parameters.clone() };
+    let mut parameters = wall.parameters.clone();
+    parameters.leave_out_ratios();
     let floors = wall.floors.clone();
     let text = to_toml(&Scene { parameters, floors, ..Scene::default() }, "");
     let mut is_wanted = false;
@@ -26,10 +26,9 @@ pub fn wall_text(wall: &NamedWall) -> String {
             kept.push_str(line);
             kept.push('\n');
             if line == "[damping]" {
-                for (name, ratio) in [("xi", xi), ("c_bar", c_bar)] {
-                    let stated = (ratio != COMPUTED).then(|| format!("{name} = {ratio:?}\n"));
-                    kept.extend(stated);
-                }
+                let numbers = Ratio::ALL.map(|ratio| (ratio.name(), ratio.of(&wall.parameters)));
+                let stated = numbers.into_iter().filter(|(_, number)| *number != COMPUTED);
+                kept.extend(stated.map(|(name, number)| format!("{name} = {number:?}\n")));
             }
         }
     }

@@ -7,7 +7,7 @@ use rocking_wall::scene::{
     parameters, parse_document, parse_toml, read_floors, suggestion,
 };
 use rocking_wall::tables;
-use rocking_wall::wall::{Bar, COMPUTED, Parameters};
+use rocking_wall::wall::{Bar, COMPUTED, Parameters, Ratio};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
@@ -86,7 +86,7 @@ impl NamedWall {
     /// Leaves out ξ and c̄ of a scene: they belong to the damping model of its own run.
     #[must_use]
     pub fn without_damping(mut self) -> Self {
-        (self.parameters.xi, self.parameters.c_bar) = (COMPUTED, COMPUTED);
+        self.parameters.leave_out_ratios();
         self
     }
 
@@ -360,8 +360,7 @@ pub fn walls(
                 let warning = "the study ignores the motion of its scene and uses its records";
                 ignored.push((name.clone(), warning));
             }
-            let Parameters { xi, c_bar, .. } = scene.parameters;
-            if xi != COMPUTED || c_bar != COMPUTED {
+            if Ratio::ALL.iter().any(|ratio| ratio.of(&scene.parameters) != COMPUTED) {
                 let warning = "the study ignores the damping of its scene and uses its models";
                 ignored.push((name.clone(), warning));
             }

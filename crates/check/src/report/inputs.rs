@@ -3,7 +3,7 @@
 use ::report::escaped;
 use rocking_wall::scene::{GROUPS, parameter_text, variable};
 use rocking_wall::variables::{Mechanism, TieSide};
-use rocking_wall::wall::{Bar, BarNumber, COMPUTABLE, Parameters, Wall, usage};
+use rocking_wall::wall::{Bar, BarNumber, Damping, Parameters, Wall, is_computable, usage};
 
 use super::markup::{formula, kilonewtons, shown, stated, table};
 use super::{Origin, drawing};
@@ -128,8 +128,8 @@ fn parameter(
     };
     let is_of_bar = parameters.weaker_part().is_some() && OF_BAR.contains(&name);
     let (value, from) = match number {
-        _ if COMPUTABLE.contains(&name) && text == "-1.0" => {
-            let value = computed_value(wall, parameters, name);
+        _ if is_computable(name) && text == "-1.0" => {
+            let value = computed_value(wall, name);
             (format!("<span class=\"value\">{value} {}</span>", unit.0), "computed")
         }
         Some(number) if is_of_bar => {
@@ -163,12 +163,12 @@ fn mechanism(mechanism: Mechanism) -> &'static str {
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.
-fn computed_value(wall: &Wall, parameters: &Parameters, name: &str) -> String {
-    match name {
-        "restitution" => stated(wall.restitution()),
-        _ if parameters.damping_model.ratio_name() == Some(name) => stated(wall.damping_ratio()),
-        _ => "–".to_owned(),
+fn computed_value(wall: &Wall, name: &str) -> String {
+    if name == "restitution" {
+        return stated(wall.restitution());
     }
+    let Damping { model, ratio } = wall.damping();
+    ratio.filter(|_| model.ratio_name() == Some(name)).map_or("–".to_owned(), stated)
 }
 
 #[cfg(test)]

@@ -11,26 +11,32 @@ fn source(name: &str) -> String {
 /// A module with an `ENTRY` is one of the codes.
 #[test]
 fn every_module_of_a_code_is_listed() {
-    let list = source("src/code.rs");
+    let list = source("src/lib.rs");
     for file in std::fs::read_dir(format!("{}/src", env!("CARGO_MANIFEST_DIR"))).unwrap() {
         let path = file.unwrap().path();
         let module = path.file_stem().unwrap().to_string_lossy().into_owned();
         let face = if path.is_dir() { path.join("mod.rs") } else { path };
         if std::fs::read_to_string(face).unwrap().contains("pub const ENTRY: Entry") {
-            assert!(list.contains(&format!("{module}::ENTRY")), "CODES lacks {module}::ENTRY");
+            assert!(list.contains(&format!("{module}::ENTRY")), "src/lib.rs: add {module}::ENTRY to CODES");
         }
     }
 }
 
-/// The manual names every code and its keys, as far as the example has them.
+/// The manual and the playground have every code and its keys, as far as the example has them.
 #[test]
-fn every_code_is_documented() {
+fn every_code_is_documented_and_offered() {
     let manual = source("../../docs/model.md");
+    let fields = source("../playground/src/page/fields.js");
     for code in CODES {
-        assert!(manual.contains(&format!("`\"{}\"`", code.name)), "docs/model.md lacks {:?}", code.name);
+        let (name, title) = (code.name, code.title);
+        assert!(manual.contains(&format!("`{name:?}`")), "docs/model.md: state the rule of {name:?}");
+        let choice = format!("{name:?}: {title:?}");
+        assert!(fields.contains(&choice), "fields.js: add {choice} to the names of the field `code`");
         let example: toml::Table = code.example.parse().unwrap();
         for key in example["check"].as_table().unwrap().keys() {
-            assert!(manual.contains(&format!("`{key}`")), "docs/model.md lacks `{key}` of {}", code.name);
+            assert!(manual.contains(&format!("`{key}`")), "docs/model.md: explain `{key}` of {name:?}");
+            let is_offered = [key, &format!("check.{key}")].map(|key| fields.contains(&format!("{key:?}")));
+            assert!(is_offered.contains(&true), "fields.js: add a field for `{key}` of {name:?}");
         }
     }
 }

@@ -283,3 +283,20 @@ fn a_wall_of_no_file_states_everything() {
     assert_eq!(width(None), "default", "the scene leaves it open");
     assert_eq!(width(Some(&NamedWall::new("one", scene.parameters.clone()))), "file");
 }
+
+/// A ratio that is computed stands in the unit of its parameter: c̄, not the ξ that is equivalent.
+#[test]
+fn a_computed_ratio_is_that_of_the_model() {
+    let text = format!(
+        "{PARAPET}[damping]\ndamping_model = \"free_standing_block\"\n[check]\ncode = \"fractions\"\n\
+         spectrum = [[0, 2], [4, 0.6]]\nunit = \"m/s2\"\n"
+    );
+    let scene = Scene::parse("one.toml", &text, ".".as_ref()).unwrap();
+    let e = rocking_wall::wall::Wall::new(&scene.parameters).unwrap().restitution();
+    let c_bar = rocking_wall::wall::equivalence::free_standing_block(e);
+    let report = report_of_one(&text);
+    let mut rows = report.split("free-standing block c_bar\n").skip(1);
+    let shown: f64 = rows.next().unwrap().split(' ').next().unwrap().parse().unwrap();
+    // six digits
+    assert!((shown / c_bar - 1.0).abs() < 5e-6, "{shown} for {c_bar}");
+}

@@ -22,7 +22,7 @@ pub use extreme::extremes;
 use released::Released;
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Ratio};
 
 use crate::EvidenceError;
 use run::model::damping_models;
@@ -87,7 +87,7 @@ pub struct Map {
 /// Solvers and damping models worth a map: `automatic` with each damping model, and the others where they
 /// differ.
 pub fn maps() -> Vec<(Solver, DampingModel)> {
-    let models = || damping_models().filter(|model| model.ratio_name() == Some("xi"));
+    let models = || damping_models().filter(|model| model.ratio() == Some(Ratio::Xi));
     let with = |solver: Solver| models().map(move |model| (solver, model));
     // the adaptive solver is the automatic one where damping varies on a branch
     let adaptive = (Solver::Adaptive, DampingModel::ConstantCoefficient);

@@ -51,3 +51,14 @@ fn cases_are_those_of_the_tests() {
     }
     assert_eq!(compared, 12);
 }
+
+/// The formulas have the coefficient of every damping model, and the ratio that e predicts.
+#[test]
+fn every_damping_model_is_verified() {
+    let formulas = include_str!("../../src/verification/formulas.toml");
+    for model in run::model::damping_models() {
+        let scenes = formulas.matches(&format!("damping_model = {:?}", model.name())).count();
+        let name = model.name();
+        assert!(scenes >= 2, "formulas.toml: add scenes damped_ and ratio_ of {name}, in references.py too");
+    }
+}

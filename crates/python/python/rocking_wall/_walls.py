@@ -234,16 +234,12 @@ class Wall(Given):
     ) -> Verdict:
         """Checks the wall by a code.
 
-        The arguments are the keys of the table `[check]` of a scene; docs/model.md has them for each code. A
-        wall on storeys stands in their building.
+        The arguments are the keys of the table `[check]` of a scene. `rocking_wall.options` lists them, with
+        a class for each code; docs/model.md explains them. A wall on storeys stands in their building.
 
         :param records: Records of the ground, for a dynamic check or as the demand.
-        :param code: "circolare-2019", or "fractions" for the capacity at fractions of the displacement at
-            which the force vanishes, against a spectrum or the median of the records.
-        :param statements: Of "circolare-2019" `SLV={"ag": ..., "F0": ..., "TC": ...}`, likewise `SLD` and
-            `SLC`, `before_activation`, `soil`, `building` and others; of "fractions"
-            `spectrum=[[T, Sa], ...]` with its `unit`, `damping`, `displacement_fraction` and
-            `secant_fraction`.
+        :param code: The code, as the key `code` has it.
+        :param statements: What that code needs: its other keys.
 
         Raises `ValueError` for what cannot be checked: a statement that is missing, unknown or outside its
         limits, a demand without the secant period, a parameter of the wall that decides and that nobody

@@ -11,6 +11,7 @@
 
 use crate::calibration::{Calibration, Coefficient, DampingModel, FREE_STANDING, Fit, REGRESSIONS};
 use report::plot::{Axis, Plot, Series};
+use rocking_wall::wall::Ratio;
 use run::model::{Label, label};
 
 /// Series that a plot holds without repeating a colour.
@@ -52,7 +53,10 @@ fn over_restitution(found: &Calibration) -> Plot {
         let points = fits.iter().map(|fit| (fit.restitution, fit.damping)).collect();
         series.push(Series::marks(&format!("a₁ = {a1}, u₀ = {start} u_ins"), color, points));
     }
-    let damping = Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c̄" });
+    let damping = Axis::new(match found.model.ratio() {
+        Some(Ratio::CBar) => "c̄",
+        Some(Ratio::Xi) | None => "damping ratio",
+    });
     Plot::titled(
         format!("{}: best fits and −x ln e", label(found.model).name),
         Axis::new("e"),

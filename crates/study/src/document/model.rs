@@ -7,11 +7,13 @@ use rocking_wall::scene::{
     Place, SceneError, Schema, check_limits, object, one_of, parameters, suggestion, text, with,
 };
 use rocking_wall::variables::RealVariable;
-use rocking_wall::wall::{COMPUTED, Damping};
+use rocking_wall::wall::{COMPUTED, Damping, Ratio};
 use run::model::{EnergyLoss, Model, damping_models, label};
 
-/// Keys of a model that is a table.
-const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];
+/// Returns the keys of a model that is a table.
+fn keys() -> impl Iterator<Item = &'static str> {
+    ["name", "model"].into_iter().chain(Ratio::ALL.map(Ratio::name))
+}
 
 /// Lists the short names, for messages.
 fn names() -> String {
@@ -30,9 +32,10 @@ pub(super) fn model_schema() -> Schema {
         ("name", text("Name in tables; by default that of the model.")),
         ("model", one_of(damping_models().map(|model| label(model).name))),
     ];
-    let mut keys: Schema = own.map(|(key, schema)| (key.to_owned(), schema.into())).into_iter().collect();
-    keys.extend(parameters("damping").into_iter().filter(|(key, _)| KEYS.contains(&key.as_str())));
-    let table = with(object(keys), "required", vec!["model"]);
+    let mut properties: Schema =
+        own.map(|(key, schema)| (key.to_owned(), schema.into())).into_iter().collect();
+    properties.extend(parameters("damping").into_iter().filter(|(key, _)| keys().any(|own| own == key)));
+    let table = with(object(properties), "required", vec!["model"]);
     let names: Vec<_> = EnergyLoss::all().map(EnergyLoss::name).collect();
     with(Schema::new(), "anyOf", vec![one_of(names.iter().map(String::as_str)), table])
 }
@@ -46,12 +49,9 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
     match value.get_ref() {
         Value::String(text) => named(text).map(Model::new),
         Value::Table(table) => {
-            if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
-                let meant = suggestion(key, KEYS);
-                return Err(refuse(format!(
-                    "unknown key {key:?} of a model{meant}; it holds {}",
-                    KEYS.join(", ")
-                )));
+            if let Some(key) = table.keys().find(|key| keys().all(|own| own != *key)) {
+                let (meant, all) = (suggestion(key, keys()), keys().collect::<Vec<_>>().join(", "));
+                return Err(refuse(format!("unknown key {key:?} of a model{meant}; it holds {all}")));
             }
             let text = |key: &str| table.get(key).and_then(Value::as_str);
             let short =
@@ -60,9 +60,8 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
                 return Err(refuse(no_table(short)));
             };
             let taken = model.ratio_name().ok_or_else(|| refuse(no_table(short)))?;
-            if let Some(other) =
-                ["xi", "c_bar"].iter().find(|key| **key != taken && table.contains_key(**key))
-            {
+            let mut others = Ratio::ALL.map(Ratio::name).into_iter().filter(|key| *key != taken);
+            if let Some(other) = others.find(|key| table.contains_key(*key)) {
                 return Err(refuse(format!("{short:?} takes no {other}; give {taken}, or leave it out")));
             }
             let number = match table.get(taken) {

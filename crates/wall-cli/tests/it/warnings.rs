@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rocking_wall::scene::GROUPS;
 use rocking_wall::variables::DampingModel;
-use rocking_wall::wall::{Parameters, Wall, usage};
+use rocking_wall::wall::{Parameters, Ratio, Wall, usage};
 
 use crate::command_line::{assert_has, content, fails, folder, json, printed, setting, succeed, text};
 
@@ -79,7 +79,7 @@ fn one_of<'a>(models: impl Iterator<Item = &'a DampingModel>) -> String {
 /// A parameter that is set counts, or is named in a warning with what would make it count.
 #[test]
 fn a_parameter_without_effect_is_warned_of() {
-    let with_xi = DampingModel::ALL.iter().filter(|model| model.needs_elastic_branch());
+    let with_xi = DampingModel::ALL.iter().filter(|model| model.ratio() == Some(Ratio::Xi));
     let is_curved = |model: &&DampingModel| {
         let parameters = Parameters { damping_model: **model, ..Parameters::default() };
         !Wall::new(&parameters).unwrap().has_constant_damping()
