@@ -193,7 +193,8 @@ fn write_scene(text: &mut String, rows: &[Row<'_>], with_peaks: bool) -> std::fm
     if let Some((opensees, batch)) = opensees.zip(batch) {
         writeln!(
             text,
-            "{OPENSEES} at the record's step takes {:.0} times a run of {OURS} exact in a batch of 64, {:.4} ms",
+            "{OPENSEES} at the record's step takes {:.0} times a run of {OURS} exact in a batch of 64, \
+             {:.4} ms",
             opensees.seconds / batch.seconds,
             batch.seconds * 1e3
         )?;

@@ -27,59 +27,42 @@ mod wheel;
 use std::process::ExitCode;
 
 const HELP: &str = "\
-The jobs of the project.
+The jobs of the project: cargo xtask JOB [OPTIONS]
 
-  cargo xtask fmu [--portable]     build the libraries, zip wall.fmu and floor.fmu into fmu_out/ (FMI 2.0) and
-                                   fmu_out/fmi3/ (FMI 3.0)
-                                   --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig
-                                   --platforms linux64,win64: for some of them
-  cargo xtask playground           write fmu_out/playground.html: one file that computes in the browser, with
-                                   the library as WebAssembly
-  cargo xtask wheel                build the Python package into target/wheels/release, with wall.fmu inside
-                                   --fmu FILE: with this wall.fmu
-                                   --portable: for Linux as old as glibc 2.17 and macOS, each with the FMU of
-                                   all platforms; --platforms as for fmu
-  cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
-                                   a record (UNIT if the file states none); write histories and pages
-                                   to fmu_out/
-  cargo xtask test                 run every test: Rust, the FMU through FMPy, the Python package, the C
-                                   interface against fmi-sys
-  cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
-                                   Windows library under wine
-  cargo xtask package              pack the crates as a registry gets them into target/package, and build each
-                                   from its archive
-  cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` and
-                                   wheels for each platform, the source distribution, components, notices,
-                                   checksums; and target/fmi-compatibility/; TAG is checked;
-                                   --platforms as for fmu, to compare a part
-  cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
-  cargo xtask generate [PART]      write what is derived: documents (their marked parts), python (the
-                                   parameters in the package); or one of these
-                                   --check: say what is stale instead
-  cargo xtask fuzz                 feed mutated inputs to five readers for a minute each, and call the FMI
-                                   functions 10^6 times at random, and 50,000 times under AddressSanitizer
-                                   (nightly)
-  cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
-                                   write docs/accuracy.md, docs/validation.md, docs/verification.md, the
-                                   pages, and the pictures of docs/images
-  cargo xtask figures --peers [RECORD.AT2]
-                                   only the other tools in docs/accuracy.md, and their picture
-  cargo xtask figures --images     only the pictures of README and docs
-  cargo xtask figures --reliability
-                                   only docs/reliability.md; under recorded motions too if
-                                   ROCKING_WALL_RECORDS names their folder
-  cargo xtask figures --validation only docs/validation.md and its pictures
-  cargo xtask figures --verification
-                                   only docs/verification.md
-  cargo xtask book                 build the book of docs/ with mdBook into target/book/book
-  cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
-                                   docs/coupling.md and fmu_out/coupling.csv
-  cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
-                                   valgrind is installed
-  cargo xtask bench --peers [RECORD.AT2]
-                                   measure error against run time beside OpenSeesPy, SciPy, numba, diffsol
-                                   and ode_solvers, under the first 30 s of a record or a synthetic
-                                   motion; write fmu_out/peers.csv
+  fmu         build the libraries, zip wall.fmu and floor.fmu into fmu_out/ (FMI 2.0) and fmu_out/fmi3/
+              --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig;
+              --platforms linux64,win64: for some of them
+  playground  write fmu_out/playground.html: one file that computes in the browser, by WebAssembly
+  wheel       build the Python package into target/wheels/release, with wall.fmu inside
+              --fmu FILE: with this wall.fmu; --portable: for Linux as old as glibc 2.17 and macOS, each with
+              the FMU of all platforms; --platforms as for fmu
+  demo        [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given, a record
+              (UNIT if the file states none); write histories and pages to fmu_out/
+  test        run every test: Rust, the FMU through FMPy, the Python package, the C interface against fmi-sys
+  portable    build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the Windows library
+              under wine
+  package     pack the crates as a registry gets them into target/package, and build each from its archive
+  release     [TAG] build the files of a release into target/release-files/: FMUs, `wall` and wheels for each
+              platform, the source distribution, components, notices, checksums; and
+              target/fmi-compatibility/; TAG is checked; --platforms as for fmu, to compare a part
+  workflows   check .github with zizmor, and with actionlint where it is installed
+  generate    [PART] write what is derived: documents (their marked parts), python (the parameters in the
+              package); or one of these; --check: say what is stale instead
+  fuzz        feed mutated inputs to five readers for a minute each, and call the FMI functions 10^6 times at
+              random, and 50,000 times under AddressSanitizer (nightly)
+  figures     [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests; write
+              docs/accuracy.md, docs/validation.md, docs/verification.md, docs/reliability.md (under recorded
+              motions too if ROCKING_WALL_RECORDS names their folder), the pages, and docs/images
+              --peers [RECORD.AT2]: only the other tools; or only --images, --reliability, --validation,
+              --verification
+  book        build the book of docs/ with mdBook into target/book/book
+  coupling    measure walls on floors: schemes, steps, run time; write docs/coupling.md and
+              fmu_out/coupling.csv
+  bench       [RECORD.AT2] measure the time per sample of each path, and count instructions where valgrind is
+              installed
+              --peers [RECORD.AT2]: measure error against run time beside OpenSeesPy, SciPy, numba, diffsol
+              and ode_solvers, under the first 30 s of a record or a synthetic motion; write
+              fmu_out/peers.csv
 ";
 
 fn main() -> ExitCode {

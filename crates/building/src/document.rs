@@ -218,8 +218,8 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>
         names.iter().map(String::as_str).chain([GROUND]).any(|other| other.eq_ignore_ascii_case(text));
     if !plain || taken || text.len() > LONGEST_NAME {
         let message = format!(
-            "name = {text:?}: use at most {LONGEST_NAME} letters, digits and _, a letter first, and not {GROUND:?} \
-             or a name that is taken, in small or capital letters"
+            "name = {text:?}: use at most {LONGEST_NAME} letters, digits and _, a letter first, and not \
+             {GROUND:?} or a name that is taken, in small or capital letters"
         );
         return Err(place.error(name.span(), message));
     }

@@ -86,7 +86,7 @@ impl Parts {
             let bytes = unit.to_bytes().map_err(|error| BuildingError::of_floor(&floor.name, error))?;
             archive.insert(fmu_path(&floor.name), bytes);
         }
-        archive.insert("SystemStructure.ssd", ssd::text(&self.system, step));
+        archive.insert("SystemStructure.ssd", ssd::text(building, &self.system, step));
         Ok(archive)
     }
 }

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
 
-use crate::wiring::{Component, Connection, System};
+use crate::document::{Building, fmu_path};
+use crate::wiring::{Connection, System};
 
 /// The name of description and system. Some importers want identifiers, so the title is the description.
 const NAME: &str = "building";
@@ -25,8 +26,8 @@ const UNITS: [(&str, &str); 9] = [
 
 /// The text of `SystemStructure.ssd`, with the communication step `step` \[s\]: that of `oms` is for
 /// `OMSimulator`, that of `osp` for libcosim.
-pub(crate) fn text(system: &System, step: f64) -> String {
-    let (version, title) = (env!("CARGO_PKG_VERSION"), escaped(&system.title));
+pub(crate) fn text(building: &Building, system: &System, step: f64) -> String {
+    let (version, title) = (env!("CARGO_PKG_VERSION"), escaped(&building.title));
     let ground = if system.expose_ground {
         connectors("    ", &[FloorVariable::AG.variable()])
     } else {
@@ -34,7 +35,7 @@ pub(crate) fn text(system: &System, step: f64) -> String {
     };
     let elements: String = system.components.iter().map(component).collect();
     let connections: String = system.described().map(|each| connection(system, each)).collect();
-    let (units, stop_time) = (units(system), system.stop_time);
+    let (units, stop_time) = (units(system), building.stop_time);
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <ssd:SystemStructureDescription version="1.0" name="{NAME}" generationTool="rocking-wall {version}"
@@ -73,7 +74,8 @@ pub(crate) fn text(system: &System, step: f64) -> String {
     )
 }
 
-fn component(Component { name, source, connectors: own }: &Component) -> String {
+fn component((name, own): &(String, Vec<&Variable>)) -> String {
+    let source = fmu_path(name);
     format!(
         "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\" source=\"{source}\" \
          implementation=\"CoSimulation\">\n{}      </ssd:Component>\n",
@@ -96,7 +98,7 @@ fn connectors(indent: &str, variables: &[&Variable]) -> String {
 }
 
 fn connection(system: &System, Connection { from, output, to, input }: &Connection) -> String {
-    let name = |index: usize| &system.components[index].name;
+    let name = |index: usize| &system.components[index].0;
     let start = from.map_or_else(String::new, |from| format!(" startElement=\"{}\"", name(from)));
     format!(
         "      <ssd:Connection{start} startConnector=\"{}\" endElement=\"{}\" \
@@ -109,7 +111,7 @@ fn connection(system: &System, Connection { from, output, to, input }: &Connecti
 
 /// The units that connectors name.
 fn units(system: &System) -> String {
-    let connectors = system.components.iter().flat_map(|component| &component.connectors);
+    let connectors = system.components.iter().flat_map(|(_, connectors)| connectors);
     let used: BTreeSet<&str> = connectors.filter_map(|connector| connector.unit).chain(["m/s2"]).collect();
     let unit = |unit: &str| {
         let base = UNITS.iter().find(|(name, _)| *name == unit).map_or("", |(_, base)| base);
@@ -146,9 +148,10 @@ mod tests {
     /// `OMSimulator` accepts only identifiers as names. The annotation tells it that a system has a master.
     #[test]
     fn names_are_identifiers_and_the_system_states_its_step() {
-        let (title, components, connections) = ("A \"tall\" house".to_owned(), Vec::new(), Vec::new());
-        let system = System { title, components, connections, expose_ground: false, stop_time: 2.0 };
-        let xml = text(&system, 0.0025);
+        let building = "title = 'A \"tall\" house'\n[[floor]]\nname = \"one\"\n";
+        let building = Building::parse("b.toml".as_ref(), building).unwrap();
+        let system = System { components: Vec::new(), connections: Vec::new(), expose_ground: false };
+        let xml = text(&building, &system, 0.0025);
         let names: Vec<_> = xml.split(" name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
         assert_eq!(names, ["building", "building", "m/s2"]);
         assert!(xml.contains("description=\"A &quot;tall&quot; house\""));

@@ -5,7 +5,7 @@ use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable as WallVariable};
 
-use crate::document::{Building, Floor, Member, Support, fmu_path};
+use crate::document::{Building, Floor, Member, Support};
 use crate::error::BuildingError;
 
 type Result<T> = std::result::Result<T, BuildingError>;
@@ -22,22 +22,12 @@ const SHOWN_OF_A_WALL: [WallVariable; 4] =
 /// A system of FMUs.
 #[derive(Clone, Debug)]
 pub(crate) struct System {
-    pub(crate) title: String,
-    pub(crate) stop_time: f64,
     /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
     pub(crate) expose_ground: bool,
-    pub(crate) components: Vec<Component>,
+    /// Name of each FMU, storeys first, with its inputs and outputs that are connected, or worth showing.
+    pub(crate) components: Vec<(String, Vec<&'static Variable>)>,
     /// All of them, those from the ground too.
     pub(crate) connections: Vec<Connection>,
-}
-
-/// One FMU in it.
-#[derive(Clone, Debug)]
-pub(crate) struct Component {
-    pub(crate) name: String,
-    pub(crate) source: String,
-    /// Inputs and outputs that are connected, or worth showing.
-    pub(crate) connectors: Vec<&'static Variable>,
 }
 
 /// An output of one component to an input of another.
@@ -52,17 +42,8 @@ pub(crate) struct Connection {
 
 /// Components, storeys first, and their connections.
 pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
-    let names = building.floors.iter().map(|floor| &floor.name);
-    let names = names.chain(building.walls.iter().map(|wall| &wall.name));
-    let component =
-        |name: &String| Component { name: name.clone(), source: fmu_path(name), connectors: Vec::new() };
-    let mut system = System {
-        title: building.title.clone(),
-        stop_time: building.stop_time,
-        expose_ground: building.expose_ground,
-        components: names.map(component).collect(),
-        connections: Vec::new(),
-    };
+    let expose_ground = building.expose_ground;
+    let mut system = System { expose_ground, components: Vec::new(), connections: Vec::new() };
     let mut loads = Loads { taken: vec![0; building.floors.len()], floors: &building.floors };
     for (index, floor) in building.floors.iter().enumerate() {
         system.move_by(floor.base, index, FloorVariable::AG.variable());
@@ -74,7 +55,12 @@ pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     for (index, wall) in building.walls.iter().enumerate() {
         system.place(building.floors.len() + index, wall, &mut loads)?;
     }
-    system.list_connectors(building, scenes);
+    let floors = building.floors.iter().map(|floor| (&floor.name, None));
+    let walls = building.walls.iter().zip(scenes).map(|(wall, scene)| (&wall.name, Some(scene)));
+    for (index, (name, scene)) in floors.chain(walls).enumerate() {
+        let connectors = system.connectors(index, scene);
+        system.components.push((name.clone(), connectors));
+    }
     Ok(system)
 }
 
@@ -134,27 +120,25 @@ impl System {
         Ok(())
     }
 
-    /// Lists the connectors of each component: what is connected, or worth showing.
-    fn list_connectors(&mut self, building: &Building, scenes: &[Scene]) {
-        let floors = building.floors.len();
-        for index in 0..self.components.len() {
-            let is_floor = index < floors;
-            let inputs = self.described().filter(|connection| connection.to == index);
-            let outputs = self.described().filter(|connection| connection.from == Some(index));
-            let connected = inputs.map(|connection| connection.input);
-            let connected = connected.chain(outputs.map(|connection| connection.output));
-            let of_floor = SHOWN_OF_A_FLOOR.iter().filter(|_| is_floor).map(|id| id.variable());
-            let of_wall = SHOWN_OF_A_WALL.iter().filter(|_| !is_floor).map(|id| id.variable());
-            let mut connectors = Vec::new();
-            for variable in connected.chain(of_floor).chain(of_wall) {
-                if !connectors.contains(&variable) {
-                    connectors.push(variable);
-                }
-            }
-            if !is_floor && scenes[index - floors].uses("overturned") {
-                connectors.push(BooleanVariable::Overturned.variable());
-            }
-            self.components[index].connectors = connectors;
+    /// Lists the connectors of a component: what is connected, or worth showing. A wall has a scene.
+    fn connectors(&self, index: usize, scene: Option<&Scene>) -> Vec<&'static Variable> {
+        let inputs = self.described().filter(|connection| connection.to == index);
+        let outputs = self.described().filter(|connection| connection.from == Some(index));
+        let mut all: Vec<_> = inputs.map(|connection| connection.input).collect();
+        all.extend(outputs.map(|connection| connection.output));
+        match scene {
+            None => all.extend(SHOWN_OF_A_FLOOR.map(VariableId::variable)),
+            Some(_) => all.extend(SHOWN_OF_A_WALL.map(VariableId::variable)),
         }
+        let mut connectors = Vec::new();
+        for variable in all {
+            if !connectors.contains(&variable) {
+                connectors.push(variable);
+            }
+        }
+        if scene.is_some_and(|scene| scene.uses("overturned")) {
+            connectors.push(BooleanVariable::Overturned.variable());
+        }
+        connectors
     }
 }

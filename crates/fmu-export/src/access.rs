@@ -77,22 +77,17 @@ pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -
 /// Returns why `variable` cannot be set; `now` describes the present phase.
 #[cold]
 pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
-    let never = |what: &str| format!("is {what} and cannot be set: only parameters and inputs can");
     let why = match (variable.causality, variable.variability) {
-        (Causality::Parameter | Causality::Input, Variability::Constant) => never("a constant"),
         (Causality::Parameter, Variability::Tunable) => {
             format!("is tunable and cannot be set {now}: set it in Event Mode")
         }
-        (Causality::Parameter, _) => format!(
+        (Causality::Parameter, Variability::Fixed) => format!(
             "is a fixed parameter and cannot be set {now}: set it before the end of Initialization Mode"
         ),
-        (Causality::Input, _) => {
+        (Causality::Input, Variability::Discrete) => {
             format!("is not continuous and cannot change {now}: set another value in Event Mode")
         }
-        (Causality::CalculatedParameter, _) => never("a calculated parameter"),
-        (Causality::Output, _) => never("an output"),
-        (Causality::Local, _) => never("a local variable"),
-        (Causality::Independent, _) => never("the independent variable"),
+        _ => "cannot be set: only parameters and inputs that are not constant can".to_owned(),
     };
     Failure(format!("{} {why}", variable.name))
 }

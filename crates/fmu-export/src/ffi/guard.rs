@@ -4,7 +4,6 @@ use super::types::{self, Component, ERROR, Status};
 use crate::call::Call;
 use crate::instance::Instance;
 use crate::model::{Failure, Model};
-use std::any::Any;
 use std::cell::{Cell, RefCell, UnsafeCell};
 use std::panic::{self, AssertUnwindSafe};
 use std::ptr::NonNull;
@@ -14,8 +13,8 @@ use std::sync::atomic::{AtomicU8, Ordering};
 thread_local! {
     /// Whether this thread is inside a call from C.
     static INSIDE: Cell<bool> = const { Cell::new(false) };
-    /// Where the last panic inside a call from C happened.
-    static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
+    /// Place and message of the last panic inside a call from C.
+    static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
 /// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked
@@ -28,11 +27,8 @@ pub(super) fn install_panic_hook() {
             if !INSIDE.get() {
                 return before(information);
             }
-            if let Some(location) = information.location() {
-                let place = format!("{}:{}", location.file(), location.line());
-                // A thread that is ending has no place to keep it; a panic in here would abort.
-                let _ = PLACE.try_with(|last| last.replace(place));
-            }
+            // A thread that is ending has no place to keep it; a panic in here would abort.
+            let _ = PANIC.try_with(|last| last.replace(information.to_string().replace(":\n", ": ")));
         }));
     });
 }
@@ -143,7 +139,7 @@ macro_rules! functions {
 }
 pub(super) use functions;
 
-/// Returns what `body` returns, or the message of its panic.
+/// Returns what `body` returns, or the place and the message of its panic.
 pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     let outer = INSIDE.replace(true);
     // The body may have left the instance inconsistent. The caller handles that: the instance then counts as
@@ -151,22 +147,8 @@ pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     let result = panic::catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outer);
     result.map_err(|payload| {
-        let place = PLACE.try_with(RefCell::take).unwrap_or_default();
-        format!("{} ({place})", message(payload))
+        // Dropping a payload of unknown type could panic in turn.
+        std::mem::forget(payload);
+        PANIC.try_with(RefCell::take).unwrap_or_default()
     })
-}
-
-fn message(payload: Box<dyn Any + Send>) -> String {
-    let payload = match payload.downcast::<String>() {
-        Ok(text) => return *text,
-        Err(payload) => payload,
-    };
-    match payload.downcast::<&'static str>() {
-        Ok(text) => (*text).to_owned(),
-        Err(payload) => {
-            // Dropping a payload of unknown type could panic in turn.
-            std::mem::forget(payload);
-            "panic without a text".to_owned()
-        }
-    }
 }
