@@ -110,8 +110,8 @@ pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, heigh
     Plot::new([WIDTH, height], axes, series)
 }
 
-/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\]; `wall` marks
-/// a point of its own.
+/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\]; `wall`
+/// marks a point of its own.
 pub fn period_ratios(ratios: Vec<(f64, f64)>, wall: (f64, f64), height: f64) -> Plot {
     let lowest = ratios.iter().map(|point| point.1).fold(1.0, f64::min);
     let widest = ratios.iter().map(|point| point.0).fold(0.0, f64::max);
