@@ -90,9 +90,11 @@ pub(crate) fn simulate_many<'py>(
     let size = runs.len().div_ceil(threads).clamp(LANES, RUNS_AT_ONCE);
     let groups: Vec<_> = runs.chunks(size).collect();
     let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-        parallel::map(groups.len(), threads, |group| match is_wanted() {
-            true => run_group(&walls, &records, groups[group], tail),
-            false => Err(PyKeyboardInterrupt::new_err(())),
+        parallel::map(groups.len(), threads, |group| {
+            if !is_wanted() {
+                return Err(PyKeyboardInterrupt::new_err(()));
+            }
+            run_group(&walls, &records, groups[group], tail)
         })
     };
     let found = watched(py, work, || Ok(()))??;

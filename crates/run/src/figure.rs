@@ -7,7 +7,7 @@
 //! assert!(plot.svg().contains("u / u_ins"));
 //! ```
 
-use report::palette::{AMBER, BLUE, DARK_GREY, GREY, Mark, RED};
+use report::palette::{AMBER, BLUE, DARK_GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::points::{decimated, within};
 use rocking_wall::response::Sample;
@@ -19,9 +19,6 @@ pub const WIDTH: f64 = 620.0;
 pub(crate) const EDGE: f64 = 1.25;
 /// Distance below which points of a path are drawn as one, as a share of its plot.
 const PATH_DETAIL: f64 = 1.0 / 400.0;
-/// Looks of the curves of [`period_ratios`], the first for the smallest start.
-const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
-
 /// Ends a history of u/`u_ins` where it leaves the plot for good: drawn on, a fallen wall would look like one
 /// at rest.
 ///
@@ -110,38 +107,18 @@ pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, heigh
     Plot { size: [WIDTH, height], ..plot }
 }
 
-/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\].
-///
-/// There is one curve for each start, the largest last. They lie on that of Eq. (5) of the paper, unless it
-/// is empty; `wall` marks a point of its own.
-pub fn period_ratios(
-    curves: Vec<Vec<(f64, f64)>>,
-    housner: Vec<(f64, f64)>,
-    wall: Option<(f64, f64)>,
-    height: f64,
-) -> Plot {
-    let points = || curves.iter().flatten().chain(&housner);
-    let lowest = points().map(|point| point.1).fold(1.0, f64::min);
-    let widest = points().map(|point| point.0).fold(0.0, f64::max);
+/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\]; `wall`
+/// marks a point of its own.
+pub fn period_ratios(ratios: Vec<(f64, f64)>, wall: (f64, f64), height: f64) -> Plot {
+    let lowest = ratios.iter().map(|point| point.1).fold(1.0, f64::min);
+    let widest = ratios.iter().map(|point| point.0).fold(0.0, f64::max);
     let room = 0.08 * (1.0 - lowest).max(1e-6);
     let axes = [
         Axis::over("slenderness α (rad)", [0.0, widest]),
         Axis::over("period, small / full rotations", [lowest - room, 1.0 + room]),
     ];
-    let mut series = Vec::new();
-    if housner.len() > 1 {
-        series.push(Series::stroke(GREY, 1.4, housner));
-    }
-    let looks = LOOKS.into_iter().skip(LOOKS.len().saturating_sub(curves.len()));
-    series.extend(
-        curves
-            .into_iter()
-            .zip(looks)
-            .map(|(points, look)| Series { look, ..Series::stroke(BLUE, 1.4, points) }),
-    );
-    let mark = |point| Series { look: Look::Marks(Mark::Circle), ..Series::stroke(RED, 4.5, vec![point]) };
-    series.extend(wall.map(mark));
-    Plot::new([WIDTH, height], axes, series)
+    let mark = Series { look: Look::Marks(Mark::Circle), ..Series::stroke(RED, 4.5, vec![wall]) };
+    Plot::new([WIDTH, height], axes, vec![Series::stroke(BLUE, 1.4, ratios), mark])
 }
 
 /// The range of some values with room around it.

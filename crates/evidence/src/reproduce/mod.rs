@@ -56,13 +56,6 @@ impl PaperTable {
     pub fn agreeing(&self) -> usize {
         self.rows.iter().filter(|row| row.passes()).count()
     }
-
-    /// Returns the number with the largest relative deviation, and that.
-    fn worst(&self) -> Option<(&Comparison, f64)> {
-        let printed = self.rows.iter().filter(|row| row.given != 0.0);
-        let deviations = printed.map(|row| (row, (row.computed / row.given - 1.0).abs()));
-        deviations.max_by(|a, b| a.1.total_cmp(&b.1))
-    }
 }
 
 /// All tables and figures that need no records, in the order of the paper.

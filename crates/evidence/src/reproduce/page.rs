@@ -16,26 +16,12 @@ const MISSING: &str =
     "<p>Figure 15 needs records: <code>wall verify paper --records FOLDER</code> adds it.</p>";
 const HEADINGS: Headings = ["number", "of", "", "printed", "computed", "deviation", "", ""];
 
-/// Says of each table how many numbers agree, which deviates most, and why; and which figures there are.
+/// Says of each table how many numbers agree, and why; and which figures there are.
 pub fn summary(reproduction: &Reproduction) -> String {
     let mut text = String::new();
     for table in &reproduction.tables {
         let (agree, all) = (table.agreeing(), table.rows.len());
-        let _ = write!(text, "{:<24}{agree:>4} of {all:>3} numbers round to print", table.name);
-        if let Some((row, deviation)) = table.worst() {
-            let (decimals, percent) = (row.decimals.unwrap_or(0), 100.0 * deviation);
-            let _ = write!(
-                text,
-                "; largest deviation {percent:.1} %: printed {:.decimals$}, computed {:.finer$}\n    \
-                 of {}, {}",
-                row.given,
-                row.computed,
-                row.case,
-                row.quantity,
-                finer = decimals + 1
-            );
-        }
-        text.push('\n');
+        let _ = writeln!(text, "{:<24}{agree:>4} of {all:>3} numbers round to print", table.name);
         for line in table.notes.lines().flat_map(|note| wrapped(note, 96)) {
             let _ = writeln!(text, "    {line}");
         }

@@ -99,8 +99,8 @@ pub fn wall(mechanism: Mechanism) -> Parameters {
     Parameters { mechanism, height, thickness, hinge_ratio: 0.5, restitution, ..Parameters::default() }
 }
 
-/// Computes periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its hinge
-/// at mid-height. Ratios of periods depend only on the slenderness, the hinge ratio and the start.
+/// Computes periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its
+/// hinge at mid-height. Ratios of periods depend only on the slenderness, the hinge ratio and the start.
 ///
 /// # Errors
 /// [`EvidenceError`] if a slenderness makes no wall or a run fails.

@@ -99,17 +99,15 @@ fn figure(map: &Map) -> String {
             crossed: !cell.stable,
         }
     };
-    let middles = |values: &[f64]| -> Vec<(f64, String)> {
-        values.iter().enumerate().map(|(index, value)| (index as f64 + 0.5, number(*value))).collect()
+    let axis_of = |label: &str, values: &[f64]| {
+        let ticks =
+            values.iter().enumerate().map(|(index, value)| (index as f64 + 0.5, format!("{value:.0e}")));
+        heat_map::Axis { label: label.into(), count: values.len(), ticks: ticks.collect() }
     };
-    let mut columns = middles(&map.columns);
-    // only whole powers of ten have a label
-    let mut values = map.columns.iter();
-    columns.retain(|_| values.next().is_some_and(|a1| (a1.log10() - a1.log10().round()).abs() < 1e-6));
     let drawing = HeatMap {
         label: format!("error over a1 and {axis}"),
-        columns: heat_map::Axis { label: "a₁".into(), count: map.columns.len(), ticks: columns },
-        rows: heat_map::Axis { label: label.into(), count: map.rows.len(), ticks: middles(&map.rows) },
+        columns: axis_of("a₁", &map.columns),
+        rows: axis_of(label, &map.rows),
         size: CELL,
         own: None,
         cells: &paint,
@@ -120,15 +118,6 @@ fn figure(map: &Map) -> String {
         map.damping.name().replace('_', " "),
         drawing.svg()
     )
-}
-
-/// Short numbers for axes.
-fn number(value: f64) -> String {
-    match value {
-        0.01..0.1 => format!("{value:.2}"),
-        _ if value > 0.0 && value < 0.01 => format!("{value:.0e}"),
-        _ => format!("{value}"),
-    }
 }
 
 /// From dark blue (small) over pale to dark red (large), as exponents go.

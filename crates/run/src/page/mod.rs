@@ -264,7 +264,7 @@ fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
     let Counterpart { linear, trigonometric, apart, start, period, ratios } = other;
     let histories = plots::both_rotations(&plots::cut(trigonometric), &plots::cut(linear), end, HEIGHT);
     let mark = (period.slenderness, period.ratio());
-    let ratios = plots::period_ratios(vec![ratios], Vec::new(), Some(mark), HEIGHT);
+    let ratios = plots::period_ratios(ratios, mark, HEIGHT);
     let caption = format!(
         "Full rotations (blue) and small ones (red, dashed): at most {apart:.3} u_ins apart while both stand"
     );

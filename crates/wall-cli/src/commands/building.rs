@@ -3,20 +3,22 @@
 //! In the archive each wall is the FMU of its scene, and each storey an FMU with its values inside: importers
 //! do not agree on how an enumeration is set from outside, and some ignore the parameters of a system.
 
-mod run;
-
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use ::run::file::make_folder;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
+use building::coupled::{Coupled, Settings};
+use building::page::render;
 use building::trial::{Trial, trial};
-use building::{Building, Parts};
+use building::{Building, Parts, table};
 use clap::Args;
+use ground_motion::GroundMotion;
 use report::counted;
+use rocking_wall::scene::DEFAULT_TAIL;
+use run::file::make_folder;
 
 use crate::args::RecordArguments;
-use crate::output::Console;
+use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -34,7 +36,33 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     record: RecordArguments,
     #[command(flatten)]
-    run: run::Options,
+    run: Options,
+}
+
+#[derive(Debug, Args)]
+struct Options {
+    /// Free vibration in s after the record
+    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULT_TAIL)]
+    tail: f64,
+    /// Change of any peak by halving the step, over the peak, at which the step is short enough
+    #[arg(long, value_name = "RATIO", default_value_t = 0.01)]
+    tolerance: f64,
+    /// Write the histories of floors and walls as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write a page on which the storeys sway and the walls rock
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Print the peaks as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Options {
+    /// Returns the files that a run writes.
+    fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
+        self.csv.iter().chain(&self.html)
+    }
 }
 
 /// Where the SSP goes by default.
@@ -78,7 +106,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         text.push_str(&advice(&trial, step));
     }
     if let Some((motion, note)) = motion {
-        text.push_str(&run::run(console, &building, &parts, &motion, &note, &arguments.run)?);
+        text.push_str(&shaken(console, &building, &parts, &motion, &note, &arguments.run)?);
     }
     console.print(&text)
 }
@@ -103,4 +131,36 @@ fn advice(trial: &Trial, stated: f64) -> String {
     // writing to a String cannot fail
     let _ = writeln!(text, "the SSP states {}{remark}", milliseconds(stated));
     text
+}
+
+/// Runs a building, writes what was asked for and returns the text to print.
+fn shaken(
+    console: &Console<'_>,
+    building: &Building,
+    parts: &Parts,
+    ground: &GroundMotion,
+    note: &str,
+    options: &Options,
+) -> Result<String> {
+    let &Options { tail, tolerance, .. } = options;
+    let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
+    let run = Coupled::run(parts, ground, settings, &|| true)?;
+    console.save(options.csv.as_ref(), || table::histories(building, &run).csv())?;
+    console.save(options.html.as_ref(), || render(building, parts, &run, note))?;
+    if options.json {
+        return Ok(serde_json::to_string_pretty(&table::json(building, parts, &run))? + "\n");
+    }
+    let mut text = format!(
+        "{}\n{note}, peak acceleration {:.4} m/s²; step {} ms, at which halving changed peaks by \
+         {:.2} %\n\n{}",
+        building.title,
+        run.ground.peak.value.abs(),
+        report::number(1000.0 * run.step, 4),
+        100.0 * run.change,
+        table::floors(building, &run).text()
+    );
+    if !run.walls.is_empty() {
+        text = text + "\n" + &table::walls(building, parts, &run).text();
+    }
+    Ok(text + &output::written("written  ", options.outputs()))
 }

@@ -97,7 +97,7 @@ fn one(
         let found = progress::shown(|progress| {
             find(code, subject, sought, &mut |_, of| {
                 if is_long {
-                    progress.add(of as usize)
+                    progress.add(of as usize);
                 }
             })
         });

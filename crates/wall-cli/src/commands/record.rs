@@ -82,27 +82,26 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
             }
         }
     }
-    if let ([failure], true) = (&failures[..], channels.is_empty()) {
-        bail!("{failure}");
+    match (&channels[..], &failures[..]) {
+        ([], []) => {
+            let folder = arguments.files[0].display();
+            bail!("{folder}: a folder without files; name a folder with records");
+        }
+        ([], [failure]) => bail!("{failure}"),
+        ([], _) => {}
+        _ => show(console, &channels, if is_listing { &failures } else { &[] }, arguments, &of)?,
     }
-    if is_listing && !channels.is_empty() {
-        show(console, &channels, &failures, arguments, &of)?;
+    match (failures.len(), is_listing && !channels.is_empty()) {
         // a folder may have files that are no records
-        if missing > 0 {
+        (0, _) => {}
+        (_, true) if missing == 0 => {}
+        (_, true) => {
             bail!("{missing} of the files that are named could not be read; they are listed as not read");
         }
-        return Ok(());
-    }
-    if channels.is_empty() && failures.is_empty() {
-        bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());
-    }
-    let count = failures.len();
-    console.report_all(failures);
-    if !channels.is_empty() {
-        show(console, &channels, &[], arguments, &of)?;
-    }
-    if count > 0 {
-        bail!("{} of {} files could not be read", count, files.len());
+        (count, false) => {
+            console.report_all(failures);
+            bail!("{count} of {} files could not be read", files.len());
+        }
     }
     Ok(())
 }

@@ -7,16 +7,14 @@ use run::file::{behind_links, folder};
 
 use super::Console;
 
-/// Returns the path behind all links that identifies a file, which need not exist; nothing for pipes and devices,
-/// which any number of outputs may share.
+/// Returns the path behind all links that identifies a file, which need not exist; nothing for pipes and
+/// devices, which any number of outputs may share.
 fn identity(path: &Path) -> Option<PathBuf> {
-    match std::fs::metadata(path) {
-        Ok(metadata) => metadata.is_file().then(|| path.canonicalize().ok())?,
-        Err(_) => {
-            let path = behind_links(path);
-            Some(folder(&path).canonicalize().ok()?.join(path.file_name()?))
-        }
+    if let Ok(metadata) = std::fs::metadata(path) {
+        return path.canonicalize().ok().filter(|_| metadata.is_file());
     }
+    let path = behind_links(path);
+    Some(folder(&path).canonicalize().ok()?.join(path.file_name()?))
 }
 
 /// Name of the output that goes to standard output.

@@ -53,7 +53,7 @@ fn an_output_is_no_input_and_no_other_output() {
         &format!("models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [0.1] }}\n{study}"),
     );
     write("levels.csv", RECORD);
-    refused(&folder, &["study", "ida", "study.toml", "-o", "."], &["levels.csv", "the input"]);
+    refused(&folder, &["study", "ida", "study.toml", "-o", "."], &["the input", "-o"]);
     // devices and pipes may be shared
     #[cfg(unix)]
     succeed(&folder, &["simulate", "s.toml", "--csv", "/dev/null", "--html", "/dev/null"]);

@@ -10,6 +10,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use report::counted;
+use run::file::folder;
 use run::parallel;
 use study::folder::{Folder, Report};
 use study::ida::Study;
@@ -54,29 +55,6 @@ fn shard(text: &str) -> Result<Shard, String> {
     valid.ok_or_else(|| "expected I/N with I from 1 to N, such as 2/8".to_owned())
 }
 
-/// Files of the results, beside the parts.
-const FILES: [&str; 19] = [
-    "study.json",
-    "levels.csv",
-    "collapses.csv",
-    "fragilities.csv",
-    "fragility_curves.csv",
-    "fragilities.xml",
-    "pelicun.csv",
-    "pelicun.json",
-    "fragilities.svg",
-    "ties.csv",
-    "cloud.csv",
-    "rates.csv",
-    "rate_shares.csv",
-    "vulnerability.csv",
-    "vulnerability.xml",
-    "losses.csv",
-    "samples.csv",
-    "sensitivity.csv",
-    "study.html",
-];
-
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     analyse(console, arguments, LoadedStudy::read(&arguments.study)?, None)
 }
@@ -99,9 +77,11 @@ fn analyse(
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
-    let files =
-        FILES.iter().chain(reliability.is_some().then_some(&reliability::FILES).into_iter().flatten());
-    console.check_distinct(&loaded.inputs, &files.map(|name| path.join(name)).collect::<Vec<_>>())?;
+    let is_inside =
+        |input: &&PathBuf| path.exists() && folder(input).canonicalize().ok() == path.canonicalize().ok();
+    if let Some(input) = loaded.inputs.iter().find(is_inside) {
+        bail!("{}: the input lies in the folder of the results; give another one with -o", input.display());
+    }
     let folder = Folder::of_study(&path, &loaded)?;
     console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
