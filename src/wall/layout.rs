@@ -57,9 +57,9 @@ impl Wall {
 
     /// Returns the branches between the corners.
     ///
-    /// The body and the side are known here: a damping law that needs more than F(u), such as `u_ins`, gets it
-    /// from here, for `DampingLaw` holds one law for both sides. A law that
-    /// changes at some |u| has a corner there, and is chosen here.
+    /// The body and the side are known here: a damping law that needs more than F(u), such as `u_ins`, gets
+    /// it from here, for `DampingLaw` holds one law for both sides. A law that changes at some |u| has a
+    /// corner there, and is chosen here.
     pub(super) fn lay_out_branches(&self) -> Vec<Branch> {
         let m = self.body().effective_mass;
         let between = |pair: &[Corner]| {

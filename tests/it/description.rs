@@ -131,10 +131,11 @@ fn times_are_shown_in_seconds() {
 }
 
 #[test]
-fn documents_name_every_choice() {
+fn documents_name_every_variable_and_choice() {
     let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
     let (list, manual) = (read("docs/variables.md"), read("docs/model.md"));
     for variable in variables() {
+        assert!(list.contains(&format!("`{}`", variable.name)), "docs/variables.md lacks {}", variable.name);
         let Kind::Enumeration { items, .. } = &variable.kind else { continue };
         let (_, line) = list.split_once(&format!("`{}` {{", variable.name)).unwrap();
         let line = line.split('}').next().unwrap();
@@ -160,7 +161,7 @@ fn the_documentation_lists_every_variable_with_its_default() {
         if let Kind::Enumeration { items, .. } = &variable.kind {
             for item in *items {
                 let entry = format!("<dt>{} <code>{}</code></dt>", item.value, item.name);
-                assert!(row.contains(&entry), "{name}: {entry}");
+                assert!(row.contains(&entry), "documentation/index.html: add {entry} to {name}");
             }
         }
     }

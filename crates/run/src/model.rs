@@ -52,7 +52,8 @@ const RIGID_RESTITUTION: Label = Label {
 pub const COLORS: usize = DampingModel::ALL.len() + 3;
 
 // a model has its own colour and mark
-const _: () = assert!(COLORS == report::palette::SERIES.len());
+const _: () =
+    assert!(COLORS == report::palette::SERIES.len(), "palette.rs: give SERIES a colour for each model");
 /// What follows the name of a model whose ratio is that of Eq. (14).
 const EQUATION_14: &str = " Eq. 14";
 /// Colour of CDR with the ratio of Eq. (14), the one such model in Figure 15 of the paper.

@@ -175,6 +175,7 @@ fn computed_value(wall: &Wall, name: &str) -> String {
 mod tests {
     use super::*;
     use crate::report::language::{Language, translated};
+    use rocking_wall::variables::DampingModel;
 
     /// A description that is worded anew, so that other words stand before its semicolon, is translated anew.
     #[test]
@@ -187,5 +188,12 @@ mod tests {
             translated(english.clone(), Language::It) == english
         });
         assert_eq!(missing.collect::<Vec<_>>(), []);
+    }
+    #[test]
+    fn damping_models_stand_in_the_terms() {
+        for model in DampingModel::ALL {
+            let english = model.name().replace('_', " ");
+            assert_ne!(translated(english.clone(), Language::It), english, "add {english} to terms.tsv");
+        }
     }
 }

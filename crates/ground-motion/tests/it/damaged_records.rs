@@ -1,6 +1,6 @@
 //! Tests that damaged records of every format are refused with a clear message.
 
-use ground_motion::{RecordOptions, Unit, parse_channels};
+use ground_motion::{Format, RecordOptions, Unit, parse_channels};
 use proptest::prelude::*;
 
 use crate::configuration::mostly;
@@ -59,4 +59,13 @@ fn survives_any_bytes() {
         }
         Ok([refused, 3 * ALL.len()])
     });
+}
+
+/// Without a specimen nothing would test the reader of a format. Plain numbers are samples alone.
+#[test]
+fn every_format_has_a_specimen() {
+    for format in Format::ALL.into_iter().filter(|format| *format != Format::Numbers) {
+        let has_one = ALL.iter().any(|(own, _)| *own == format);
+        assert!(has_one, "tests/it/specimen.rs: add a writer of {} to ALL", format.name());
+    }
 }
