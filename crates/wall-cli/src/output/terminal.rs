@@ -5,6 +5,7 @@ use std::fmt::{Display, Write as _};
 use std::io::{self, ErrorKind, Write};
 
 use anyhow::{Context, Result};
+use report::number;
 
 /// Most lines and characters of a message, and most messages of one kind.
 const MOST_LINES: usize = 9;
@@ -57,7 +58,7 @@ impl<'a> Console<'a> {
 
     /// Prints a message for the user, such as an error.
     pub(crate) fn report(&self, message: &str) {
-        self.to_stderr(&(bounded(&printable(&format!("wall: {message}"))) + "\n"));
+        self.to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
     }
 
     /// Warns the user of what does not stop the work.
@@ -123,6 +124,23 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
         }
     }
     text
+}
+
+/// Shortens the numbers of a message that have more digits than people write, as [`number`] does. Words that
+/// contain digits, such as names of files, stay as they are.
+fn with_short_numbers(message: &str) -> String {
+    const MOST_DIGITS: usize = 12;
+    let is_boundary = |c: char| !(c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | '+' | '/' | '\\'));
+    let shortened = |part: &str| {
+        let (word, boundary) = part.split_at(part.trim_end_matches(is_boundary).len());
+        let digits = word.chars().filter(char::is_ascii_digit).count();
+        let is_number = word.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-'));
+        match word.parse::<f64>() {
+            Ok(value) if is_number && digits > MOST_DIGITS => number(value, MOST_DIGITS) + boundary,
+            _ => part.to_owned(),
+        }
+    };
+    message.split_inclusive(is_boundary).map(shortened).collect()
 }
 
 /// Leaves out the middle of a long message, and the end of one with many lines.

@@ -167,6 +167,15 @@ fn messages_are_short() {
     fs::write(folder.join("pulse.toml"), pulse).unwrap();
     let summary = printed(&folder, &["simulate", "pulse.toml"]);
     assert!(summary.split(|c: char| !c.is_ascii_digit()).all(|digits| digits.len() < 8), "{summary}");
+    for (arguments, number) in [
+        (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
+        (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
+        (["simulate", "--stop-time", "1e300"], "--stop-time = 1e300 s"),
+        (["simulate", "--thresholds", "1e22"], "1e22 is not"),
+        (["simulate", "--set", "xi=10.000000000000002"], "limit 10"),
+    ] {
+        refused(&folder, &arguments, &[number]);
+    }
 }
 
 #[test]
