@@ -269,14 +269,14 @@ impl<'a> CheckFile<'a> {
     /// Reads the table `[check]`.
     ///
     /// # Errors
-    /// [`CheckError::Unread`] of the first key that is not known, or has another kind of value;
-    /// [`CheckError::Value`] of a number outside the limits that its schema states.
+    /// [`CheckError::Value`] of the first key that is not known, or has another kind of value, and of a number
+    /// outside the limits that its schema states.
     pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
         let unread = |error| {
             let (mut keys, message) = refusal(&self.place, &self.document, &error);
             keys.drain(..keys.len().min(1));
-            CheckError::Unread { keys, message }
+            CheckError::Value { keys, message }
         };
         let table = T::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
         let values = toml::Value::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
@@ -332,10 +332,7 @@ impl<'a> CheckFile<'a> {
 
     /// Adds the file to an error, and the line of the key that it is about.
     pub fn located(&self, error: CheckError) -> SceneError {
-        let reason = match (&error, error.keys()) {
-            (CheckError::Unread { .. }, _) | (_, None) => error.to_string(),
-            _ => format!("[check] {error}"),
-        };
+        let reason = if error.keys().is_some() { format!("[check] {error}") } else { error.to_string() };
         let span = error.keys().filter(|_| self.check().is_some()).map(|keys| self.span(keys));
         match (span, error) {
             (_, CheckError::Scene(error)) => error,
