@@ -96,20 +96,6 @@ fn overlay<'a>(base: &mut DeTable<'a>, patch: &DeTable<'a>) {
     }
 }
 
-/// Returns the first key below `key` that is not allowed.
-fn not_allowed(key: &str, value: &DeValue<'_>, is_allowed: &dyn Fn(&str) -> bool) -> Option<String> {
-    if is_allowed(key) {
-        return None;
-    }
-    match value.as_table() {
-        Some(table) => {
-            let paths = table.iter().map(|(inner, _)| format!("{key}.{}", inner.get_ref()));
-            paths.into_iter().find(|path| !is_allowed(path))
-        }
-        None => Some(key.to_owned()),
-    }
-}
-
 /// A scene, or a file of walls, with a table `[check]`.
 pub struct CheckFile<'a> {
     place: Place<'a>,
@@ -170,19 +156,26 @@ impl<'a> CheckFile<'a> {
             return Ok(None);
         };
         let has = |others: &str, path: &str| others.split('|').any(|other| other == path);
+        let is_allowed = |path: &str| allowed.iter().any(|others| has(others, path));
         for (key, value) in own {
             let key = key.get_ref().as_ref();
-            if let Some(path) =
-                not_allowed(key, value.get_ref(), &|path| allowed.iter().any(|own| has(own, path)))
-            {
+            let inner = value.get_ref().as_table().into_iter().flat_map(DeTable::keys);
+            let mut paths: Vec<_> = inner.map(|inner| format!("{key}.{}", inner.get_ref())).collect();
+            if paths.is_empty() || is_allowed(key) {
+                paths = vec![key.to_owned()];
+            }
+            if let Some(path) = paths.into_iter().find(|path| !is_allowed(path)) {
                 let message = format!(
                     "check.{path} is that of the building, not of a wall alone; state it in the file's \
                      [check]"
                 );
                 return Err(self.place.error(value.span(), message));
             }
-            for other in allowed.iter().filter(|others| has(others, key) && others.contains('|')) {
-                other.split('|').for_each(|other| drop(check.remove(other)));
+            for other in allowed.iter().filter(|others| has(others, key)).flat_map(|others| others.split('|'))
+            {
+                if other != key {
+                    check.remove(other);
+                }
             }
         }
         overlay(check, own);

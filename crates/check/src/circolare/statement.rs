@@ -229,8 +229,7 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
              hinges back: give masonry_strength, or a3 < 1 or a smaller thickness and state \
              compression_considered = true"
         );
-        let is_given = table.confidence_factor.is_some();
-        let key = if is_given { "confidence_factor" } else { "knowledge_level" };
+        let key = table.confidence_factor.map_or("knowledge_level", |_| "confidence_factor");
         return Err(CheckError::value(&[key], message));
     }
     Ok(factor)
