@@ -262,8 +262,8 @@ impl<'a> CheckFile<'a> {
     /// Reads the table `[check]`.
     ///
     /// # Errors
-    /// [`CheckError::Value`] of the first key that is not known, or has another kind of value, and of a number
-    /// outside the limits that its schema states.
+    /// [`CheckError::Value`] of the first key that is not known, or has another kind of value, and of a
+    /// number outside the limits that its schema states.
     pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
         let unread = |error| {

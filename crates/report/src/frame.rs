@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::axes::{label, number, ticks, write_text, write_upwards};
+use crate::escaped;
 use crate::plot::{Look, Scale, Series};
 
 /// Width of a character of 12 px, about \[px\].
@@ -165,7 +166,7 @@ pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f
         };
         let sample = Series { width: series.width.max(1.6), titles: Vec::new(), ..series.clone() };
         sample.write(svg, &places);
-        let (x, name) = (start + SAMPLE + LEGEND, label(&series.name));
+        let (x, name) = (start + SAMPLE + LEGEND, escaped(&series.name));
         let _ = write!(svg, "<text x=\"{x:.2}\" y=\"{:.2}\">{name}</text>", y + 4.4);
     }
     svg.push_str("</g>");

@@ -264,9 +264,9 @@ fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckE
     let Some(strength) = tie.strength.filter(|_| tie.slack == 0.0 && yields <= limit) else {
         let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
         let message = format!(
-            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, that \
-             has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its strength \
-             at u_y = {yields} mm; state \"none\", or another tie",
+            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, \
+             that has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its \
+             strength at u_y = {yields} mm; state \"none\", or another tie",
             tie.slack
         );
         return Err(CheckError::value(&["tie", "at_activation"], message));

@@ -200,8 +200,8 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
     let Some(strength) = table.masonry_strength else {
         let others = table.masonry_gamma.is_some() || table.stress_block.is_some();
         if others || table.masonry_over_fc.is_some() {
-            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, f_m \
-                           in Pa; give it, or leave them out";
+            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, \
+                           f_m in Pa; give it, or leave them out";
             return Err(CheckError::value(&["masonry_strength"], message));
         }
         return Ok(None);

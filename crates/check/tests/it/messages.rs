@@ -39,8 +39,8 @@ fn messages_name_line_and_key_and_what_is_expected() {
     for (found, message) in [
         (
             check(&CHECK.replace("\"nonlinear\"", "\"nonlinaer\"")),
-            "line 10: [check] method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" (did you \
-             mean \"nonlinear\"?)",
+            "line 10: [check] method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" \
+             (did you mean \"nonlinear\"?)",
         ),
         (
             check(&CHECK.replace("\"LC1\"", "1")),
