@@ -9,10 +9,7 @@ use rocking_wall::wall::{ParameterError, Warning};
 #[non_exhaustive]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum CheckError {
-    /// A key that the table `[check]` does not hold, or a value of the wrong kind.
-    #[error("{message}")]
-    Unread { keys: Vec<String>, message: String },
-    /// A value of the table `[check]` that cannot be used, or one that is missing.
+    /// A key of the table `[check]` that it does not hold or that is missing, or a value that cannot be used.
     #[error("{message}")]
     Value { keys: Vec<String>, message: String },
     /// A wall that the code does not cover.
@@ -57,7 +54,7 @@ impl CheckError {
     /// be it there or missing; `None` where it is about no value of the table.
     pub fn keys(&self) -> Option<&[String]> {
         match self {
-            Self::Unread { keys, .. } | Self::Value { keys, .. } => Some(keys),
+            Self::Value { keys, .. } => Some(keys),
             Self::Improbable { error, .. } => error.keys(),
             _ => None,
         }

@@ -97,20 +97,6 @@ fn overlay<'a>(base: &mut DeTable<'a>, patch: &DeTable<'a>) {
     }
 }
 
-/// Returns the first key below `key` that is not allowed.
-fn not_allowed(key: &str, value: &DeValue<'_>, is_allowed: &dyn Fn(&str) -> bool) -> Option<String> {
-    if is_allowed(key) {
-        return None;
-    }
-    match value.as_table() {
-        Some(table) => {
-            let paths = table.iter().map(|(inner, _)| format!("{key}.{}", inner.get_ref()));
-            paths.into_iter().find(|path| !is_allowed(path))
-        }
-        None => Some(key.to_owned()),
-    }
-}
-
 /// A scene, or a file of walls, with a table `[check]`.
 pub struct CheckFile<'a> {
     place: Place<'a>,
@@ -171,19 +157,26 @@ impl<'a> CheckFile<'a> {
             return Ok(None);
         };
         let has = |others: &str, path: &str| others.split('|').any(|other| other == path);
+        let is_allowed = |path: &str| allowed.iter().any(|others| has(others, path));
         for (key, value) in own {
             let key = key.get_ref().as_ref();
-            if let Some(path) =
-                not_allowed(key, value.get_ref(), &|path| allowed.iter().any(|own| has(own, path)))
-            {
+            let inner = value.get_ref().as_table().into_iter().flat_map(DeTable::keys);
+            let mut paths: Vec<_> = inner.map(|inner| format!("{key}.{}", inner.get_ref())).collect();
+            if paths.is_empty() || is_allowed(key) {
+                paths = vec![key.to_owned()];
+            }
+            if let Some(path) = paths.into_iter().find(|path| !is_allowed(path)) {
                 let message = format!(
                     "check.{path} is that of the building, not of a wall alone; state it in the file's \
                      [check]"
                 );
                 return Err(self.place.error(value.span(), message));
             }
-            for other in allowed.iter().filter(|others| has(others, key) && others.contains('|')) {
-                other.split('|').for_each(|other| drop(check.remove(other)));
+            for other in allowed.iter().filter(|others| has(others, key)).flat_map(|others| others.split('|'))
+            {
+                if other != key {
+                    check.remove(other);
+                }
             }
         }
         overlay(check, own);
@@ -270,14 +263,14 @@ impl<'a> CheckFile<'a> {
     /// Reads the table `[check]`.
     ///
     /// # Errors
-    /// [`CheckError::Unread`] of the first key that is not known, or has another kind of value;
-    /// [`CheckError::Value`] of a number outside the limits that its schema states.
+    /// [`CheckError::Value`] of the first key that is not known, or has another kind of value, and of a
+    /// number outside the limits that its schema states.
     pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
         let unread = |error| {
             let (mut keys, message) = refusal(&self.place, &self.document, &error);
             keys.drain(..keys.len().min(1));
-            CheckError::Unread { keys, message }
+            CheckError::Value { keys, message }
         };
         let table = T::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
         let values = toml::Value::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
@@ -333,10 +326,7 @@ impl<'a> CheckFile<'a> {
 
     /// Adds the file to an error, and the line of the key that it is about.
     pub fn located(&self, error: CheckError) -> SceneError {
-        let reason = match (&error, error.keys()) {
-            (CheckError::Unread { .. }, _) | (_, None) => error.to_string(),
-            _ => format!("[check] {error}"),
-        };
+        let reason = if error.keys().is_some() { format!("[check] {error}") } else { error.to_string() };
         let span = error.keys().filter(|_| self.check().is_some()).map(|keys| self.span(keys));
         match (span, error) {
             (_, CheckError::Scene(error)) => error,

@@ -49,14 +49,15 @@ fn outside(schema: &Value, given: f64) -> Option<String> {
     if !given.is_finite() {
         return Some("finite".to_owned());
     }
-    let limits: [(&str, &str, fn(&f64, &f64) -> bool); 3] = [
-        ("exclusiveMinimum", "above", f64::gt),
-        ("minimum", "at least", f64::ge),
-        ("maximum", "at most", f64::le),
-    ];
-    let stated = limits.into_iter().filter_map(|(word, said, holds)| {
+    let words = [("exclusiveMinimum", "above"), ("minimum", "at least"), ("maximum", "at most")];
+    let stated = words.into_iter().filter_map(|(word, said)| {
         let limit = number(schema.get(word)?)?;
-        Some((format!("{said} {limit}"), holds(&given, &limit)))
+        let holds = match word {
+            "exclusiveMinimum" => given > limit,
+            "minimum" => given >= limit,
+            _ => given <= limit,
+        };
+        Some((format!("{said} {limit}"), holds))
     });
     let (said, holds): (Vec<String>, Vec<bool>) = stated.unzip();
     holds.contains(&false).then(|| said.join(" and "))

@@ -34,6 +34,17 @@ impl Plot {
 
     /// Draws a figure element: title, plot, and the legend as text below.
     pub fn figure(&self) -> String {
+        format!(
+            "<figure><figcaption>{}</figcaption>{}<p class=\"key\">{}</p></figure>\n",
+            escaped(&self.title),
+            self.traced(SIZES[0]).svg(),
+            self.key(true)
+        )
+    }
+
+    /// The legend as text of a page: a sample and the name of each series that has one; `marked` says whether
+    /// lines have the marks of a figure.
+    pub fn key(&self, marked: bool) -> String {
         let mut key = String::new();
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
@@ -43,16 +54,13 @@ impl Plot {
                 Look::Dotted => stroke(color, "dotted"),
                 Look::Marks(_) => String::new(),
             };
-            if let Some(mark) = self.mark(series) {
+            let is_shown = marked || matches!(series.look, Look::Marks(_));
+            if let Some(mark) = self.mark(series).filter(|_| is_shown) {
                 sample += &sign(color, mark);
             }
             let _ = write!(key, "<span>{sample}{}</span>", escaped(&series.name));
         }
-        format!(
-            "<figure><figcaption>{}</figcaption>{}<p class=\"key\">{key}</p></figure>\n",
-            escaped(&self.title),
-            self.traced(SIZES[0]).svg()
-        )
+        key
     }
 
     /// Draws a figure with its legend at the top right, for a file. It has no title, so that it fits on a

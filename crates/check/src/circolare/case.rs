@@ -193,8 +193,8 @@ fn stated(parameters: &Parameters, activation: Activation, assumed: &[&str]) -> 
         return Ok(());
     }
     Err(CheckError::wall(format!(
-        "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1, which makes T0 \
-         and SLD of before_activation = \"law\", in [force_law]",
+        "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1, which makes \
+         T0 and SLD of before_activation = \"law\", in [force_law]",
         missing.join(", ")
     )))
 }
@@ -206,8 +206,8 @@ fn set_back_once(parameters: &Parameters, statement: &Statement) -> Result<(), C
     if statement.masonry.is_none() || !has_own {
         return Ok(());
     }
-    let message = "masonry_strength sets the hinges of a straight law back, parallel: leave out a3 and softening \
-                   of [force_law]; a trilinear or multilinear law has its own";
+    let message = "masonry_strength sets the hinges of a straight law back, parallel: leave out a3 and \
+                   softening of [force_law]; a trilinear or multilinear law has its own";
     Err(CheckError::value(&["masonry_strength"], message))
 }
 
@@ -225,8 +225,8 @@ fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activati
         Some(given @ (Activation::Rigid | Activation::Beam)) if !has_plateau(parameters) => Ok(given),
         _ => {
             let message = "before_activation is missing, or does not go with the law of the wall: state \
-                           \"rigid\" (held by transverse walls) or \"beam\"; \"law\" of a law with an elastic \
-                           branch, not rigid_linear, and of a trilinear or multilinear one";
+                           \"rigid\" (held by transverse walls) or \"beam\"; \"law\" of a law with an \
+                           elastic branch, not rigid_linear, and of a trilinear or multilinear one";
             Err(CheckError::value(&["before_activation"], message))
         }
     }

@@ -8,7 +8,7 @@ use super::case::{Case, Demands};
 use super::curve::Curve;
 use super::demand::Demand;
 use super::floor::Mode;
-use super::side_verdict::{ActivationCheck, DisplacementCheck, TieBreak};
+use super::side_verdict::{ActivationCheck, AtActivationNumbers, DisplacementCheck, TieBreak};
 use super::statement::{Displacements, Statement};
 use super::states::StateStatement;
 use super::table::{AtActivation, Method, UseClass};
@@ -213,10 +213,8 @@ fn activation(
     xi: f64,
     factor: f64,
 ) -> Result<ActivationCheck, CheckError> {
-    let pull = tie_at_activation(curve, statement)?;
     let own = curve.elastic.acceleration;
-    let t0 = if pull > 0.0 { curve.tied_period() } else { curve.elastic.period };
-    let acceleration = own + curve.of_force(pull);
+    let AtActivationNumbers { acceleration, t0, .. } = at_activation(curve, statement)?;
     let capacity = factor * acceleration / statement.confidence_factor;
     let required = match curve.tie() {
         // N = max(0, [FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
@@ -241,11 +239,22 @@ fn activation(
     })
 }
 
+/// The wall at its activation, with the tie where it counts there.
+pub(super) fn at_activation(curve: &Curve, statement: &Statement) -> Result<AtActivationNumbers, CheckError> {
+    let pull = tie_at_activation(curve, statement)?;
+    Ok(AtActivationNumbers {
+        alpha0: curve.alpha0 + pull / curve.pushed_weight,
+        acceleration: curve.elastic.acceleration + curve.of_force(pull),
+        t0: if pull > 0.0 { curve.tied_period() } else { curve.elastic.period },
+        force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
+    })
+}
+
 /// A `N_y`, the force of the tie at the place of F at the activation; 0 where it does not count \[N\].
 ///
 /// # Errors
 /// [`CheckError`] of a tie that does not act there.
-pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckError> {
+fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckError> {
     if statement.at_activation() == AtActivation::None {
         return Ok(0.0);
     }
@@ -255,9 +264,9 @@ pub(super) fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<
     let Some(strength) = tie.strength.filter(|_| tie.slack == 0.0 && yields <= limit) else {
         let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
         let message = format!(
-            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, that \
-             has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its strength \
-             at u_y = {yields} mm; state \"none\", or another tie",
+            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, \
+             that has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its \
+             strength at u_y = {yields} mm; state \"none\", or another tie",
             tie.slack
         );
         return Err(CheckError::value(&["tie", "at_activation"], message));

@@ -2,7 +2,7 @@
 
 use ::report::palette::{BLACK, BLUE, GREEN, Mark, RED};
 use ::report::plot::{Axis, Look, Plot, Series};
-use ::report::points::{simplified, within};
+use ::report::points::simplified;
 
 use super::LimitState;
 use super::demand::Demand;
@@ -10,18 +10,19 @@ use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
 use super::states::StateStatement;
 use crate::error::CheckError;
+use crate::report::markup::shown;
 
 /// Size of spectra and of capacity over demand \[px\].
 const SIZE: [f64; 2] = [820.0, 400.0];
 /// Steps of a spectrum along the periods.
 const STEPS: u32 = 400;
 /// Mark of what a wall can take.
-pub(super) const CAPACITY: Mark = Mark::Circle;
+const CAPACITY: Mark = Mark::Circle;
 /// Mark of what is demanded.
-pub(super) const DEMAND: Mark = Mark::Triangle;
+const DEMAND: Mark = Mark::Triangle;
 
 /// The colour of a limit state.
-pub(super) fn color(state: LimitState) -> &'static str {
+fn color(state: LimitState) -> &'static str {
     match state {
         LimitState::Sld => GREEN,
         LimitState::Slv => BLUE,
@@ -58,7 +59,8 @@ pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<P
         let end = last.min(demand.last_period());
         let points = periods(end).map(at).collect::<Result<Vec<_>, CheckError>>()?;
         top = points.iter().map(|point| point.1).fold(top, f64::max);
-        lines.push((color(*state), points));
+        let name = format!("{state}, {} %", shown(100.0 * damping));
+        lines.push((name, color(*state), points));
         if let Some(period) = period {
             let place = vec![at(*period)?];
             marks.push(Series { look: Look::Marks(DEMAND), ..Series::stroke(color(*state), 5.0, place) });
@@ -67,8 +69,10 @@ pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<P
     let axes = [Axis::over("T (s)", [0.0, last]), Axis::over(label, [0.0, 1.08 * top])];
     let [width, height] = SIZE;
     let scale = [width / last, height / top];
-    let lines =
-        lines.into_iter().map(|(color, points)| Series::stroke(color, 1.8, simplified(&points, scale)));
+    let lines = lines.into_iter().map(|(name, color, points)| Series {
+        name,
+        ..Series::stroke(color, 1.8, simplified(&points, scale))
+    });
     Ok(Plot::new(SIZE, axes, lines.chain(marks).collect()))
 }
 
@@ -111,16 +115,21 @@ pub(super) fn over_demand(
             Ok((displacement, acceleration))
         };
         let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
-        for piece in within(&points, [[0.0, right], [0.0, top]]) {
-            series.push(Series::stroke(color, 1.3, simplified(&piece, scale)));
+        let state = given.state;
+        let spectrum = Series { name: format!("spectrum of {state}"), ..Series::stroke(color, 1.3, points) };
+        for piece in spectrum.within([[0.0, right], [0.0, top]]) {
+            series.push(Series { points: simplified(&piece.points, scale), ..piece });
         }
-        let ray = |look, to| Series { look, ..Series::stroke(color, 1.2, vec![(0.0, 0.0), to]) };
-        series.push(ray(Look::Dashed, (check.d, check.a)));
-        series.push(ray(Look::Dotted, place(&check)));
-        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::stroke(color, 5.0, vec![at]) };
-        marks.extend([mark(CAPACITY, (check.d, check.a)), mark(DEMAND, place(&check))]);
+        let ray = |look, name, to| Series { look, name, ..Series::stroke(color, 1.2, vec![(0.0, 0.0), to]) };
+        series.push(ray(Look::Dashed, format!("secant to d_{state}"), (check.d, check.a)));
+        series.push(ray(Look::Dotted, format!("T_{state}"), place(&check)));
+        let mark =
+            |mark, name, at| Series { look: Look::Marks(mark), name, ..Series::stroke(color, 5.0, vec![at]) };
+        marks.push(mark(CAPACITY, format!("d_{state}"), (check.d, check.a)));
+        marks.push(mark(DEMAND, format!("demand of {state}"), place(&check)));
     }
-    series.push(Series::stroke(BLACK, 2.2, side.corners.clone()));
+    let curve = Series::stroke(BLACK, 2.2, side.corners.clone());
+    series.push(Series { name: "capacity, with FC".to_owned(), ..curve });
     series.extend(marks);
     let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
     for line in &mut series {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use rocking_wall::scene::{Described, Schema, with};
 use serde::{Deserialize, Serialize};
 
 /// g of NTC 3.2.3.2.1 \[m/s²\].
@@ -53,6 +54,43 @@ const SOILS: [([f64; 4], [f64; 2], f64); 5] = [
     ([2.40, 1.50, 0.90, 1.80], [1.25, -0.50], 6.0),
     ([2.00, 1.10, 1.00, 1.60], [1.15, -0.40], 6.0),
 ];
+
+/// Category of topography of Tab. 3.2.V.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[allow(missing_docs, reason = "names of the code")]
+pub enum Category {
+    T1,
+    T2,
+    T3,
+    T4,
+}
+
+/// Topography: a category of Tab. 3.2.V or `S_T`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(untagged, expecting = "expected \"T1\" to \"T4\", or S_T from 1 to 1.4")]
+pub enum Topography {
+    /// `S_T` \[-\].
+    Factor(f64),
+    /// `T1` to `T4`.
+    Category(Category),
+}
+
+impl Topography {
+    /// `S_T` of Tab. 3.2.V \[-\].
+    pub(super) fn factor(self) -> f64 {
+        match self {
+            Self::Factor(factor) => factor,
+            Self::Category(category) => [1.0, 1.2, 1.2, 1.4][category as usize],
+        }
+    }
+}
+
+impl Described for Topography {
+    fn describe(key: &str, tables: &mut Schema) -> Schema {
+        let factor = with(with(f64::describe(key, tables), "minimum", 1), "maximum", 1.4);
+        with(Schema::new(), "anyOf", vec![Category::describe(key, tables), factor])
+    }
+}
 
 /// Hazard of a limit state on rigid ground, NTC 3.2.
 #[derive(Clone, Copy, Debug, PartialEq)]

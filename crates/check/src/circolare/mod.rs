@@ -64,7 +64,7 @@ pub use compatibility::{BAND, Compatibility};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use floor::{FloorSpectrum, Mode};
 pub use grid::GridUnit;
-pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
+pub use ground::{Category, G, GroundSpectrum, Hazard, Soil, Topography, damping_factor};
 pub use set_back::SetBack;
 pub use side_verdict::{
     ActivationCheck, AtActivationNumbers, DisplacementCheck, LeastAlpha0, Sensitivity, SideVerdict, TieBreak,
@@ -73,8 +73,8 @@ pub use side_verdict::{
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
 pub use states::{Source, StateStatement};
 pub use table::{
-    Activation, AtActivation, BuildingTable, Category, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
-    LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, Topography, UseClass,
+    Activation, AtActivation, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
+    LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, UseClass,
 };
 pub use tie::{TieAtLimit, TieState};
 pub use verdict::{

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::lines::{DISPLACEMENT, SIDE};
 use super::side_verdict::{DisplacementCheck, SideVerdict};
 use super::statement::Statement;
-use super::table::{Hinge, Method, UseClass};
+use super::table::{Method, UseClass};
 use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
 use super::{ENTRY, LimitState};
 use crate::error::CheckError;
@@ -156,11 +156,7 @@ impl Checked<'_> {
         if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
             let mut note = format!(
                 "{}; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
-                match rule {
-                    Hinge::LeastAlpha0 => "hinge of the least multiplier",
-                    Hinge::Worst => "least favourable hinge",
-                    Hinge::Given => "hinge as given",
-                },
+                ["hinge of the least multiplier", "least favourable hinge", "hinge as given"][rule as usize],
                 number(found.alpha0, 4),
                 found.hinge,
                 three(found.zeta)

@@ -5,10 +5,10 @@ use rocking_wall::variables::{DampingModel, Impact, Rocking};
 use rocking_wall::wall::{Parameters, Wall};
 
 use super::case::Case;
-use super::checks::{Checks, tie_at_activation};
+use super::checks::{Checks, at_activation};
 use super::curve::Curve;
 use super::hinge::{self, Search};
-use super::side_verdict::{AtActivationNumbers, LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
+use super::side_verdict::{LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
 use super::statement::Statement;
 use super::states::Source;
 use super::table::{Activation, Hinge};
@@ -107,13 +107,6 @@ fn numbers(curve: &Curve, statement: &Statement) -> Result<SideVerdict, CheckErr
         strength: tie.strength,
         anchors: curve.anchors,
     });
-    let pull = tie_at_activation(curve, statement)?;
-    let activation = AtActivationNumbers {
-        alpha0: curve.alpha0 + pull / curve.pushed_weight,
-        acceleration: curve.elastic.acceleration + curve.of_force(pull),
-        t0: if pull > 0.0 { curve.tied_period() } else { curve.elastic.period },
-        force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
-    };
     Ok(SideVerdict {
         hinge: curve.hinge,
         alpha0: curve.alpha0,
@@ -127,7 +120,7 @@ fn numbers(curve: &Curve, statement: &Statement) -> Result<SideVerdict, CheckErr
         d_per_u: curve.stretch,
         least_alpha0: None,
         set_back: curve.set_back,
-        activation,
+        activation: at_activation(curve, statement)?,
         tie,
         untied: None,
         sensitivity: Vec::new(),

@@ -200,8 +200,8 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
     let Some(strength) = table.masonry_strength else {
         let others = table.masonry_gamma.is_some() || table.stress_block.is_some();
         if others || table.masonry_over_fc.is_some() {
-            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, f_m \
-                           in Pa; give it, or leave them out";
+            let message = "masonry_gamma, stress_block and masonry_over_fc count only with masonry_strength, \
+                           f_m in Pa; give it, or leave them out";
             return Err(CheckError::value(&["masonry_strength"], message));
         }
         return Ok(None);
@@ -229,8 +229,7 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
              hinges back: give masonry_strength, or a3 < 1 or a smaller thickness and state \
              compression_considered = true"
         );
-        let is_given = table.confidence_factor.is_some();
-        let key = if is_given { "confidence_factor" } else { "knowledge_level" };
+        let key = table.confidence_factor.map_or("knowledge_level", |_| "confidence_factor");
         return Err(CheckError::value(&[key], message));
     }
     Ok(factor)

@@ -5,8 +5,8 @@ use crate::site::misplaced;
 
 use super::LimitState;
 use super::floor::{FloorSpectrum, Mode};
-use super::ground::{GroundSpectrum, Hazard};
-use super::table::{BuildingTable, CheckTable, LimitStateTable, RecordScale, Topography};
+use super::ground::{GroundSpectrum, Hazard, Topography};
+use super::table::{BuildingTable, CheckTable, LimitStateTable, RecordScale};
 
 /// What is stated of a limit state.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,8 +120,8 @@ fn source(
         }
         _ => {
             let message = format!(
-                "needs its site: [check.{state}] with ag, F0 and TC; or ag with a spectrum and spectrum_damping; \
-                 or ag, with records and record_scale = \"none\""
+                "needs its site: [check.{state}] with ag, F0 and TC; or ag with a spectrum and \
+                 spectrum_damping; or ag, with records and record_scale = \"none\""
             );
             Err(refused(state, "ag", &message))
         }

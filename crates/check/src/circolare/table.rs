@@ -1,6 +1,5 @@
 //! The table `[check]` of a scene or a study.
 
-use rocking_wall::scene::{Described, Schema, with};
 use rocking_wall::variables::Rocking;
 use rocking_wall::wall::Bar;
 use rocking_wall::{choices, tables};
@@ -11,7 +10,7 @@ use toml::Spanned;
 use super::ENTRY;
 use super::floor::Mode;
 use super::grid::GridUnit;
-use super::ground::Soil;
+use super::ground::{Category, Soil, Topography};
 use super::statement::LARGEST_CONFIDENCE_FACTOR;
 
 tables! {
@@ -213,13 +212,6 @@ const LEAST_STRENGTH: f64 = 1e5;
 /// The softest masonry, E; less is in another unit \[Pa\].
 const SOFTEST: f64 = 1e7;
 
-impl Described for Topography {
-    fn describe(key: &str, tables: &mut Schema) -> Schema {
-        let factor = with(with(f64::describe(key, tables), "minimum", 1), "maximum", 1.4);
-        with(Schema::new(), "anyOf", vec![Category::describe(key, tables), factor])
-    }
-}
-
 /// Where the hinge of a strip is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -301,36 +293,6 @@ pub enum KnowledgeLevel {
     LC2,
     /// Accurate, FC 1.
     LC3,
-}
-
-/// Category of topography of Tab. 3.2.V.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[allow(missing_docs, reason = "names of the code")]
-pub enum Category {
-    T1,
-    T2,
-    T3,
-    T4,
-}
-
-/// Topography: a category of Tab. 3.2.V or `S_T`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(untagged, expecting = "expected \"T1\" to \"T4\", or S_T from 1 to 1.4")]
-pub enum Topography {
-    /// `S_T` \[-\].
-    Factor(f64),
-    /// `T1` to `T4`.
-    Category(Category),
-}
-
-impl Topography {
-    /// `S_T` of Tab. 3.2.V \[-\].
-    pub(super) fn factor(self) -> f64 {
-        match self {
-            Self::Factor(factor) => factor,
-            Self::Category(category) => [1.0, 1.2, 1.2, 1.4][category as usize],
-        }
-    }
 }
 
 /// Use class of NTC 2.4.2.

@@ -97,10 +97,7 @@ impl Side {
 
     /// Returns the name of the side in tables, `u > 0` or `u < 0`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Positive => "u > 0",
-            Self::Negative => "u < 0",
-        }
+        ["u > 0", "u < 0"][self as usize]
     }
 }
 
@@ -127,21 +124,12 @@ impl Deciding {
 
     /// Returns the name of the check.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Sld => "SLD",
-            Self::SlvWithQ => "SLV with q",
-            Self::Slv => "SLV",
-            Self::Slc => "SLC",
-        }
+        ["SLD", "SLV with q", "SLV", "SLC"][self as usize]
     }
 
     /// Returns its limit state.
     pub(super) fn state(self) -> LimitState {
-        match self {
-            Self::Sld => LimitState::Sld,
-            Self::SlvWithQ | Self::Slv => LimitState::Slv,
-            Self::Slc => LimitState::Slc,
-        }
+        [LimitState::Sld, LimitState::Slv, LimitState::Slv, LimitState::Slc][self as usize]
     }
 }
 

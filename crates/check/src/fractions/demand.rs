@@ -23,8 +23,8 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError`] of the first whose period does not rise from 0 on, or whose `S_a` is not above 0; `place`
-    /// names a point by its index.
+    /// [`CheckError`] of the first whose period does not rise from 0 on, or whose `S_a` is not above 0;
+    /// `place` names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
         match misplaced(&points) {
             None if !points.is_empty() => Ok(Self(Of::Points(points))),

@@ -39,7 +39,6 @@ pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<F
         named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
     ];
     let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
-    let caption = "Capacity curve of the governing side (blue) over the demand (red) in acceleration and \
-                   displacement; dashed: the secant, and the displacement capacity";
+    let caption = "Capacity curve of the governing side over the demand in acceleration and displacement.";
     Ok(Figure { caption: caption.to_owned(), plot: Plot::new([820.0, 460.0], axes, series) })
 }

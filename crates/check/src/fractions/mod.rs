@@ -136,8 +136,9 @@ impl Statement {
                 statement.read_spectrum(file.folder().join(name), &table)?;
             }
             _ => {
-                let message = "the demand is spectrum = \"FILE\" with its unit and column, or records = { files = \
-                               [...] }, which have theirs in records.unit and records.column; give one of both";
+                let message = "the demand is spectrum = \"FILE\" with its unit and column, or records = { \
+                               files = [...] }, which have theirs in records.unit and records.column; give \
+                               one of both";
                 return Err(CheckError::value(&["spectrum"], message));
             }
         }

@@ -140,11 +140,12 @@ fn parameter(
             let value = if name == "mechanism" {
                 mechanism(parameters.mechanism).to_owned()
             } else if name == "tie_side" {
-                match parameters.tie_side {
-                    TieSide::Positive => "to the outside (u &gt; 0)".to_owned(),
-                    TieSide::Negative => "to the inside (u &lt; 0)".to_owned(),
-                    TieSide::Both => "both".to_owned(),
-                }
+                let said = match parameters.tie_side {
+                    TieSide::Positive => "to the outside (u &gt; 0)",
+                    TieSide::Negative => "to the inside (u &lt; 0)",
+                    TieSide::Both => "both",
+                };
+                said.to_owned()
             } else {
                 text.trim_matches('"').replace('_', " ")
             };

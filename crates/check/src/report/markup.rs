@@ -136,9 +136,9 @@ impl Calculation {
     }
 
     /// Adds a line: words and source of the formula, the formula, its numbers, result and unit; empty sources
-    /// and units are left out. Numbers are put in where every symbol behind the last `=` is known; what stands
-    /// in braces, such as a power of ten between units, is for them alone. From then on the symbols before the
-    /// `=` are known.
+    /// and units are left out. Numbers are put in where every symbol behind the last `=` is known; what
+    /// stands in braces, such as a power of ten between units, is for them alone. From then on the symbols
+    /// before the `=` are known.
     pub(crate) fn line(&mut self, words: [&str; 2], formula: &str, result: (f64, &str)) {
         let (left, right) = formula.rsplit_once(" = ").unwrap_or(("", formula));
         let put = self.put(right).filter(|put| *put != shown(result.0)).unwrap_or_default();

@@ -60,14 +60,14 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// The figure as markup, with a form for phones, where a legend would hide the curves.
+    /// The figure as markup with its legend, and with a form for phones.
     pub fn html(&self) -> String {
-        let mut narrow = Plot { size: [NARROW, 300.0], ..self.plot.clone() };
-        narrow.series.iter_mut().for_each(|series| series.name.clear());
         let Self { caption, plot } = self;
+        let narrow = Plot { size: [NARROW, 300.0], ..plot.clone() };
         format!(
-            "<figure><figcaption>{caption}</figcaption><div class=\"plot wide\">{}</div><div class=\"plot \
-             narrow\">{}</div></figure>\n",
+            "<figure><figcaption>{caption} <span class=\"key\">{}</span></figcaption><div class=\"plot \
+             wide\">{}</div><div class=\"plot narrow\">{}</div></figure>\n",
+            plot.key(false),
             plot.svg(),
             narrow.svg()
         )

@@ -219,7 +219,7 @@ fn assignments_reach_the_check() {
     assert!(set(&["check.soil=A"]).unwrap() > base);
     assert!(set(&["check.SLV.ag = 0.1", "check.SLC.ag = 0.12", "check.SLD.ag=0.05"]).unwrap() > base);
     let error = set(&["check.SLV.F0=2.4", "check.soil=F"]).unwrap_err();
-    assert!(error.contains("--set check.soil = \"F\": soil = \"F\" is not one of \"A\""), "{error}");
+    assert!(error.contains("--set check.soil = \"F\": [check] soil = \"F\" is not one of \"A\""), "{error}");
     let error = set(&["check.soll=A"]).unwrap_err();
     assert!(
         error.contains("--set check.soll = \"A\": ") && error.contains("did you mean \"soil\"?"),

@@ -39,13 +39,16 @@ fn messages_name_line_and_key_and_what_is_expected() {
     for (found, message) in [
         (
             check(&CHECK.replace("\"nonlinear\"", "\"nonlinaer\"")),
-            "line 10: method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" (did you \
-             mean \"nonlinear\"?)",
+            "line 10: [check] method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" \
+             (did you mean \"nonlinear\"?)",
         ),
-        (check(&CHECK.replace("\"LC1\"", "1")), "line 5: knowledge_level = 1: expected a name in quotes"),
+        (
+            check(&CHECK.replace("\"LC1\"", "1")),
+            "line 5: [check] knowledge_level = 1: expected a name in quotes",
+        ),
         (
             check(&CHECK.replace("\"T1\"", "true")),
-            "line 8: topography = true: expected \"T1\" to \"T4\", or S_T",
+            "line 8: [check] topography = true: expected \"T1\" to \"T4\", or S_T",
         ),
         (check(&CHECK.replace("ag = 0.15\n", "")), "line 12: [check] SLV: ag is missing; state a_g in g"),
         (check(&CHECK.replace("[0.0, 0.2]", "[0.0]")), "spectrum = [0.0]: expected a list of 2 values"),
@@ -57,7 +60,7 @@ fn messages_name_line_and_key_and_what_is_expected() {
             check(&FRACTIONS.replace("unit", "unti")),
             "unknown key \"unti\" in [check] (did you mean \"unit\"?)",
         ),
-        (check(&FRACTIONS.replace("m/s2", "km")), "line 6: unit = \"km\""),
+        (check(&FRACTIONS.replace("m/s2", "km")), "line 6: [check] unit = \"km\""),
         (check(&FRACTIONS.replace("unit = \"m/s2\"\n", "")), "line 1: [check] unit is missing"),
     ] {
         assert!(found.contains(message), "{found}\nfor {message}");

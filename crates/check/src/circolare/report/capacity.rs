@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
+use crate::circolare::figure::over_demand;
 use crate::circolare::{Activation, Checked, Side, SideVerdict};
 use crate::error::CheckError;
 use crate::report::Figure;
-use ::report::palette::{BLACK, sign, stroke};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
 
@@ -37,17 +36,6 @@ pub(in crate::circolare) fn figure(
     name: &str,
     side: &SideVerdict,
 ) -> Result<Figure, CheckError> {
-    let entry = |sample: String, name: &str| format!("<span>{sample}{name}</span>");
-    let line = |color: &str, style: &str, name: &str| entry(stroke(color, style), name);
-    let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
-    for (state, _) in side.by_displacement() {
-        let color = color(state);
-        key += &entry(sign(color, CAPACITY), &formula(&format!("d_{state}")));
-        key += &entry(sign(color, DEMAND), &format!("demand of {state}"));
-        key += &line(color, "dashed", &format!("secant to {}", formula(&format!("d_{state}"))));
-        key += &line(color, "dotted", &formula(&format!("T_{state}")));
-        key += &line(color, "solid", "its spectrum");
-    }
     let mut of_others = String::new();
     for (state, check) in side.by_displacement() {
         if let Some(hinge) = check.hinge.filter(|hinge| Some(*hinge) != side.hinge) {
@@ -58,7 +46,7 @@ pub(in crate::circolare) fn figure(
     }
     let caption = format!(
         "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies right of \
-         the triangle of the same colour.{of_others} <span class=\"key\">{key}</span>",
+         the triangle of the same colour.{of_others}",
         ::report::escaped(name)
     );
     Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands, None)? })

@@ -1,14 +1,12 @@
 //! The statements of the engineer, with where they come from.
 
-use crate::circolare::{
-    Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, RecordScale, Source, Statement,
-};
+use crate::circolare::{Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Source, Statement};
 use crate::report::Origin;
 use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
 use crate::circolare::rows::by_method;
-use crate::circolare::table::{AtActivation, Hinge, Rocks, STRESS_BLOCK};
+use crate::circolare::table::{Hinge, STRESS_BLOCK};
 
 use crate::report::markup::{formula, stated, table};
 
@@ -24,15 +22,19 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if case.parameters.overburden > 0.0 {
         state(overburden(case), &["overburden_mass"]);
     }
+    let is_dynamic = case.outcome.dynamic.is_some();
     if let Some(rocks) = statement.table.rocking {
-        let said = sides(rocks);
+        let sides = ["both sides.", "the side u > 0 only: outwards.", "the side u < 0 only: inwards."];
         // the runs rock as the scene does
-        let is_dynamic = case.outcome.dynamic.is_some();
-        let said = if is_dynamic { said.replacen("The", "In the static checks the", 1) } else { said.into() };
-        state(escaped(&said), &["rocking"]);
+        let wall = if is_dynamic { "In the static checks the wall" } else { "The wall" };
+        state(escaped(&format!("{wall} rocks to {}", sides[rocks as usize])), &["rocking"]);
     }
     if case.wall.tie().is_some() {
-        state(tie(statement.at_activation()).into(), &["tie"]);
+        let said = [
+            "The tie does not count at the activation (SLD, SLV with q).",
+            "The tie pulls with its strength at the activation.",
+        ];
+        state(said[statement.at_activation() as usize].to_owned(), &["tie"]);
     }
     state(confidence(case), &["confidence_factor", "knowledge_level"]);
     state(compression(statement), &["compression_considered", "masonry_strength"]);
@@ -48,8 +50,14 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     }
     let [method, decides, clause] = by_method(statement);
     state(format!("{method} {decides} ({clause})."), &["method"]);
-    if case.outcome.dynamic.is_some() {
-        state(scale(statement.table.record_scale), &["record_scale"]);
+    if is_dynamic {
+        let peak = format!("The peak of each record is brought to {}.", formula("a_g S"));
+        let said = [
+            &*peak,
+            "The records are taken as they are.",
+            "The records are scaled to the spectrum of the ground (NTC 3.2.3.6).",
+        ];
+        state(said[statement.table.record_scale as usize].to_owned(), &["record_scale"]);
     }
     of_building(statement, &mut state);
     if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
@@ -121,31 +129,6 @@ fn hinge(rule: Hinge, [from, to]: [f64; 2]) -> String {
         ),
         Hinge::LeastAlpha0 => "Intermediate hinge: that of the least multiplier (C8.7.1.2.1.1).".into(),
         Hinge::Given => "Intermediate hinge: as given.".into(),
-    }
-}
-
-fn sides(rocks: Rocks) -> &'static str {
-    match rocks {
-        Rocks::TwoSided => "The wall rocks to both sides.",
-        Rocks::OneSidedPositive => "The wall rocks to the side u > 0 only: outwards.",
-        Rocks::OneSidedNegative => "The wall rocks to the side u < 0 only: inwards.",
-    }
-}
-
-fn tie(at_activation: AtActivation) -> &'static str {
-    match at_activation {
-        AtActivation::Yield => "The tie pulls with its strength at the activation.",
-        AtActivation::None => "The tie does not count at the activation (SLD, SLV with q).",
-    }
-}
-
-fn scale(scale: RecordScale) -> String {
-    match scale {
-        RecordScale::Ag => format!("The peak of each record is brought to {}.", formula("a_g S")),
-        RecordScale::None => "The records are taken as they are.".to_owned(),
-        RecordScale::Spectrum => {
-            "The records are scaled to the spectrum of the ground (NTC 3.2.3.6).".to_owned()
-        }
     }
 }
 

@@ -75,11 +75,12 @@ fn activation(
     let (words, source, formula_of) = match demand {
         Demand::Ground(_) if held => ("Demand", "[3.2.2], T = 0", "a_g S"),
         Demand::Ground(_) => (&*at_t0, "[3.2.2]", &*of_t0),
-        Demand::Floor(floor) if floor.ground_governs(check.t0, xi) && held => {
-            ("Demand: the ground governs, above the a_Z of the height", "[3.2.2]", "a_g S")
-        }
         Demand::Floor(floor) if floor.ground_governs(check.t0, xi) => {
-            ("Demand: the ground governs, above the S_eZ of the height", "[3.2.2]", "a_g S")
+            let words = [
+                "Demand: the ground governs, above the S_eZ of the height",
+                "Demand: the ground governs, above the a_Z of the height",
+            ];
+            (words[usize::from(held)], "[3.2.2]", "a_g S")
         }
         Demand::Floor(_) if held => ("Demand", "[C7.2.8]", "a_Z"),
         Demand::Floor(_) => (&*at_t0, "[C7.2.6]", &*of_t0),

@@ -35,8 +35,8 @@ fn by_side(case: &Checked<'_>, say: impl Fn(Side, &SideVerdict) -> String) -> St
     text
 }
 
-/// A calculation that knows the wall, and the numbers of a side with its hinge: forces in kN, displacements in
-/// mm.
+/// A calculation that knows the wall, and the numbers of a side with its hinge: forces in kN, displacements
+/// in mm.
 fn calculation(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> Calculation {
     let (parameters, body) = (&case.parameters, body_of(case, verdict));
     let (w, o, h1) = (1e-3 * body.weight, 1e-3 * body.overburden, body.hinge_height);

@@ -1,13 +1,12 @@
 //! The site, what acts at the wall, and their spectra.
 
-use crate::circolare::figure::{DEMAND, Drawn, color, spectra};
+use crate::circolare::figure::{Drawn, spectra};
 use crate::circolare::{
     BuildingTable, CheckTable, Checked, Demand, DisplacementCheck, FloorSpectrum, GroundSpectrum, LimitState,
     MEAN_COUNTS_FROM, Mode, Source, StateStatement, Topography,
 };
 use crate::error::CheckError;
 use crate::report::Figure;
-use ::report::palette::{sign, stroke};
 
 use crate::report::markup::{formula, or_dash, shown, table};
 
@@ -191,7 +190,7 @@ fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
     if drawn.is_empty() {
         return Ok(String::new());
     }
-    let caption = format!("Site: {} at 5 % damping [3.2.2]. {}", formula("S_e(T)"), key(&drawn, false));
+    let caption = format!("Site: {} at 5 % damping [3.2.2].", formula("S_e(T)"));
     Ok(Figure { caption, plot: spectra(&drawn, "S_e (m/s²)", last_period(case))? }.html())
 }
 
@@ -212,22 +211,10 @@ fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
     let source = if is_of_code { source } else { "as given" };
     let caption = format!(
-        "At the wall: {} {source} at the damping of the mechanism; {} of the governing side. {}",
+        "At the wall: {} {source} at the damping of the mechanism; ▲ {} of the governing side.",
         formula(&format!("{symbol}(T, ξ)")),
-        formula("T0, T_SLV, T_SLC"),
-        key(&drawn, true)
+        formula("T0, T_SLV, T_SLC")
     );
     let plot = spectra(&drawn, &format!("{symbol} (m/s²)"), last_period(case))?;
     Ok(Figure { caption, plot }.html())
-}
-
-/// The colours of spectra.
-fn key(drawn: &[Drawn<'_>], has_marks: bool) -> String {
-    let one = |drawn: &Drawn<'_>| {
-        let color = color(drawn.state);
-        let line = stroke(color, "solid");
-        let mark = if has_marks { sign(color, DEMAND) } else { String::new() };
-        format!("<span>{line}{mark}{}, {} %</span>", drawn.state, shown(100.0 * drawn.damping))
-    };
-    format!("<span class=\"key\">{}</span>", drawn.iter().map(one).collect::<String>())
 }
