@@ -18,6 +18,9 @@ pub use heading::Name;
 
 use crate::error::excerpt;
 use crate::fields::{Numbered, lines};
+use crate::options::RecordOptions;
+use crate::quantity::Quantity;
+use crate::unit::Unit;
 use cells::{Separator, cells};
 
 /// What starts a comment.
@@ -232,11 +235,50 @@ impl<'a> Columns<'a> {
         Err(Fault::excerpt(line, expected, text, remedy))
     }
 
-    /// Returns the name of the first column. Refuses an empty one above rows of numbers: that column is an index.
-    pub(crate) fn checked_first(&self) -> Result<Option<&Name>, Fault> {
-        match self.names.first() {
-            Some(name) if name.written().is_empty() => Err(index_column(self.heading)),
-            first => Ok(first),
+    /// Returns how many seconds the unit of the first column has: one where it has no name or no unit. Refuses
+    /// a column that `is_first` does not know, and another unit than s unless it `may_differ`.
+    pub(crate) fn seconds(
+        &self,
+        is_first: impl Fn(&Name) -> bool,
+        may_differ: bool,
+        [expected, remedy]: [&str; 2],
+    ) -> Result<f64, Fault> {
+        let Some(name) = self.names.first() else { return Ok(1.0) };
+        if name.written().is_empty() {
+            return Err(index_column(self.heading));
+        }
+        match name.stated().filter(|_| is_first(name)) {
+            Some((_, Quantity::Time(seconds))) if seconds == 1.0 || may_differ => Ok(seconds),
+            // `time (a_g in m/s2)`
+            None if is_first(name) && name.unit().is_none_or(|unit| unit.contains(" in ")) => Ok(1.0),
+            _ => {
+                let expected = format!("{expected} in the first column");
+                let found = name.unit().map(|unit| format!("{} [{unit}]", name.text()));
+                Err(Fault::excerpt(
+                    self.heading.0,
+                    expected,
+                    found.as_deref().unwrap_or(name.written()),
+                    remedy,
+                ))
+            }
+        }
+    }
+
+    /// Returns the unit of a column of accelerations: the one that its name or the first states, or else the
+    /// one that the user does. Refuses names of other quantities, and units that are not read.
+    pub(crate) fn unit(&self, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
+        let Some(name) = self.names.get(column) else { return Ok(options.unit) };
+        let of_first = || self.names[0].unit()?.split_once(" in ").map(|(_, unit)| unit);
+        let unit = if self.width > 1 {
+            name.refuse_other_quantity(self.heading.0)?;
+            name.unit().or_else(of_first)
+        } else {
+            // what is in the brackets of a title need not be a unit
+            name.unit().filter(|unit| Quantity::of(unit).is_some())
+        };
+        match unit {
+            Some(unit) => options.unit_of(unit, self.heading.0).map(Some),
+            None => Ok(options.unit),
         }
     }
 

@@ -47,11 +47,6 @@ pub struct Record {
 impl Parsed {
     fn into_record(self, format: Format, stated_step: Option<f64>) -> Result<Record, Fault> {
         let Self { step, samples, last_line, .. } = self;
-        if samples.len() < 2 {
-            let found = samples.len().to_string();
-            let remedy = "check that the file is complete";
-            return Err(Fault::new(last_line, "at least two samples", found, remedy));
-        }
         if step > LONGEST_STEP && stated_step.is_none() {
             let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the \
                           step is right, state it, as `step` (on the command line --record-step, in Python \
@@ -60,7 +55,12 @@ impl Parsed {
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
         let motion = GroundMotion::new(step, samples).map_err(|error| {
-            Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
+            Fault::new(
+                last_line,
+                "a sound motion",
+                format!("that {error}"),
+                "check that the file is complete, and correct it",
+            )
         })?;
         Ok(Record {
             motion,

@@ -84,14 +84,12 @@ impl SpectrumFile {
             let remedy = "write the period and Sa on each line, between commas, semicolons, tabs or blanks";
             return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
         }
-        check_periods(&columns)?;
+        columns.seconds(is_period, false, ["periods in s", NAME_PERIODS])?;
         let column_number = columns.beside_the_first(wanted, "T")?;
         refuse_record(&columns, column_number)?;
         let name = columns.names().get(column_number);
-        name.map_or(Ok(()), |name| name.refuse_other_quantity(columns.line()))?;
         let options = RecordOptions { unit: given, ..RecordOptions::default() };
-        let stated = name.and_then(Name::unit).map(|word| options.unit_of(word, columns.line()));
-        let Some(unit) = stated.transpose()?.or(given) else {
+        let Some(unit) = columns.unit(column_number, &options)? else {
             let remedy =
                 "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";
             return Err(Fault::excerpt(columns.line(), "a unit of Sa", columns.heading(), remedy));
@@ -133,10 +131,18 @@ fn abscissa(name: &Name) -> Option<Quantity> {
     })
 }
 
-/// Returns whether a column may be the first of a spectrum.
+/// Returns whether a column may be the first of a spectrum: periods, or frequencies, which are refused.
 fn is_abscissa(name: &Name) -> bool {
-    matches!(name.quantity(), Some(Quantity::Time(_) | Quantity::Frequency)) || abscissa(name).is_some()
+    is_period(name) || [name.quantity(), abscissa(name)].contains(&Some(Quantity::Frequency))
 }
+
+/// Returns whether a column has periods.
+fn is_period(name: &Name) -> bool {
+    matches!(name.quantity(), Some(Quantity::Time(_))) || matches!(abscissa(name), Some(Quantity::Time(_)))
+}
+
+const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`; convert frequencies by \
+                            T = 1/f and T = 2π/ω";
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
 /// or one alone in its brackets or behind Sa, `Sa (5 %)` and `Sa_2.5%`. That of `10 % in 50 years` is none.
@@ -187,19 +193,4 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
     let remedy = "this is a record: give the spectrum of its response, or the record as such; name periods \
                   `T [s]`";
     Err(Fault::excerpt(columns.line(), "a response spectrum", columns.heading(), remedy))
-}
-
-/// Refuses a first column that is not the period in seconds.
-fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
-    let Some(name) = columns.checked_first()? else { return Ok(()) };
-    let remedy = match (name.stated(), abscissa(name)) {
-        (Some((_, Quantity::Frequency)), _) | (_, Some(Quantity::Frequency)) => {
-            "write periods instead of frequencies: T = 1/f, and T = 2π/ω".to_owned()
-        }
-        (Some((_, Quantity::Time(1.0))), _) | (None, Some(_)) => return Ok(()),
-        (Some((unit, Quantity::Time(seconds))), _) => format!("convert the periods: 1 {unit} is {seconds} s"),
-        _ => "make the periods in s the first column, and name it `T [s]`".to_owned(),
-    };
-    let expected = "periods in s in the first column";
-    Err(Fault::excerpt(columns.line(), expected, name.written(), remedy))
 }

@@ -58,27 +58,24 @@ impl<'a> Forcing<'a> {
 
     /// Returns the largest |p| over a range of samples.
     fn largest(&self, range: Range<usize>) -> f64 {
-        let Self::Samples(samples) = self else { return 0.0 };
-        // eight maxima side by side: a single chain of maxima would take longer than the steps
-        let (rows, rest) = samples[range].as_chunks::<8>();
-        let larger = |a: f64, b: f64| if b > a { b } else { a };
-        let mut columns = [0.0; 8];
-        for row in rows {
-            columns = std::array::from_fn(|i| larger(columns[i], row[i].abs()));
-        }
-        columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()))
+        self.fold(range, |a, b| if b > a { b } else { a })
     }
 
     /// Returns the sum of |p| over a range of samples.
     fn sum(&self, range: Range<usize>) -> f64 {
+        self.fold(range, |a, b| a + b)
+    }
+
+    /// Combines |p| over a range of samples, eight side by side: a single chain would take longer than the
+    /// steps.
+    fn fold(&self, range: Range<usize>, combine: impl Fn(f64, f64) -> f64) -> f64 {
         let Self::Samples(samples) = self else { return 0.0 };
-        // eight sums side by side, as above
         let (rows, rest) = samples[range].as_chunks::<8>();
         let mut columns = [0.0; 8];
         for row in rows {
-            columns = std::array::from_fn(|i| columns[i] + row[i].abs());
+            columns = std::array::from_fn(|i| combine(columns[i], row[i].abs()));
         }
-        columns.into_iter().chain(rest.iter().map(|sample| sample.abs())).sum()
+        columns.into_iter().chain(rest.iter().map(|sample| sample.abs())).fold(0.0, combine)
     }
 }
 

@@ -104,13 +104,9 @@ pub fn force_path<'a>(
 
 /// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.
 pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, height: f64) -> Plot {
-    let y_range = padded(full.iter().chain(small).map(|point| point.1));
-    let series = vec![
-        Series { look: Look::Dashed, ..Series::stroke(RED, 1.4, decimated(small, end)) },
-        Series::stroke(BLUE, 1.4, decimated(full, end)),
-    ];
-    let axes = [Axis::over("time (s)", [0.0, end]), Axis::over("u / u_ins", y_range)];
-    Plot::new([WIDTH, height], axes, series)
+    let mut plot = histories(&[(small, RED), (full, BLUE)], [0.0, end], "u / u_ins", &[]);
+    plot.series[0].look = Look::Dashed;
+    Plot { size: [WIDTH, height], ..plot }
 }
 
 /// Draws periods with small rotations over those with full ones, against the slenderness \[rad\].

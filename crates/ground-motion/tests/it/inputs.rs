@@ -120,10 +120,10 @@ fn tables_of_records_are_refused() {
         (comma("// t, a\n"), &["line 1", "`// t, a`", "comments start with # or %"][..]),
         (table("! t, a\n", " ", "", "."), &["line 1", "comments start with # or %"]),
         (comma(header).replace("\n1.00,", "\n// here\n1.00,"), &["line 102", "comments start with # or %"]),
-        (comma("time [ms],acc\n"), &["line 1", "times in s", "`ms`", "write the times in seconds"]),
-        (comma("time (ms),acc\n"), &["line 1", "times in s", "`ms`"]),
-        (comma("time_ms,acc\n"), &["line 1", "times in s", "`ms`"]),
-        (comma("# t [ms], a [m/s2]\n"), &["line 1", "times in s", "`ms`"]),
+        (comma("time [ms],acc\n"), &["line 1", "times in s", "`time [ms]`", "in seconds"]),
+        (comma("time (ms),acc\n"), &["line 1", "times in s", "`time [ms]`"]),
+        (comma("time_ms,acc\n"), &["line 1", "times in s", "`time_ms`"]),
+        (comma("# t [ms], a [m/s2]\n"), &["line 1", "times in s", "`t [ms]`"]),
         (comma("t [s],a [m/s2]\n").replace(',', "|"), &["line 2", "`|` separates no columns"]),
         (comma("t [s],a\n").replace(",-", ",\u{2212}"), &["write minus signs as `-`"]),
         (comma("t [s],a\n").replace("\n1.00,", "\n1.00,it's \"\u{202f}"), &["found `it's \"U+202F-"]),
@@ -135,7 +135,7 @@ fn tables_of_records_are_refused() {
         (comma("t [s],vel [m/s2]\n"), &["line 1", "`vel [m/s2]`", "column of the acceleration"]),
         (comma("t [s],vg [m/s2]\n"), &["line 1", "column of the acceleration"]),
         (comma("t [s],Displacement (m/s2)\n"), &["line 1", "column of the acceleration"]),
-        (comma("time,acc\nms,m/s2\n"), &["times in s", "`ms`"]),
+        (comma("time,acc\nms,m/s2\n"), &["line 1", "times in s", "`time [ms]`"]),
         (
             table("time,a_g\n", ".00,", "", ".").replace('\n', "\n2023/05/18 "),
             &["line 2", "a finite number", "`2023/05/18"],
@@ -186,7 +186,7 @@ fn the_stated_step_counts_beside_times_in_other_units() {
     let warning = "step: the times of the file are 0.01 s apart; the 0.005 s that you state count";
     assert_eq!(of(0.005), [warning]);
     let error = crate::read("x.csv", text, &RecordOptions::default()).unwrap_err();
-    assert_mentions(&error, &["times in s", "`ms`", "write the times in seconds", "--record-step"]);
+    assert_mentions(&error, &["times in s", "`time [ms]`", "--record-step"]);
 }
 
 /// Decimals beside whole numbers are no thousands if one of them is below 1, or has another number of digits.

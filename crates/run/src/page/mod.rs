@@ -1,7 +1,7 @@
 //! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
 
-use report::escaped;
 use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};
+use report::{escaped, number};
 use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Impact;
@@ -101,8 +101,7 @@ fn said(response: &Response) -> String {
     let (ratio, tie) = (100.0 * response.summary.u_ratio_max, tie::said(response));
     match response.summary.fate.words(1) {
         Some(words) => verdict(&format!("The wall {words}.{tie}"), true),
-        None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins.{tie}"), false),
-        None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins.{tie}"), false),
+        None => verdict(&format!("The wall stands: {} % of u_ins.{tie}", number(ratio, 3)), false),
     }
 }
 
@@ -222,11 +221,10 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
     let motion = column(&|sample| sample.support.bottom);
     let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
     let top_motion = has_top.then(|| column(&|sample| sample.support.top));
-    let on_floors = scene.floors.is_some();
     let supports = match top_motion {
         Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
         None if wall.body().hinge().is_some() => "Acceleration of both supports",
-        None if on_floors => "Acceleration of the floor",
+        None if scene.floors.is_some() => "Acceleration of the floor",
         None => "Acceleration of the support",
     };
     [
