@@ -141,8 +141,8 @@ fn is_period(name: &Name) -> bool {
     is_abscissa(name) && !is_time && abscissa(name) != Some(Quantity::Frequency)
 }
 
-const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`: times are those of a \
-                            record, and frequencies are T = 1/f and T = 2π/ω";
+const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`: times are those \
+                            of a record, and frequencies are T = 1/f and T = 2π/ω";
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
 /// or one alone in its brackets or behind Sa, `Sa (5 %)` and `Sa_2.5%`. That of `10 % in 50 years` is none.
