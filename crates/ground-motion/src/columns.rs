@@ -64,8 +64,8 @@ impl<'a> Columns<'a> {
     /// row of units.
     ///
     /// A line names the columns if `is_first` knows its first name, or if it has as many names as the first
-    /// row has cells. So does the last comment above the rows, if `is_first` knows its first name. `forms` says
-    /// in messages what the file should have.
+    /// row has cells. So does the last comment above the rows, if `is_first` knows its first name. `forms`
+    /// says in messages what the file should have.
     ///
     /// # Errors
     /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
@@ -235,8 +235,8 @@ impl<'a> Columns<'a> {
         Err(Fault::excerpt(line, expected, text, remedy))
     }
 
-    /// Returns how many seconds the unit of the first column has: one where it has no name or no unit. Refuses
-    /// a column that `is_first` does not know, and another unit than s unless it `may_differ`.
+    /// Returns how many seconds the unit of the first column has: one where it has no name or no unit.
+    /// Refuses a column that `is_first` does not know, and another unit than s unless it `may_differ`.
     pub(crate) fn seconds(
         &self,
         is_first: impl Fn(&Name) -> bool,
@@ -295,9 +295,9 @@ impl<'a> Columns<'a> {
             }
             _ => {
                 let found = format!("{} columns in {}", self.width, excerpt(text));
-                let remedy = "name the columns in a header line, by one word each where blanks separate them, \
-                              and state the one to read (on the command line --column); or write one sample a \
-                              line; where decimals have a comma, separate the columns by semicolons";
+                let remedy = "name the columns in a header line, by one word each between blanks, and \
+                              state the one to read (on the command line --column); or write one sample a \
+                              line; where decimals have a comma, separate columns by semicolons";
                 Err(Fault::new(line, format!("one column beside {first}"), found, remedy))
             }
         }

@@ -64,8 +64,8 @@ pub enum GroundMotionError {
     Io { file: String, reason: io::Error },
     /// Not one channel: several and none was asked for, or not one of the name that was.
     #[error(
-        "{file}: expected one channel{wanted}, found {found}; state the number of one of these as `channel` (on \
-         the command line --channel), or none if there is only one"
+        "{file}: expected one channel{wanted}, found {found}; state the number of one of these as \
+         `channel` (on the command line --channel), or none if there is only one"
     )]
     Channel { file: String, wanted: String, found: String },
     /// Content that is not what the format requires.

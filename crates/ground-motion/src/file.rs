@@ -39,9 +39,6 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>> {
     if bytes.len() as u64 > limit { refused("more") } else { Ok(bytes) }
 }
 
-/// The mark that DOS put at the end of texts.
-pub(crate) const END_OF_FILE: u8 = 0x1a;
-
 /// Returns the text of bytes in UTF-8; `what` says in messages what it should be. Bytes in UTF-16, and those
 /// of Windows-1252, in which Excel saves CSV, are named for what they are.
 ///
@@ -80,7 +77,7 @@ pub(crate) fn check_is_text(bytes: &[u8], expected: &str, remedy: &str) -> std::
     if is_utf16(bytes) {
         return Err(Fault::new(1, "text in UTF-8", "UTF-16, which Excel calls Unicode text", SAVE_AS_UTF8));
     }
-    let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80..);
+    let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | 0x20..=0x7e | 0x80..);
     let Some(at) = bytes.iter().position(|&byte| !is_text(byte)) else { return Ok(()) };
     Err(Fault::new(line_of(bytes, at), expected, format!("the byte 0x{:02x}", bytes[at]), remedy))
 }

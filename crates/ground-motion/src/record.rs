@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::check::Warning;
 use crate::companion::Companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
-use crate::file::{END_OF_FILE, check_is_text, read_file};
+use crate::file::{check_is_text, read_file};
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
@@ -147,11 +147,14 @@ pub fn parse_channels(
 }
 
 /// Finds the format of a text and reads its channels.
-fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format, Vec<Parsed>), Fault> {
+fn parsed(name: &str, mut bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format, Vec<Parsed>), Fault> {
     let remedy = "binary files are not read: save the record as plain text (UTF-8)";
+    // the end mark of DOS, and blanks
+    let is_content = |byte: &u8| !matches!(byte, 0x1a | b'\t' | b'\n' | b'\r' | b' ');
+    bytes.truncate(bytes.iter().rposition(is_content).map_or(0, |last| last + 1));
     check_is_text(&bytes, "text", remedy)?;
     let decoded = decode(bytes);
-    let text = sound_part(&decoded)?;
+    let text = decoded.trim_start_matches('\u{feff}');
     if text.trim().is_empty() {
         return Err(Fault::new(1, "a record", "an empty file", "check that this is the right file"));
     }
@@ -193,20 +196,6 @@ fn not_one(file: &str, wanted: &str, channels: &[String]) -> GroundMotionError {
 pub(crate) fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
     read_file(path, "a record", MAX_FILE_BYTES)
         .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
-}
-
-/// Strips the byte order mark and the end mark of DOS from a text.
-fn sound_part(text: &str) -> Result<&str, Fault> {
-    let mark = char::from(END_OF_FILE);
-    let text = text.trim_start_matches('\u{feff}');
-    let text = text.trim_end_matches(|c: char| c == mark || c.is_whitespace());
-    match text.split_once(mark) {
-        None => Ok(text),
-        Some((before, _)) => {
-            let line = before.matches('\n').count() + 1;
-            Err(Fault::new(line, "text", "the byte 0x1a, the end of a file", "keep one record in the file"))
-        }
-    }
 }
 
 /// Decodes UTF-8, or else Latin-1, in which old headers name stations.

@@ -86,7 +86,6 @@ impl SpectrumFile {
         }
         columns.seconds(is_period, false, ["periods in s", NAME_PERIODS])?;
         let column_number = columns.beside_the_first(wanted, "T")?;
-        refuse_record(&columns, column_number)?;
         let name = columns.names().get(column_number);
         let options = RecordOptions { unit: given, ..RecordOptions::default() };
         let Some(unit) = columns.unit(column_number, &options)? else {
@@ -131,18 +130,19 @@ fn abscissa(name: &Name) -> Option<Quantity> {
     })
 }
 
-/// Returns whether a column may be the first of a spectrum: periods, or frequencies, which are refused.
+/// Returns whether a column may be meant as the first of a spectrum.
 fn is_abscissa(name: &Name) -> bool {
-    is_period(name) || [name.quantity(), abscissa(name)].contains(&Some(Quantity::Frequency))
+    matches!(name.quantity().or(abscissa(name)), Some(Quantity::Time(_) | Quantity::Frequency))
 }
 
-/// Returns whether a column has periods.
+/// Returns whether a column has periods, not frequencies, nor the times of a record.
 fn is_period(name: &Name) -> bool {
-    matches!(name.quantity(), Some(Quantity::Time(_))) || matches!(abscissa(name), Some(Quantity::Time(_)))
+    let is_time = name.text() == "t" || name.words().first().is_some_and(|word| word == "time");
+    is_abscissa(name) && !is_time && abscissa(name) != Some(Quantity::Frequency)
 }
 
-const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`; convert frequencies by \
-                            T = 1/f and T = 2π/ω";
+const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`: times are those \
+                            of a record, and frequencies are T = 1/f and T = 2π/ω";
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
 /// or one alone in its brackets or behind Sa, `Sa (5 %)` and `Sa_2.5%`. That of `10 % in 50 years` is none.
@@ -174,23 +174,4 @@ fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[us
     let remedy =
         "they may be in milliseconds: write seconds; if they are in s, name the first column `T [s]`";
     Err(Fault::new(lines[at], expected, format!("{} s", points[at].0), remedy))
-}
-
-/// Refuses accelerations at times, which are a record.
-fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
-    let (Some(first), Some(name)) = (columns.names().first(), columns.names().get(column)) else {
-        return Ok(());
-    };
-    let is_of_record = |name: &Name| {
-        name.words()
-            .first()
-            .is_some_and(|word| word.starts_with("acc") || ["a", "ag", "ax", "ay"].contains(&word.as_str()))
-    };
-    let is_time = first.words().first().is_some_and(|word| word == "time") || first.text() == "t";
-    if !is_time || name.says() == Some(Quantity::Spectrum) || !is_of_record(name) {
-        return Ok(());
-    }
-    let remedy = "this is a record: give the spectrum of its response, or the record as such; name periods \
-                  `T [s]`";
-    Err(Fault::excerpt(columns.line(), "a response spectrum", columns.heading(), remedy))
 }

@@ -30,10 +30,12 @@ use std::f64::consts::TAU;
 use crate::error::{GroundMotionError, check_parameter};
 use crate::motion::{GroundMotion, floor_index};
 
-/// Soil layer of Kanai and Tajimi, firm ground.
-const SOIL: Filter = Filter { angular_frequency: 15.6, damping_ratio: 0.6 };
-/// High-pass filter of Clough and Penzien.
-const HIGH_PASS: Filter = Filter { angular_frequency: 1.5, damping_ratio: 0.6 };
+/// ω of the soil layer of Kanai and Tajimi, firm ground (rad/s).
+const SOIL: f64 = 15.6;
+/// ω of the high-pass filter of Clough and Penzien (rad/s).
+const HIGH_PASS: f64 = 1.5;
+/// ζ of both.
+const ZETA: f64 = 0.6;
 
 /// Parts of the duration at which the envelope is full, begins to decay, and ends.
 const FULL_FROM: f64 = 0.1;
@@ -80,15 +82,14 @@ impl SyntheticMotion {
         check_parameter((0.0005..=0.02).contains(&step), "step [s]", step, "from 0.0005 to 0.02")?;
         let intervals = floor_index((duration / step).round());
         let mut noise = Noise::new(self.seed);
-        let mut soil = FilterState::default();
-        let mut ground = FilterState::default();
+        let (mut soil, mut ground) = (Filter::at_rest(SOIL), Filter::at_rest(HIGH_PASS));
         let mut samples = Vec::with_capacity(intervals + 1);
         // At rest until the first sample; the envelope starts at zero.
         samples.push(0.0);
         for index in 1..=intervals {
             let rock = noise.next() * envelope(index as f64 / intervals as f64);
-            soil.step_to_load(SOIL, -rock, step);
-            ground.step_to_load(HIGH_PASS, soil.spring_and_damper(SOIL), step);
+            soil.step_to_load(-rock, step);
+            ground.step_to_load(soil.spring_and_damper(), step);
             samples.push(ground.acceleration);
         }
         GroundMotion::new(step, samples)?.scaled_to_peak(peak)
@@ -108,27 +109,23 @@ fn envelope(part: f64) -> f64 {
     }
 }
 
-/// Constants of ẍ + 2 ζ ω ẋ + ω² x = p.
-#[derive(Clone, Copy)]
+/// A filter ẍ + 2 ζ ω ẋ + ω² x = p, and its state.
 struct Filter {
     /// ω (rad/s).
-    angular_frequency: f64,
-    /// ζ.
-    damping_ratio: f64,
-}
-
-/// State of ẍ + 2 ζ ω ẋ + ω² x = p.
-#[derive(Default)]
-struct FilterState {
+    omega: f64,
     displacement: f64,
     velocity: f64,
     acceleration: f64,
 }
 
-impl FilterState {
+impl Filter {
+    fn at_rest(omega: f64) -> Self {
+        Self { omega, displacement: 0.0, velocity: 0.0, acceleration: 0.0 }
+    }
+
     /// Advances the filter by one step, over which its acceleration is linear; `load` is p at the end.
-    fn step_to_load(&mut self, filter: Filter, load: f64, step: f64) {
-        let Filter { angular_frequency: omega, damping_ratio: zeta } = filter;
+    fn step_to_load(&mut self, load: f64, step: f64) {
+        let (omega, zeta) = (self.omega, ZETA);
         // v₁ = v₀ + Δt/2 (a₀ + a₁), x₁ = x₀ + Δt v₀ + Δt²/6 (2 a₀ + a₁)
         let velocity = self.velocity + step / 2.0 * self.acceleration;
         let displacement = self.displacement + step * self.velocity + step * step / 3.0 * self.acceleration;
@@ -139,9 +136,8 @@ impl FilterState {
     }
 
     /// Returns −2 ζ ω ẋ − ω² x.
-    fn spring_and_damper(&self, filter: Filter) -> f64 {
-        let Filter { angular_frequency: omega, damping_ratio: zeta } = filter;
-        -2.0 * zeta * omega * self.velocity - omega * omega * self.displacement
+    fn spring_and_damper(&self) -> f64 {
+        -2.0 * ZETA * self.omega * self.velocity - self.omega * self.omega * self.displacement
     }
 }
 

@@ -92,8 +92,8 @@ impl<'a> Row<'a> {
             return Ok(self);
         }
         let expected = format!("one value for each column, {width} in all");
-        let remedy = "complete the row; where decimals have a comma, separate the columns by semicolons; between \
-                      blanks, each name in the header line must be one word; comments start with # or %";
+        let remedy = "complete the row; where decimals have a comma, separate columns by semicolons; between \
+                      blanks, names are one word each; comments start with # or %";
         Err(Fault::new(line, expected, format!("{all} in {}", excerpt(text)), remedy))
     }
 
@@ -239,8 +239,8 @@ impl Numbers {
         }
         let value = real(&plain).filter(|value| value.is_finite());
         value.ok_or_else(|| {
-            let remedy = "correct the value: decimals have a point, or a comma where semicolons, tabs or blanks \
-                          separate columns; write minus signs as `-`, and no marks between thousands";
+            let remedy = "correct the value: decimals have a point, or a comma between semicolons, tabs or \
+                          blanks; write minus signs as `-`, and no marks between thousands";
             Fault::excerpt(line, "a finite number", cell, remedy)
         })
     }

@@ -105,18 +105,17 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
 
 /// Finds the unit that the header states, or else the one that the user states. It is never guessed.
 fn unit<'a>(
-    header: impl Iterator<Item = Numbered<'a>>,
+    header: impl Iterator<Item = Numbered<'a>> + Clone,
     count_line: usize,
     options: &RecordOptions,
 ) -> Result<Unit, Fault> {
-    let mut stated = None;
-    for (number, line) in header {
-        if ["VELOCITY TIME", "DISPLACEMENT TIME"].iter().any(|quantity| find(line, quantity).is_some()) {
-            let remedy = "use the acceleration file (.AT2) of this record";
-            return Err(Fault::excerpt(number, "an acceleration record", line, remedy));
-        }
-        stated = stated.or_else(|| Some((number, unit_word(line)?)));
+    let is_other =
+        |line: &str| ["VELOCITY TIME", "DISPLACEMENT TIME"].iter().any(|of| find(line, of).is_some());
+    if let Some((number, line)) = header.clone().find(|(_, line)| is_other(line)) {
+        let remedy = "use the acceleration file (.AT2) of this record";
+        return Err(Fault::excerpt(number, "an acceleration record", line, remedy));
     }
+    let stated = header.into_iter().find_map(|(number, line)| Some((number, unit_word(line)?)));
     match (stated, options.unit) {
         (Some((number, word)), _) => options.unit_of(&word, number),
         (None, Some(given)) => Ok(given),

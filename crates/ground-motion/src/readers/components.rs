@@ -9,11 +9,6 @@ use crate::vertical::is_vertical;
 /// Most components of a file.
 pub(super) const MOST: usize = 24;
 
-/// Returns whether a time in a file is the one that is due, but for its last decimal.
-pub(super) fn is_due(field: &str, due: f64) -> bool {
-    real(field).is_some_and(|time| (time - due).abs() <= rounding(field) + 1e-9 * due.abs())
-}
-
 /// Makes components without samples, of a name each; these follow after a line. `U` is vertical, too.
 ///
 /// Refuses more components than any recorder has: the header is damaged.
@@ -61,6 +56,20 @@ pub(super) fn push_row<'a>(
         }
         None => Ok(()),
     }
+}
+
+/// Takes the next row, which starts with its time (s): the one that is due, but for its last decimal.
+pub(super) fn push_timed_row<'a>(
+    channels: &mut [Parsed],
+    mut fields: impl Iterator<Item = &'a str>,
+    line: usize,
+    due: f64,
+) -> Result<(), Fault> {
+    let field = fields.next().unwrap_or_default();
+    if real(field).is_some_and(|time| (time - due).abs() <= rounding(field) + 1e-9 * due.abs()) {
+        return push_row(channels, fields, line);
+    }
+    Err(Fault::excerpt(line, format!("the time {due:.3} s"), field, DAMAGED))
 }
 
 /// Returns the components, with the first lines of their header; refuses another number of rows than the

@@ -99,8 +99,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     Ok(vec![parsed])
 }
 
-const NAME_TIMES: &str = "name the first column `time`, in seconds, in a header line, and mark titles with #; \
-                          or state the step in seconds as `step` (on the command line --record-step, in \
+const NAME_TIMES: &str = "name the first column `time`, in seconds, in a header line, and mark titles with \
+                          #; or state the step in seconds as `step` (on the command line --record-step, in \
                           Python dt)";
 
 /// Refuses a response spectrum: periods in the first column, or a column such as `Sa`. A column `T` beside

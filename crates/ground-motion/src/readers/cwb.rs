@@ -13,9 +13,9 @@
 //!      0.000     0.000     0.000     0.000
 //! ```
 
-use super::components::{components, finish, is_due, push_row};
+use super::components::{components, finish, push_timed_row};
 use super::header::{number, step, value};
-use crate::error::{DAMAGED, Fault, excerpt};
+use crate::error::Fault;
 use crate::fields::{Layout, Numbered, leading_real, real, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
@@ -69,12 +69,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
     }
     for (index, (line, row)) in rows.enumerate() {
-        let mut fields = layout.fields(row);
-        let (time, due) = (fields.next().unwrap_or_default(), start + index as f64 * step);
-        if !is_due(time, due) {
-            return Err(Fault::new(line, format!("the time {due:.3} s"), excerpt(time), DAMAGED));
-        }
-        push_row(&mut channels, fields, line)?;
+        push_timed_row(&mut channels, layout.fields(row), line, start + index as f64 * step)?;
     }
     let (length_line, length) = number(value(&header, LENGTH)?, LENGTH)?;
     let stated_by = format!("{LENGTH} on line {length_line}, {length} s at {step} s,");

@@ -13,9 +13,9 @@
 //! 2011/03/11 14:48:19.00,0.00,0.12,-0.04,0.01
 //! ```
 
-use super::components::{MOST, components, finish, is_due, push_row};
+use super::components::{MOST, components, finish, push_timed_row};
 use super::header::{number, required};
-use crate::error::{DAMAGED, Fault};
+use crate::error::Fault;
 use crate::fields::{Numbered, find, lines, real};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
@@ -66,14 +66,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let names = columns.iter().map(|(name, _)| *name);
     let mut channels = components([step, 0.0], unit, names, names_line)?;
     for (index, (number, line)) in lines(text).skip(header.len()).enumerate() {
-        let mut cells = line.split(',').map(str::trim).skip(1);
-        let time = cells.next().unwrap_or_default();
-        let due = index as f64 * step;
-        if !is_due(time, due) {
-            let expected = format!("{TIME} of {due:.3} s");
-            return Err(Fault::excerpt(number, expected, time, DAMAGED));
-        }
-        push_row(&mut channels, cells, number)?;
+        let cells = line.split(',').map(str::trim).skip(1);
+        push_timed_row(&mut channels, cells, number, index as f64 * step)?;
     }
     let found = channels[0].samples.len();
     let (stated, stated_by) = match below(&header, DURATION)? {

@@ -72,18 +72,18 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         ));
     };
     let mut parsed = Parsed::new(step, unit, first_line);
-    // the number of columns, if all lines but the last have as many
-    let (mut columns, mut previous) = (None, None);
+    let mut lengths = Vec::new();
     for (number, line) in content() {
         let before = parsed.samples.len();
         for word in words(line) {
             parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
-        let is_alike = previous.is_none_or(|previous| columns == Some(previous));
-        previous = Some(parsed.samples.len() - before);
-        columns = if is_alike { columns.or(previous) } else { Some(0) };
+        lengths.push(parsed.samples.len() - before);
     }
-    check_order(&parsed, columns.unwrap_or(0), first_line)?;
+    // the last line may be shorter
+    lengths.pop();
+    let is_table = lengths.windows(2).all(|pair| pair[0] == pair[1]);
+    check_order(&parsed, lengths.first().copied().filter(|_| is_table).unwrap_or(0), first_line)?;
     parsed.keep_header(lines(text).map(|(_, line)| line));
     Ok(vec![parsed])
 }

@@ -61,7 +61,7 @@ fn components_stand_side_by_side() {
         assert_eq!((all(text).len(), all(text)[2].motion.step()), (3, 0.01));
     }
     let gap = nied.replace(",0.01,", ",0.02,");
-    assert_mentions(&plain(&gap).unwrap_err(), &["line 7", "RelativeTime(s) of 0.010 s", "found `0.02`"]);
+    assert_mentions(&plain(&gap).unwrap_err(), &["line 7", "the time 0.010 s", "found `0.02`"]);
     for text in [afad, cwa, nied] {
         let damaged = text.replace("0.5", "0.x").replace("-5,", "-5.x,").replace("0.x00", "0.x0");
         assert_mentions(&plain(&damaged).unwrap_err(), &["a finite number", "3), found `"]);

@@ -91,7 +91,7 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("0,1\n1,0.5\n0.5,0.3\n", &[rise]);
     refuses("0,1\n1,-0.5\n", &["found T = 1 s and Sa = -4.9", "line 2"]);
     refuses("0,1\n1,0.5\n", &["has no T = 1.4"]);
-    refuses("0,1.0\n1\n", &["line 2: expected 2 values"]);
+    refuses("0,1.0\n1\n", &["line 2: expected one value for each column, 2 in all"]);
     for (more, words) in [
         ("", "the demand is spectrum"),
         ("spectrum = [[0, 1], [4, 1]]", "unit is missing"),
