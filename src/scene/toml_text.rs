@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
-use super::parameter::belongs_in;
+use super::parameter::unknown_key;
 
 /// Reads a TOML text: a scene, a study, a building, a table of them.
 ///
@@ -88,10 +88,15 @@ impl<'a> Found<'a> {
         let names: Vec<_> = message.split('`').skip(1).step_by(2).collect();
         let is = |start: &str| message.starts_with(start);
         if is("unknown field") {
-            return self.unknown_key(names[0], &names[1..]);
+            // the last key is the unknown one
+            let table = self.keys[..self.keys.len().saturating_sub(1)].join(".");
+            return unknown_key(names[0], &table, &names[1..]);
         }
         if is("missing field") {
-            return format!("{} is missing{}; add it", names.concat(), in_brackets(&self.keys));
+            return match self.keys.join(".").as_str() {
+                "" => format!("{} is missing; add it", names.concat()),
+                table => format!("{} is missing in [{table}]; add it", names.concat()),
+            };
         }
         if is("unknown variant") {
             let quoted: Vec<_> = names[1..].iter().map(|name| format!("{name:?}")).collect();
@@ -101,7 +106,9 @@ impl<'a> Found<'a> {
         let expected = message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "));
         let expected = if let Some((_, expected)) = expected {
             in_toml_words(expected)
-        } else if ["wanted ", "data did not match", "overflowed", "too large"]
+        } else if is("wanted string or table") {
+            "a name in quotes".to_owned()
+        } else if ["wanted", "data did not match", "overflowed", "too large"]
             .iter()
             .any(|of| message.contains(of))
         {
@@ -122,21 +129,6 @@ impl<'a> Found<'a> {
             None => format!("`{value}`"),
         }
     }
-
-    fn unknown_key(&self, name: &str, known: &[&str]) -> String {
-        // the last key is the unknown one
-        let table = &self.keys[..self.keys.len().saturating_sub(1)];
-        if let (true, Some(group)) = (table.is_empty(), belongs_in(name)) {
-            return format!("{name:?} belongs in [{group}]");
-        }
-        let (meant, place) = (suggestion(name, known.iter().copied()), in_brackets(table));
-        format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
-    }
-}
-
-/// Names the table that keys lead to; nothing for the whole document.
-fn in_brackets(keys: &[String]) -> String {
-    if keys.is_empty() { String::new() } else { format!(" in [{}]", keys.join(".")) }
 }
 
 fn is_header(value: &str) -> bool {
