@@ -77,8 +77,8 @@ pub fn apply_group(
     if let Some(value) = points.or(law) {
         let read = law.and(points).and_then(|points| read_points(points.get_ref()));
         let message = format!(
-            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the \
-                               first corner outwards; give both"
+            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the first corner \
+             outwards; give both"
         );
         parameters.multilinear = Some(read.ok_or_else(|| place.error(value.span(), message))?.into());
     }
@@ -245,8 +245,8 @@ fn read_points(value: &Value) -> Option<Vec<[f64; 2]>> {
     value.as_array()?.iter().map(pair).collect()
 }
 
-/// Says of a key that a table does not hold where it belongs, or what the table holds; `table` is empty for the
-/// file itself.
+/// Says of a key that a table does not hold where it belongs, or what the table holds; `table` is empty for
+/// the file itself.
 pub(super) fn unknown_key(name: &str, table: &str, known: &[&str]) -> String {
     let is_of_wall = table.is_empty() || GROUPS.iter().any(|(group, _)| *group == table);
     let group = GROUPS.iter().find(|(_, names)| names.contains(&name)).map(|(group, _)| *group);

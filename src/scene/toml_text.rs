@@ -50,8 +50,8 @@ pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> 
 
 /// What a text that is not TOML may lack.
 const SYNTAX: &str = "a line is key = value, [table] or # comment; a number has a decimal point and no unit, \
-                      and digits on both sides of its point; a text stands in straight quotes, a path with /; \
-                      lists and tables are closed";
+                      and digits on both sides of its point; a text stands in straight quotes, a path with \
+                      /; lists and tables are closed";
 
 /// What is expected where a number stands.
 pub(super) const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";
@@ -103,15 +103,13 @@ impl<'a> Found<'a> {
             let meant = suggestion(names[0], names[1..].iter().copied());
             return format!("{} is not one of {}{meant}", self.given(), quoted.join(", "));
         }
+        let overflows = message.contains("overflowed") || message.contains("too large");
         let expected = message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "));
         let expected = if let Some((_, expected)) = expected {
             in_toml_words(expected)
         } else if is("wanted string or table") {
             "a name in quotes".to_owned()
-        } else if ["wanted", "data did not match", "overflowed", "too large"]
-            .iter()
-            .any(|of| message.contains(of))
-        {
+        } else if is("wanted") || is("data did not match") || overflows {
             "another value".to_owned()
         } else {
             return format!("{}: {message}", self.given());
