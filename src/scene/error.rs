@@ -92,7 +92,8 @@ impl<'a> Place<'a> {
         SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }
     }
 
-    /// Returns the duration \[s\] given, which must be above 0 and at most `limit`, or `natural` where none is.
+    /// Returns the duration \[s\] given, which must be above 0 and at most `limit`; `natural` where none
+    /// is.
     ///
     /// # Errors
     /// [`SceneError::Line`] for a number outside the limits.

@@ -71,14 +71,14 @@ pub fn apply_group(
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
             }
-            (_, name) => return Err(place.error(key.span(), unknown(name, group, names))),
+            (_, name) => return Err(place.error(key.span(), unknown_key(name, group, names))),
         }
     }
     if let Some(value) = points.or(law) {
         let read = law.and(points).and_then(|points| read_points(points.get_ref()));
         let message = format!(
-            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the \
-                               first corner outwards; give both"
+            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the first corner \
+             outwards; give both"
         );
         parameters.multilinear = Some(read.ok_or_else(|| place.error(value.span(), message))?.into());
     }
@@ -101,7 +101,7 @@ fn read_bar(table: &Value) -> Result<Bar, String> {
     let (mut bar, keys) = (Bar::default(), Bar::NUMBERS.map(|number| number.key()));
     for (key, value) in entries {
         let index = keys.iter().position(|known| known == key);
-        bar.set(index.ok_or_else(|| unknown(key, "tie.bar", &keys))?, real(key, value)?);
+        bar.set(index.ok_or_else(|| unknown_key(key, "tie.bar", &keys))?, real(key, value)?);
     }
     // once it is complete, for a wall of any width
     bar.tie(1.0).map(|_| bar).map_err(|error| error.to_string())
@@ -180,9 +180,6 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
         if item.is_some_and(|item| parameters.set_integer(variable, item.value)) {
             return Ok(());
         }
-        if (name, value.as_str()) == ("restitution_source", Some("given")) {
-            return Err("restitution counts where it is given: leave restitution_source out".to_owned());
-        }
         let names: Vec<_> = items.iter().map(|item| item.name).collect();
         return Err(format!("{name} = {} is not one of {}", shown(value), names.join(", ")));
     }
@@ -248,20 +245,16 @@ fn read_points(value: &Value) -> Option<Vec<[f64; 2]>> {
     value.as_array()?.iter().map(pair).collect()
 }
 
-fn unknown(name: &str, group: &str, names: &[&str]) -> String {
-    if name == KINEMATICS {
-        return format!("{name:?} belongs in [{KINEMATICS_GROUP}], not in [{group}]");
+/// Says of a key that a table does not hold where it belongs, or what the table holds; `table` is empty for
+/// the file itself.
+pub(super) fn unknown_key(name: &str, table: &str, known: &[&str]) -> String {
+    let is_of_wall = table.is_empty() || GROUPS.iter().any(|(group, _)| *group == table);
+    let group = GROUPS.iter().find(|(_, names)| names.contains(&name)).map(|(group, _)| *group);
+    let group = group.or((name == KINEMATICS).then_some(KINEMATICS_GROUP));
+    if let Some(group) = group.filter(|_| is_of_wall) {
+        return format!("{name:?} belongs in [{group}]");
     }
-    belongs_in(name).map_or_else(
-        || {
-            let meant = suggestion(name, names.iter().copied());
-            format!("unknown key {name:?} in [{group}]{meant}; it holds {}", names.join(", "))
-        },
-        |other| format!("{name:?} belongs in [{other}], not in [{group}]"),
-    )
-}
-
-/// Returns the table that a parameter belongs in; `None` for other names.
-pub(super) fn belongs_in(name: &str) -> Option<&'static str> {
-    GROUPS.iter().find(|(_, names)| names.contains(&name)).map(|(group, _)| *group)
+    let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
+    let meant = suggestion(name, known.iter().copied());
+    format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
 }

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
-use super::parameter::belongs_in;
+use super::parameter::unknown_key;
 
 /// Reads a TOML text: a scene, a study, a building, a table of them.
 ///
@@ -50,8 +50,8 @@ pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> 
 
 /// What a text that is not TOML may lack.
 const SYNTAX: &str = "a line is key = value, [table] or # comment; a number has a decimal point and no unit, \
-                      and digits on both sides of its point; a text stands in straight quotes, a path with /; \
-                      lists and tables are closed";
+                      and digits on both sides of its point; a text stands in straight quotes, a path with \
+                      /; lists and tables are closed";
 
 /// What is expected where a number stands.
 pub(super) const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";
@@ -88,23 +88,28 @@ impl<'a> Found<'a> {
         let names: Vec<_> = message.split('`').skip(1).step_by(2).collect();
         let is = |start: &str| message.starts_with(start);
         if is("unknown field") {
-            return self.unknown_key(names[0], &names[1..]);
+            // the last key is the unknown one
+            let table = self.keys[..self.keys.len().saturating_sub(1)].join(".");
+            return unknown_key(names[0], &table, &names[1..]);
         }
         if is("missing field") {
-            return format!("{} is missing{}; add it", names.concat(), in_brackets(&self.keys));
+            return match self.keys.join(".").as_str() {
+                "" => format!("{} is missing; add it", names.concat()),
+                table => format!("{} is missing in [{table}]; add it", names.concat()),
+            };
         }
         if is("unknown variant") {
             let quoted: Vec<_> = names[1..].iter().map(|name| format!("{name:?}")).collect();
             let meant = suggestion(names[0], names[1..].iter().copied());
             return format!("{} is not one of {}{meant}", self.given(), quoted.join(", "));
         }
+        let overflows = message.contains("overflowed") || message.contains("too large");
         let expected = message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "));
         let expected = if let Some((_, expected)) = expected {
             in_toml_words(expected)
-        } else if ["wanted ", "data did not match", "overflowed", "too large"]
-            .iter()
-            .any(|of| message.contains(of))
-        {
+        } else if is("wanted string or table") {
+            "a name in quotes".to_owned()
+        } else if is("wanted") || is("data did not match") || overflows {
             "another value".to_owned()
         } else {
             return format!("{}: {message}", self.given());
@@ -122,21 +127,6 @@ impl<'a> Found<'a> {
             None => format!("`{value}`"),
         }
     }
-
-    fn unknown_key(&self, name: &str, known: &[&str]) -> String {
-        // the last key is the unknown one
-        let table = &self.keys[..self.keys.len().saturating_sub(1)];
-        if let (true, Some(group)) = (table.is_empty(), belongs_in(name)) {
-            return format!("{name:?} belongs in [{group}]");
-        }
-        let (meant, place) = (suggestion(name, known.iter().copied()), in_brackets(table));
-        format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
-    }
-}
-
-/// Names the table that keys lead to; nothing for the whole document.
-fn in_brackets(keys: &[String]) -> String {
-    if keys.is_empty() { String::new() } else { format!(" in [{}]", keys.join(".")) }
 }
 
 fn is_header(value: &str) -> bool {

@@ -71,7 +71,8 @@ impl Simulation {
         // what a tie that yields has reached is remembered even where the other side has gone farther
         let branch = &self.wall().branches()[self.progress.state.branch];
         if rising || branch.yielding_side().is_some() {
-            self.progress.state.include_peak();
+            let state = &mut self.progress.state;
+            state.peaks.include(state.displacement);
         }
         self.progress.drift |= support.drift != 0.0;
     }

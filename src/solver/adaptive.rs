@@ -317,7 +317,7 @@ mod tests {
                 let length = piece.horizon();
                 let bounds = piece.bounds(piece.start(), length);
                 let [wide, narrow] = [length, 1e-3 * length].map(|end| piece.snap([0.0, end], bounds));
-                let snap = piece.polynomial.derivatives(0.0)[4].abs();
+                let snap = 24.0 * piece.polynomial.coefficients[4].abs();
                 assert!(narrow >= snap && narrow <= wide, "{u}: {snap} of {narrow} of {wide}");
                 assert!(narrow <= 30.0 * snap, "{u}: {narrow} for {snap}");
             }

@@ -16,7 +16,7 @@ pub(super) struct ClosedForm<'a> {
     forcing_rate: f64,
     horizon: f64,
     /// The motion at the horizon, where it is known already.
-    end: Option<KinematicState>,
+    pub(super) end: Option<KinematicState>,
     /// The Taylor series of a short piece, once needed.
     series: OnceCell<Option<Polynomial>>,
 }
@@ -38,11 +38,6 @@ impl<'a> ClosedForm<'a> {
             piece.horizon = oscillator.longest_piece();
         }
         piece
-    }
-
-    /// Sets the end of the piece, which is known already.
-    pub(super) fn end_at(&mut self, end: KinematicState) {
-        self.end = Some(end);
     }
 
     fn series(&self) -> Option<&Polynomial> {

@@ -101,7 +101,7 @@ impl Motion {
         let outwards = state.velocity * state.displacement.signum();
         *rising |= state.displacement.abs() >= state.peaks.largest();
         if *rising {
-            state.include_peak();
+            state.peaks.include(state.displacement);
         }
         *rising &= outwards > 0.0 && state.phase == Phase::Moving;
         event
@@ -199,13 +199,6 @@ impl Motion {
         let stiffness = self.wall.branches()[state.branch].stiffness.max(0.0);
         let low = pull >= 0.0 && 0.5 * leaving <= (pull + 0.5 * stiffness * lowest_bounce) * lowest_bounce;
         Rebound { velocity: leaving.sqrt().copysign(side), rests: low || leaving.sqrt() < self.rest_speed }
-    }
-}
-
-impl State {
-    /// Includes the present displacement in the peaks.
-    pub fn include_peak(&mut self) {
-        self.peaks.include(self.displacement);
     }
 }
 

@@ -154,7 +154,7 @@ impl<'a> Run<'a> {
         // length, a part of one does not.
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if whole && !oscillator.is_spread(self.duration) {
-            piece.end_at(self.propagators.end(index, oscillator, start, rate, remaining));
+            piece.end = Some(self.propagators.end(index, oscillator, start, rate, remaining));
         }
         piece
     }

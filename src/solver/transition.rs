@@ -121,12 +121,6 @@ pub(super) struct Rebound {
     pub(super) rests: bool,
 }
 
-/// Returns the branch beyond a corner: branch `i` lies between corners `i` and `i + 1`.
-#[inline]
-pub(super) fn branch_beyond(corner: usize, upwards: bool) -> usize {
-    if upwards { corner } else { corner - 1 }
-}
-
 /// Takes `state` through the corner it has reached, upwards or downwards, under the forcing p and its rate
 /// \[m/s², m/s³\]. `rebound` gives the motion after an impact there.
 pub(super) fn pass_corner(
@@ -163,7 +157,8 @@ pub(super) fn pass_corner(
         // an importer's solver meets the corner a little beyond it
         state.displacement = displacement;
     } else {
-        state.branch = branch_beyond(corner, upwards);
+        // branch i lies between corners i and i + 1
+        state.branch = if upwards { corner } else { corner - 1 };
     }
     if passage {
         let before = state.velocity;

@@ -70,8 +70,8 @@ pub enum ParameterError {
     StartsBehindWalls { u_start: f64, rocking: &'static str },
     /// A start at which the wall has overturned.
     #[error(
-        "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: set u_start = 0 for a wall that is at rest until \
-         a motion ([motion], --record) or the inputs of an FMU move it"
+        "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: set u_start = 0 for a wall that is at rest \
+         until a motion ([motion], --record) or the inputs of an FMU move it"
     )]
     StartsOverturned { u_start: f64, u_ins: f64 },
     /// No unstable equilibrium in full rotations.
@@ -108,7 +108,8 @@ impl ParameterError {
         }
     }
 
-    /// Refuses two choices that do not go together, each a parameter with its value; `remedy` says what to set.
+    /// Refuses two choices that do not go together, each a parameter with its value; `remedy` says what to
+    /// set.
     pub(crate) fn conflict(
         (choice, chosen): (&'static str, impl ToString),
         (name, value): (&'static str, impl ToString),

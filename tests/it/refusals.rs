@@ -18,10 +18,7 @@ fn invalid_parameters_are_refused() {
     type Change = fn(&mut Parameters);
     let rigid: Change = |wall| wall.force_law = ForceLaw::RigidLinear;
     let cases: [(Change, &str); 10] = [
-        (
-            rigid,
-            "damping_model = constant_ratio does not go with force_law = rigid_linear; set force_law = bilinear",
-        ),
+        (rigid, "damping_model = constant_ratio does not go with force_law = rigid_linear; set force_law"),
         (|wall| (wall.xi, wall.restitution) = (COMPUTED, 0.0), "xi = -1 asks for damping computed from"),
         (|wall| wall.xi = -0.5, "xi = -0.5 must be 0 or more, or -1"),
         (

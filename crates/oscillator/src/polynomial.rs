@@ -52,21 +52,6 @@ impl Polynomial {
         KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    /// Evaluates u and its first four derivatives at a time \[s\].
-    #[inline]
-    pub fn derivatives(&self, time: f64) -> [f64; 5] {
-        let mut terms = [0.0; 5];
-        for &coefficient in self.used().iter().rev() {
-            for n in (1..5).rev() {
-                terms[n] = terms[n] * time + terms[n - 1];
-            }
-            terms[0] = terms[0] * time + coefficient;
-        }
-        // n! times the n-th coefficient about that time
-        let [u, v, a, jerk, snap] = terms;
-        [u, v, 2.0 * a, 6.0 * jerk, 24.0 * snap]
-    }
-
     /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻²
     /// and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
     #[inline]
@@ -127,9 +112,6 @@ mod tests {
         let near =
             |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-14, "{found} for {wanted}");
         let wanted = [0, 1, 2, 3, 4].map(|derivative| term_by_term(&used, derivative, time));
-        for (found, wanted) in motion.derivatives(time).into_iter().zip(wanted) {
-            near(found, wanted);
-        }
         let at = motion.at(time);
         for (found, wanted) in [at.displacement, at.velocity, at.acceleration].into_iter().zip(wanted) {
             near(found, wanted);

@@ -265,8 +265,8 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
     refused(&folder, &["simulate", "--set", "xi=-2"], &["xi = -2 is below its limit -1\n"]);
     refused(&folder, &["simulate", "--set", "xi=-0.5"], &["xi = -0.5", "0 or more, or -1 where"]);
-    let given = "restitution counts where it is given: leave restitution_source out";
-    refused(&folder, &["simulate", "--set", "restitution_source=given"], &[given]);
+    let sources = "restitution_source = \"given\" is not one of ";
+    refused(&folder, &["simulate", "--set", "restitution_source=given"], &[sources]);
     refused(&folder, &["simulate", "--set", "xi=much"], &["xi = \"much\": expected a number"]);
     refused(
         &folder,
