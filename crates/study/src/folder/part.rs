@@ -24,8 +24,8 @@ use super::error::FolderError;
 /// The column of intensities; its name ends with their SI unit.
 const INTENSITY: &str = "intensity";
 /// Columns with their types, and whether a run may lack a value: a wall that did not overturn has no time of
-/// overturning, and only a collapse has a sensitivity. The intensity has the SI unit of the study, so that it is
-/// read back to the last bit.
+/// overturning, and only a collapse has a sensitivity. The intensity has the SI unit of the study, so that it
+/// is read back to the last bit.
 const COLUMNS: [(&str, Physical, Repetition); 12] = [
     ("case", Physical::INT64, Repetition::REQUIRED),
     ("wall", Physical::BYTE_ARRAY, Repetition::REQUIRED),
