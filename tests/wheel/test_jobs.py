@@ -407,7 +407,7 @@ def test_a_tie_at_the_level_of_a_check(program, tmp_path):
 def test_what_is_no_tie(record):
     wall = rw.Wall(**TIED)
     for call, words in [
-        (lambda: rw.Wall().tie(record), "no tie_height; set it"),
+        (lambda: rw.Wall().tie(record), "no tie_height, so tie_stiffness has no effect; set it"),
         (lambda: wall.tie(), "there is no motion"),
         (lambda: wall.tie(scale=2.0), "scale needs records"),
         (lambda: wall.tie(record, stiffness=[1e6], slack=[0.0]), "stiffness and slack are given"),

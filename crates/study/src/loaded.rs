@@ -191,8 +191,8 @@ impl LoadedStudy {
     }
 }
 
-/// Makes the samples of the uncertain parameters of walls: the samples of a wall are the walls of its classes,
-/// and a class of its name.
+/// Makes the samples of the uncertain parameters of walls: the samples of a wall are the walls of its
+/// classes, and a class of its name.
 fn sampled(
     uncertain: &Uncertain,
     walls: &[NamedWall],

@@ -27,7 +27,6 @@ pub struct Fitting {
 #[derive(Clone, Debug)]
 pub struct WallResults {
     records: usize,
-    at_levels: bool,
     curves: Vec<Curve>,
     /// Limit state by limit state, model by model.
     states: Vec<Vec<StateResults>>,
@@ -111,7 +110,7 @@ impl Fitting {
             summaries.into_iter().enumerate().map(of_model).collect()
         };
         let states = summaries.into_iter().enumerate().map(state).collect();
-        WallResults { records: self.records, at_levels: self.grid.is_some(), curves, states, clouds }
+        WallResults { records: self.records, curves, states, clouds }
     }
 
     /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model,
@@ -166,11 +165,6 @@ impl WallResults {
     /// Returns the cloud of each model; empty for other studies.
     pub fn clouds(&self) -> &[Cloud] {
         &self.clouds
-    }
-
-    /// Returns whether all records have the same levels.
-    pub fn are_levels_shared(&self) -> bool {
-        self.at_levels
     }
 
     /// Returns where each record exceeds a limit state, given by its index.

@@ -392,13 +392,14 @@ class Uncertain(TypedDict, total=False):
 
 
 class Distribution(TypedDict, total=False):
-    """A distribution.
+    """The distribution of a parameter: one of normal to values, within limits.
 
-    - lognormal: [median, standard deviation of the logarithm].
-    - normal: [mean, standard deviation].
-    - triangular: [lower end, mode, upper end].
-    - uniform: [lower end, upper end].
-    - values: [value, …], with weights = [weight, …] where they are not equal.
+    - lognormal: Median and standard deviation of the logarithm.
+    - normal: Mean and standard deviation.
+    - triangular: Lower end, mode and upper end.
+    - uniform: Lower and upper end.
+    - values: Values that are taken.
+    - weights: Weights of the values; by default equal.
     - within: Limits, lower and upper.
     """
 

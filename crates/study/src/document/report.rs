@@ -74,11 +74,11 @@ impl ReportOptions {
 
 tables! {
     /// What the results show.
-    #[derive(Debug)]
+    #[derive(Debug, Default)]
     pub(super) struct ReportTable {
         /// Limit states as fractions of `u_ins`.
         #[key(items = fraction(), minItems = 1, default = DEFAULT_THRESHOLDS.to_vec())]
-        fractions: Option<Vec<f64>>,
+        fractions: Option<Spanned<Vec<f64>>>,
         /// Model by whose medians the others are divided; by default the first.
         reference: Option<Spanned<String>>,
         /// Dispersions: one for each limit state (own), one for all (common), or one for each with which
@@ -179,39 +179,26 @@ pub(super) fn report(
     levels: &Levels,
     place: &Place<'_>,
 ) -> Result<ReportOptions, SceneError> {
-    let is_grid = matches!(levels, Levels::Grid(_));
-    let mut report = ReportOptions {
-        fractions: DEFAULT_THRESHOLDS.to_vec(),
-        reference: models.first().map(|model| model.name.clone()).unwrap_or_default(),
-        beta: Dispersion::Own,
-        collapse: if is_grid { Crossing::Fraction } else { Crossing::First },
-        resamples: RESAMPLES,
-        seed: 1,
-        modelling_uncertainty: 0.0,
-        classes: read_classes(classes, place)?,
-        hazard: None,
-        loss_ratios: None,
-        samples: None,
-    };
-    let Some(table) = table else { return Ok(report) };
-    let spec = table.get_ref();
-    let refused = |message: String| Err(place.error(table.span(), message));
-    if let Some(fractions) = &spec.fractions {
+    let usual = ReportTable::default();
+    let spec = table.map_or(&usual, Spanned::get_ref);
+    let fractions = spec.fractions.as_ref().map_or(DEFAULT_THRESHOLDS.to_vec(), |own| own.get_ref().clone());
+    if let Some(given) = &spec.fractions {
+        let refused = |message: String| Err(place.error(given.span(), message));
         if fractions.is_empty() {
             return refused("fractions is empty; list at least one fraction of u_ins".into());
         }
         if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
             return refused(format!("{fraction} is not a fraction of u_ins above 0 and at most 1"));
         }
-        report.fractions.clone_from(fractions);
     }
-    if let Some(reference) = &spec.reference {
-        if !models.iter().any(|model| model.name == *reference.get_ref()) {
-            let message = format!("reference = {:?} is not among the models", reference.get_ref());
-            return Err(place.error(reference.span(), message));
-        }
-        report.reference.clone_from(reference.get_ref());
+    if let Some(given) = &spec.reference
+        && !models.iter().any(|model| model.name == *given.get_ref())
+    {
+        let message = format!("reference = {:?} is not among the models", given.get_ref());
+        return Err(place.error(given.span(), message));
     }
+    let reference = spec.reference.as_ref().map(|own| own.get_ref().clone());
+    let first = || models.first().map(|model| model.name.clone()).unwrap_or_default();
     if matches!(levels, Levels::Cloud { .. }) {
         let beta = spec.beta.as_ref().map(|word| ("beta", word.span()));
         if let Some((key, span)) = beta.or(spec.collapse.as_ref().map(|word| ("collapse", word.span()))) {
@@ -220,18 +207,30 @@ pub(super) fn report(
             return Err(place.error(span, message));
         }
     }
-    report.beta = spec.beta.as_ref().map_or(report.beta, |beta| *beta.get_ref());
-    report.collapse = spec.collapse.as_ref().map_or(report.collapse, |collapse| *collapse.get_ref());
-    let (resamples, beta) = (spec.resamples.as_ref(), spec.modelling_uncertainty.as_ref());
-    report.resamples = within("resamples", resamples, RESAMPLES, 100..=MOST_RESAMPLES, place)?;
-    report.modelling_uncertainty = within("modelling_uncertainty", beta, 0.0, 0.0..=MOST_UNCERTAINTY, place)?;
-    report.seed = spec.seed.unwrap_or(report.seed);
+    let own_crossing = if matches!(levels, Levels::Grid(_)) { Crossing::Fraction } else { Crossing::First };
     if let Some(ratios) = &spec.loss_ratios {
-        check_losses(&report.fractions, ratios.get_ref())
-            .map_err(|fault| place.error(ratios.span(), fault))?;
-        report.loss_ratios = Some(ratios.get_ref().clone());
+        check_losses(&fractions, ratios.get_ref()).map_err(|fault| place.error(ratios.span(), fault))?;
     }
-    Ok(report)
+    let (resamples, modelling) = (spec.resamples.as_ref(), spec.modelling_uncertainty.as_ref());
+    Ok(ReportOptions {
+        fractions,
+        reference: reference.unwrap_or_else(first),
+        beta: spec.beta.as_ref().map_or(Dispersion::Own, |word| *word.get_ref()),
+        collapse: spec.collapse.as_ref().map_or(own_crossing, |word| *word.get_ref()),
+        resamples: within("resamples", resamples, RESAMPLES, 100..=MOST_RESAMPLES, place)?,
+        seed: spec.seed.unwrap_or(1),
+        modelling_uncertainty: within(
+            "modelling_uncertainty",
+            modelling,
+            0.0,
+            0.0..=MOST_UNCERTAINTY,
+            place,
+        )?,
+        classes: read_classes(classes, place)?,
+        hazard: None,
+        loss_ratios: spec.loss_ratios.as_ref().map(|ratios| ratios.get_ref().clone()),
+        samples: None,
+    })
 }
 
 /// Says what is wrong with the loss ratios of limit states.

@@ -67,9 +67,12 @@ tables! {
 struct Parameters(BTreeMap<Spanned<String>, Spanned<DistributionTable>>);
 
 impl Described for Parameters {
-    fn describe(key: &str, tables: &mut Schema) -> Schema {
-        let table = DistributionTable::describe(key, tables);
-        object(names().map(|name| (name.to_owned(), table.clone().into())).collect())
+    fn describe(key: &str, _tables: &mut Schema) -> Schema {
+        // every parameter has the table itself, which the parameters of the Python package follow from
+        let mut own = Schema::new();
+        DistributionTable::describe(key, &mut own);
+        let table = own.into_iter().next().map_or_else(|| Schema::new().into(), |(_, table)| table);
+        object(names().map(|name| (name.to_owned(), table.clone())).collect())
     }
 }
 

@@ -41,7 +41,7 @@ pub fn compute(
     let of_part = threads.div_ceil(parts.len().max(1));
     let groups: Vec<_> = parts
         .iter()
-        .flat_map(|&part| study.groups(study.part(part), of_part).map(move |group| (part, group)))
+        .flat_map(|&part| study.groups(folder.contents().part(part), of_part).map(move |group| (part, group)))
         .collect();
     let open: Mutex<BTreeMap<usize, Vec<(usize, Curve)>>> = Mutex::default();
     parallel::each(groups.len(), threads, |place| {
@@ -53,7 +53,7 @@ pub fn compute(
         let mut open = open.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let curves = open.entry(part).or_default();
         curves.extend(computed);
-        if curves.len() < study.part(part).len() {
+        if curves.len() < folder.contents().part(part).len() {
             return Ok(());
         }
         let mut curves = open.remove(&part).unwrap_or_default();

@@ -121,7 +121,7 @@ impl<'a> Losses<'a> {
                 table.html()
             );
         }
-        html += &format!("<h3>Mean loss ratio by intensity</h3>{}</section>\n", shown.plots());
+        let _ = writeln!(html, "<h3>Mean loss ratio by intensity</h3>{}</section>", shown.plots());
         Ok((paths, told, html))
     }
 }

@@ -115,9 +115,9 @@ impl Nrml {
     }
 }
 
-/// Returns what a fragility function holds, but `None` with a number that would be 0 or infinite. `states` are
-/// the fractions of the limit states. Below `minIML` and `noDamageLimit` each limit state has a probability of
-/// less than 1e-4, above `maxIML` of more than 1 − 1e-4.
+/// Returns what a fragility function holds, but `None` with a number that would be 0 or infinite. `states`
+/// are the fractions of the limit states. Below `minIML` and `noDamageLimit` each limit state has a
+/// probability of less than 1e-4, above `maxIML` of more than 1 − 1e-4.
 pub(crate) fn fragility(
     function: &FragilityFunction,
     states: impl Iterator<Item = f64>,
@@ -134,7 +134,8 @@ pub(crate) fn fragility(
         return None;
     }
     let imls = format!(
-        "      <imls imt=\"{measure}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" maxIML=\"{most:e}\"/>\n"
+        "      <imls imt=\"{measure}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" \
+         maxIML=\"{most:e}\"/>\n"
     );
     let of_state = |(fraction, [mean, deviation]): (f64, &[f64; 2])| {
         let name = state_name(fraction);

@@ -254,9 +254,8 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
     let Shown { manifest, wall, results } = shown;
     let (contents, report) = (&manifest.contents, &manifest.report);
     let (unit, reference) = (contents.unit, &report.reference);
-    let ratio = |model: usize, of: &Interval| match contents.models[model].name == *reference {
-        true => "1".to_owned(),
-        false => with_ends(of, 1.0, OF_RATIO),
+    let ratio = |model: usize, of: &Interval| {
+        if contents.models[model].name == *reference { "1".to_owned() } else { with_ends(of, 1.0, OF_RATIO) }
     };
     let sign_of_doubt = |model: usize| {
         let mut summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));

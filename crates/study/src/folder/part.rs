@@ -23,25 +23,25 @@ use super::error::FolderError;
 
 /// The column of intensities; its name ends with their SI unit.
 const INTENSITY: &str = "intensity";
-/// Columns with their types. The intensity has the SI unit of the study, so that it is read back to the last
-/// bit. A wall that did not overturn has no time of overturning, and only a collapse has a sensitivity.
-const COLUMNS: [(&str, Physical); 9] = [
-    ("case", Physical::INT64),
-    ("wall", Physical::BYTE_ARRAY),
-    ("model", Physical::BYTE_ARRAY),
-    ("record", Physical::BYTE_ARRAY),
-    (INTENSITY, Physical::DOUBLE),
-    ("u_max_over_u_ins", Physical::DOUBLE),
-    ("overturned", Physical::BOOLEAN),
-    ("overturn_time_s", Physical::DOUBLE),
-    ("sensitivity", Physical::DOUBLE),
+/// Columns with their types, and whether a run may lack a value: a wall that did not overturn has no time of
+/// overturning, and only a collapse has a sensitivity. The intensity has the SI unit of the study, so that it
+/// is read back to the last bit.
+const COLUMNS: [(&str, Physical, Repetition); 12] = [
+    ("case", Physical::INT64, Repetition::REQUIRED),
+    ("wall", Physical::BYTE_ARRAY, Repetition::REQUIRED),
+    ("model", Physical::BYTE_ARRAY, Repetition::REQUIRED),
+    ("record", Physical::BYTE_ARRAY, Repetition::REQUIRED),
+    (INTENSITY, Physical::DOUBLE, Repetition::REQUIRED),
+    ("u_max_over_u_ins", Physical::DOUBLE, Repetition::REQUIRED),
+    ("overturned", Physical::BOOLEAN, Repetition::REQUIRED),
+    ("overturn_time_s", Physical::DOUBLE, Repetition::OPTIONAL),
+    ("sensitivity", Physical::DOUBLE, Repetition::OPTIONAL),
+    ("tie_force_n", Physical::DOUBLE, Repetition::OPTIONAL),
+    ("tie_elongation_m", Physical::DOUBLE, Repetition::OPTIONAL),
+    ("tie_broken", Physical::BOOLEAN, Repetition::OPTIONAL),
 ];
-/// Further columns of a study with ties that may yield. Runs of its other walls have no values there.
-const TIE_COLUMNS: [(&str, Physical); 3] = [
-    ("tie_force_n", Physical::DOUBLE),
-    ("tie_elongation_m", Physical::DOUBLE),
-    ("tie_broken", Physical::BOOLEAN),
-];
+/// Number of the last columns, of a study with ties that may yield.
+const OF_TIES: usize = 3;
 /// Key of our entry in the footer.
 const KEY: &str = "rocking-wall";
 /// The word before the checksum, which is zero while it is computed.
@@ -98,18 +98,17 @@ fn head(study: &str, part: usize) -> String {
 }
 
 fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Result<Vec<u8>, ParquetError> {
-    let column = |&(name, physical): &(&str, Physical)| {
+    let count = COLUMNS.len() - if contents.has_yielding_ties() { 0 } else { OF_TIES };
+    let intensity = format!("{INTENSITY}{}", contents.unit.si_ending());
+    let columns = COLUMNS[..count].iter().map(|&(name, physical, repetition)| {
+        (if name == INTENSITY { &*intensity } else { name }, physical, repetition)
+    });
+    let field = |(name, physical, repetition): (&str, Physical, Repetition)| {
         let text = (physical == Physical::BYTE_ARRAY).then_some(LogicalType::String);
-        let is_optional = ["overturn_time_s", "sensitivity"].contains(&name) || name.starts_with("tie_");
-        let repetition = if is_optional { Repetition::OPTIONAL } else { Repetition::REQUIRED };
         let builder = Type::primitive_type_builder(name, physical);
         Ok(Arc::new(builder.with_repetition(repetition).with_logical_type(text).build()?))
     };
-    let ties = if contents.has_yielding_ties() { &TIE_COLUMNS[..] } else { &[] };
-    let intensity = format!("{INTENSITY}{}", contents.unit.si_ending());
-    let named = |&(name, physical)| (if name == INTENSITY { intensity.as_str() } else { name }, physical);
-    let columns: Vec<(&str, Physical)> = COLUMNS.iter().chain(ties).map(named).collect();
-    let fields = columns.iter().map(column).collect::<Result<_, ParquetError>>()?;
+    let fields = columns.clone().map(field).collect::<Result<_, ParquetError>>()?;
     let schema = Arc::new(Type::group_type_builder("runs").with_fields(fields).build()?);
     let zero = String::from_utf8_lossy(NO_CHECKSUM);
     let entry = KeyValue::new(KEY.to_owned(), format!("{}{CHECKSUM}{zero}", head(study, part)));
@@ -118,9 +117,9 @@ fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Res
         .set_key_value_metadata(Some(vec![entry]))
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
-    for (name, _) in columns.iter().filter(|(_, physical)| *physical == Physical::DOUBLE) {
+    for (name, ..) in columns.filter(|(_, physical, _)| *physical == Physical::DOUBLE) {
         // these numbers hardly repeat, so that a dictionary would not help
-        properties = properties.set_column_dictionary_enabled(ColumnPath::from(*name), false);
+        properties = properties.set_column_dictionary_enabled(ColumnPath::from(name), false);
     }
     let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))?;
     let mut group = writer.next_row_group()?;
@@ -135,58 +134,42 @@ fn rows(
     curves: &[Curve],
     group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
 ) -> Result<(), ParquetError> {
-    let runs: Vec<(usize, &Run)> = contents
-        .part(part)
-        .zip(curves)
-        .flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run)))
-        .collect();
-    let cases: Vec<i64> = runs.iter().map(|&(index, _)| index.try_into().unwrap_or(i64::MAX)).collect();
-    column::<Int64Type>(group, &cases, None)?;
+    let curves = contents.part(part).zip(curves);
+    let runs: Vec<(usize, &Run)> =
+        curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run))).collect();
+    column::<Int64Type>(group, runs.iter().map(|(index, _)| i64::try_from(*index).ok()))?;
     let names: [fn(&Contents, usize) -> &str; 3] = [
         |contents, index| &contents.walls[contents.case(index).wall].name,
         |contents, index| &contents.models[contents.case(index).model].name,
         |contents, index| &contents.records[contents.case(index).record].name,
     ];
     for name in names {
-        // all runs of a curve have the same text
-        let texts: Vec<_> = contents
-            .part(part)
-            .zip(curves)
-            .flat_map(|(index, curve)| {
-                std::iter::repeat_n(ByteArray::from(name(contents, index)), curve.runs().len())
-            })
-            .collect();
-        column::<ByteArrayType>(group, &texts, None)?;
+        let texts = runs.iter().map(|(index, _)| Some(ByteArray::from(name(contents, *index))));
+        column::<ByteArrayType>(group, texts)?;
     }
-    let numbers = |number: fn(&Run) -> f64| runs.iter().map(|(_, run)| number(run)).collect::<Vec<_>>();
-    column::<DoubleType>(group, &numbers(|run| run.intensity), None)?;
-    column::<DoubleType>(group, &numbers(|run| run.demand), None)?;
-    let overturned: Vec<bool> = runs.iter().map(|(_, run)| run.overturning.is_some()).collect();
-    column::<BoolType>(group, &overturned, None)?;
-    for number in [|run: &Run| run.overturning, |run: &Run| run.sensitivity] {
-        let numbers: Vec<Option<f64>> = runs.iter().map(|(_, run)| number(run)).collect();
-        let present: Vec<i16> = numbers.iter().map(|number| i16::from(number.is_some())).collect();
-        column::<DoubleType>(group, &numbers.into_iter().flatten().collect::<Vec<_>>(), Some(&present))?;
+    column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.intensity)))?;
+    column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.demand)))?;
+    column::<BoolType>(group, runs.iter().map(|(_, run)| Some(run.overturning.is_some())))?;
+    column::<DoubleType>(group, runs.iter().map(|(_, run)| run.overturning))?;
+    column::<DoubleType>(group, runs.iter().map(|(_, run)| run.sensitivity))?;
+    if contents.has_yielding_ties() {
+        column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.tie?.force)))?;
+        column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.tie?.elongation)))?;
+        column::<BoolType>(group, runs.iter().map(|(_, run)| Some(run.tie?.broken)))?;
     }
-    if !contents.has_yielding_ties() {
-        return Ok(());
-    }
-    let ties: Vec<TieDemand> = runs.iter().filter_map(|(_, run)| run.tie).collect();
-    let present: Vec<i16> = runs.iter().map(|(_, run)| i16::from(run.tie.is_some())).collect();
-    for number in [|tie: &TieDemand| tie.force, |tie: &TieDemand| tie.elongation] {
-        column::<DoubleType>(group, &ties.iter().map(number).collect::<Vec<_>>(), Some(&present))?;
-    }
-    column::<BoolType>(group, &ties.iter().map(|tie| tie.broken).collect::<Vec<_>>(), Some(&present))
+    Ok(())
 }
 
-/// Writes the next column; `present` says which rows have a value.
+/// Writes the next column.
 fn column<T: DataType>(
     group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
-    values: &[T::T],
-    present: Option<&[i16]>,
+    values: impl Iterator<Item = Option<T::T>>,
 ) -> Result<(), ParquetError> {
+    let values: Vec<Option<T::T>> = values.collect();
+    let present: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
     if let Some(mut column) = group.next_column()? {
-        column.typed::<T>().write_batch(values, present, None)?;
+        let known: Vec<T::T> = values.into_iter().flatten().collect();
+        column.typed::<T>().write_batch(&known, Some(&present), None)?;
         column.close()?;
     }
     Ok(())
@@ -199,21 +182,24 @@ fn read(
     reader: &SerializedFileReader<Bytes>,
 ) -> Result<Option<Vec<Curve>>, ParquetError> {
     let group = reader.get_row_group(0)?;
-    let (cases, _) = values::<Int64Type>(&*group, 0)?;
-    let (intensities, _) = values::<DoubleType>(&*group, 4)?;
-    let (demands, _) = values::<DoubleType>(&*group, 5)?;
-    let times = optional::<DoubleType>(&*group, 7)?;
-    let sensitivities = optional::<DoubleType>(&*group, 8)?;
+    let cases = values::<Int64Type>(&*group, 0)?;
+    let [intensities, demands, times, sensitivities] =
+        [4, 5, 7, 8].map(|column| values::<DoubleType>(&*group, column));
+    let numbers = intensities?.into_iter().zip(demands?).zip(times?.into_iter().zip(sensitivities?));
     let mut ties = if contents.has_yielding_ties() { ties(&*group)? } else { Vec::new() }.into_iter();
     let range = contents.part(part);
     let mut runs: Vec<Vec<Run>> = vec![Vec::new(); range.len()];
-    let rows = cases.into_iter().zip(intensities).zip(demands).zip(times).zip(sensitivities);
-    for ((((case, intensity), demand), overturning), sensitivity) in rows {
-        let run = Run { intensity, demand, overturning, tie: ties.next().flatten(), sensitivity };
-        let place = usize::try_from(case).ok().and_then(|case| case.checked_sub(range.start));
-        let Some(runs) = place.and_then(|place| runs.get_mut(place)).filter(|_| is_possible(&run)) else {
+    for (case, ((intensity, demand), (overturning, sensitivity))) in cases.into_iter().zip(numbers) {
+        let place = case.and_then(|case| usize::try_from(case).ok()?.checked_sub(range.start));
+        let (Some(intensity), Some(demand), Some(runs)) =
+            (intensity, demand, place.and_then(|place| runs.get_mut(place)))
+        else {
             return Ok(None);
         };
+        let run = Run { intensity, demand, overturning, tie: ties.next().flatten(), sensitivity };
+        if !is_possible(&run) {
+            return Ok(None);
+        }
         runs.push(run);
     }
     let is_complete = runs.iter().all(|runs| !runs.is_empty());
@@ -222,36 +208,27 @@ fn read(
 
 /// Reads the demands on ties, row by row.
 fn ties(group: &dyn RowGroupReader) -> Result<Vec<Option<TieDemand>>, ParquetError> {
-    let forces = optional::<DoubleType>(group, COLUMNS.len())?;
-    let elongations = optional::<DoubleType>(group, COLUMNS.len() + 1)?;
-    let broken = optional::<BoolType>(group, COLUMNS.len() + 2)?;
-    let demands = forces.into_iter().zip(elongations).zip(broken);
+    let first = COLUMNS.len() - OF_TIES;
+    let forces = values::<DoubleType>(group, first)?.into_iter();
+    let demands =
+        forces.zip(values::<DoubleType>(group, first + 1)?).zip(values::<BoolType>(group, first + 2)?);
     let demand = |((force, elongation), broken): ((Option<f64>, Option<f64>), Option<bool>)| {
         Some(TieDemand { force: force?, elongation: elongation?, broken: broken? })
     };
     Ok(demands.map(demand).collect())
 }
 
-/// Reads a column in which rows may have no value.
-fn optional<T: DataType>(
-    group: &dyn RowGroupReader,
-    column: usize,
-) -> Result<Vec<Option<T::T>>, ParquetError> {
-    let (values, present) = values::<T>(group, column)?;
-    let mut values = values.into_iter();
-    Ok(present.into_iter().map(|present| if present > 0 { values.next() } else { None }).collect())
-}
-
-/// Reads a column: its values, and which rows have one.
-fn values<T: DataType>(
-    group: &dyn RowGroupReader,
-    column: usize,
-) -> Result<(Vec<T::T>, Vec<i16>), ParquetError> {
+/// Reads a column, row by row.
+fn values<T: DataType>(group: &dyn RowGroupReader, column: usize) -> Result<Vec<Option<T::T>>, ParquetError> {
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
     let mut reader = get_typed_column_reader::<T>(group.get_column_reader(column)?);
     let (mut values, mut present) = (Vec::with_capacity(rows), Vec::new());
     reader.read_records(rows, Some(&mut present), None, &mut values)?;
-    Ok((values, present))
+    if COLUMNS[column].2 == Repetition::REQUIRED {
+        return Ok(values.into_iter().map(Some).collect());
+    }
+    let mut values = values.into_iter();
+    Ok(present.into_iter().map(|present| if present > 0 { values.next() } else { None }).collect())
 }
 
 fn is_possible(run: &Run) -> bool {

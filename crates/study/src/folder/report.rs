@@ -317,8 +317,8 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
     manifest.report.fractions.iter().position(|fraction| *fraction == 1.0)
 }
 
-/// Returns whether the limit states of a model contradict a common β, or their curves cross; of a cloud, whether
-/// θ of the collapse lies outside the runs, or there is no regression.
+/// Returns whether the limit states of a model contradict a common β, or their curves cross; of a cloud,
+/// whether θ of the collapse lies outside the runs, or there is no regression.
 fn is_doubted(manifest: &Manifest, model: usize, results: &WallResults) -> bool {
     let Manifest { report, contents, .. } = manifest;
     if contents.is_cloud {

@@ -141,7 +141,7 @@ impl<'a> Risk<'a> {
         let table = self.shown.table();
         let mut section = self.section(&table);
         if !table.rows.is_empty() {
-            told += &format!("curves of classes of walls, and the parts of their beta\n{}", table.text());
+            told = format!("{told}curves of classes of walls, and the parts of their beta\n{}", table.text());
         }
         told.push_str(&self.words());
         let mut paths = vec![self.table.commit()?];
@@ -307,10 +307,9 @@ impl<'a> Risk<'a> {
                  for it run the study with intensity = {{ measure = \"AvgSA\" }}\n{pelicun}"
             );
         }
-        let lack = |(count, reason): (usize, &str)| match count {
-            0 => String::new(),
-            1 => format!("{file} lacks 1 function, of a wall or class {reason}\n"),
-            _ => format!("{file} lacks {count} functions, of walls or classes {reason}\n"),
+        let lack = |(count, reason): (usize, &str)| {
+            let functions = counted(count, "function");
+            (count > 0).then(|| format!("{file} lacks {functions}, of a wall or class {reason}\n"))
         };
         let without_curve = if self.manifest.contents.is_cloud {
             "without a regression; change the scale, or add records"
@@ -320,7 +319,11 @@ impl<'a> Risk<'a> {
         };
         let without_numbers =
             "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
-        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat() + &pelicun
+        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)]
+            .into_iter()
+            .filter_map(lack)
+            .collect::<String>()
+            + &pelicun
     }
 
     /// Says that a class has no curve, as some of its walls have none.

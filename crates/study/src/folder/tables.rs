@@ -80,7 +80,7 @@ const FRACTILES: [(&str, &str, f64); 3] = [("50", "50 %", 0.5), ("84", "84 %", 0
 /// runs.
 fn ties(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
     let three = Digits::AtMost(3);
-    let mut table = Table::over(tie_rows(manifest.contents.models.len(), results))
+    let mut table = Table::over(tie_rows(&manifest.contents, results))
         .text("wall", "", |_| manifest.contents.walls[wall].name.clone())
         .text("model", "model", |row| manifest.contents.models[row.model].name.clone())
         .number(
@@ -122,14 +122,14 @@ impl TieRow {
     }
 }
 
-fn tie_rows(models: usize, results: &WallResults) -> Vec<TieRow> {
+fn tie_rows(contents: &Contents, results: &WallResults) -> Vec<TieRow> {
     let mut rows: Vec<TieRow> = Vec::new();
-    for model in 0..models {
+    for model in 0..contents.models.len() {
         let runs = results.curves(model).iter().flat_map(Curve::runs);
         let mut runs: Vec<_> = runs.filter_map(|run| Some((run.intensity, run.tie?))).collect();
         runs.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (intensity, demand) in runs {
-            let level = results.are_levels_shared().then_some(intensity);
+            let level = contents.grid.is_some().then_some(intensity);
             match rows.last_mut() {
                 Some(row) if (row.model, row.level) == (model, level) => row.demands.push(demand),
                 _ => rows.push(TieRow { model, level, demands: vec![demand] }),

@@ -1,7 +1,5 @@
 //! Parts in which a study is kept and distributed.
 
-use std::ops::Range;
-
 use super::Study;
 
 /// Work of about a second on one core: samples times runs.
@@ -21,11 +19,5 @@ impl Study {
         let size = self.count().div_ceil(FEWEST_PARTS).min(second).max(1);
         let records = self.records().len();
         if size > records { size - size % records } else { size }
-    }
-
-    /// Returns the numbers of the combinations of a part.
-    pub fn part(&self, part: usize) -> Range<usize> {
-        let size = self.part_size();
-        part * size..((part + 1) * size).min(self.count())
     }
 }

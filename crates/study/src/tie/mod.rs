@@ -41,18 +41,12 @@ const UPPER: f64 = 0.84;
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum TieError {
-    /// There is no tie.
-    #[error("the wall has no tie_height; set it, such as tie_height = 3")]
-    NoHeight,
-    /// There is no tie but its height.
+    /// There is no tie, or one that what is varied does not change.
     #[error("the wall has no {missing}, so {varied} has no effect; set it, such as {missing} = {example}")]
     NoEffect { varied: &'static str, missing: &'static str, example: &'static str },
     /// Nothing to vary.
     #[error("there is no value of {varied}; give at least one")]
     NoValue { varied: &'static str },
-    /// A value beyond the limits of the model description.
-    #[error("{0}")]
-    Value(SceneError),
     /// There is no motion.
     #[error("there is no motion; give records, or a scene with one")]
     NoMotion,
@@ -62,7 +56,7 @@ pub enum TieError {
     /// A motion that cannot be reversed.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
-    /// A run that failed.
+    /// A value beyond the limits of the model description, or a run that failed.
     #[error(transparent)]
     Run(#[from] SceneError),
 }
@@ -193,19 +187,16 @@ impl TieStudy {
         records: Vec<GroundMotion>,
         both_polarities: bool,
     ) -> Result<Self, TieError> {
-        let Parameters { tie_height, tie_stiffness, tie_strength, .. } = scene.parameters;
-        if tie_height <= 0.0 && *varied != HEIGHT {
-            return Err(TieError::NoHeight);
-        }
-        let lacks = |missing, example| TieError::NoEffect { varied: varied.parameter, missing, example };
-        if scene.parameters.bar.is_none() && *varied == BAR_DIAMETER {
-            return Err(lacks("bar", "{ diameter = 0.016, length = 6, yield_stress = 235e6 }"));
-        }
-        if tie_stiffness == 0.0 && *varied != STIFFNESS {
-            return Err(lacks(STIFFNESS.parameter, "1e6"));
-        }
-        if tie_strength == 0.0 && *varied == ULTIMATE {
-            return Err(lacks(STRENGTH.parameter, "1e4"));
+        let Parameters { tie_height, tie_stiffness, tie_strength, ref bar, .. } = scene.parameters;
+        let example_of_bar = "{ diameter = 0.016, length = 6, yield_stress = 235e6 }";
+        let needed = [
+            (HEIGHT.parameter, tie_height <= 0.0 && *varied != HEIGHT, "3"),
+            ("bar", bar.is_none() && *varied == BAR_DIAMETER, example_of_bar),
+            (STIFFNESS.parameter, tie_stiffness == 0.0 && *varied != STIFFNESS, "1e6"),
+            (STRENGTH.parameter, tie_strength == 0.0 && *varied == ULTIMATE, "1e4"),
+        ];
+        if let Some((missing, _, example)) = needed.into_iter().find(|(_, is_missing, _)| *is_missing) {
+            return Err(TieError::NoEffect { varied: varied.parameter, missing, example });
         }
         let values = values(&scene, varied, given)?;
         let walls = values.iter().map(|&value| Ok(Wall::new(&with(&scene, varied, value)?.parameters)?));
@@ -286,7 +277,7 @@ impl TieStudy {
 /// Returns a scene whose tie has a value.
 fn with(scene: &Scene, varied: &Varied, value: f64) -> Result<Scene, TieError> {
     let mut scene = scene.clone();
-    scene.set(varied.parameter, &value.to_string()).map_err(TieError::Value)?;
+    scene.set(varied.parameter, &value.to_string())?;
     Ok(scene)
 }
 

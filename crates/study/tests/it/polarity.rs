@@ -105,7 +105,10 @@ fn a_study_that_is_sent_keeps_its_signs() {
     let text =
         "models = [\"CR\"]\npolarity = \"negative\"\nlevels = { method = \"step\", step = 1, top = 2 }\n";
     let told = StudyFile::parse("study.toml", text).unwrap_err().to_string();
-    assert!(told.contains("line 2") && told.contains("as_recorded, reversed, both, worst"), "{told}");
+    assert!(
+        told.contains("line 2") && told.contains("\"as_recorded\", \"reversed\", \"both\", \"worst\""),
+        "{told}"
+    );
 }
 
 /// A resample has both signs of a record or none: 2 n records in pairs of equal values have the medians of n.

@@ -158,7 +158,12 @@ fn what_has_no_effect_is_refused() {
     let (whole, no_height) = (scene(), with(|p| p.tie_height = 0.0));
     let (no_stiffness, no_strength) = (with(|p| p.tie_stiffness = 0.0), with(|p| p.tie_strength = 0.0));
     for (scene, varied, values, words) in [
-        (&no_height, STRENGTH, &[1e3][..], "the wall has no tie_height; set it"),
+        (
+            &no_height,
+            STRENGTH,
+            &[1e3][..],
+            "the wall has no tie_height, so tie_strength has no effect; set it",
+        ),
         (&no_stiffness, SLACK, &[0.0], "no tie_stiffness, so tie_slack has no effect; set it"),
         (&no_strength, ULTIMATE, &[0.0], "no tie_strength, so tie_ultimate has no effect; set it"),
         (&whole, BAR_DIAMETER, &[0.01], "no bar, so bar_diameter has no effect; set it"),

@@ -302,7 +302,7 @@ fn other_studies_and_bad_ones_are_refused() {
         ("xi = 0.05", "xi = 11", &["line 3", "xi = 11 is above its limit 10"]),
         ("xi = 0.05", "xi = -0.5", &["line 3", "xi = -0.5", "or -1 where it is not given"]),
         ("xi = 0.05", "c_bar = 0.5", &["line 3", "takes no c_bar", "give xi"]),
-        ("xi = 0.05", "e = 0.9", &["line 3", "\"e\"", "name, model, xi, c_bar"]),
+        ("xi = 0.05", "e = 0.9", &["line 3", "unknown field `e`", "`xi`, `c_bar`"]),
         ("[report]", "[report]\nreference = \"SDR\"", &["SDR", "not among the models"]),
         ("[report]", "[report]\nfractions = [0.5, 1.5]", &["1.5", "at most 1"]),
         ("a1 = 0.009", "a1 = -0.009", &["a1", "-0.009", "below its limit"]),

@@ -252,7 +252,11 @@ fn classes_that_cannot_be_made_are_refused() {
         ("name = \"both\"", "name = \"alone\"", &["\"alone\" is listed twice"]),
         ("name = \"both\"", "name = \"low\"", &["class \"low\"", "name of a wall"]),
         ("fractions = [0.4, 0.1, 1]", "fractions = []", &["fractions is empty", "at least one"]),
-        ("resamples = 100", "modelling_uncertainty = -1", &["modelling_uncertainty = -1", "from 0 to 2"]),
+        (
+            "resamples = 100",
+            "modelling_uncertainty = -1",
+            &["modelling_uncertainty = -1", "at least 0 and at most 2"],
+        ),
     ] {
         fs::write(folder.join("study.toml"), STUDY.replace(from, to)).unwrap();
         refused(&folder, &["study", "ida", "study.toml", "-o", "out"], words);

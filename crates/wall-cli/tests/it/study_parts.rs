@@ -6,7 +6,7 @@ use std::path::Path;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use crate::command_line::{content, folder, printed, refused, succeed};
+use crate::command_line::{assert_has, content, folder, printed, refused, succeed};
 use crate::ida::{bytes, part_files, study};
 
 /// The parts hold the rows of levels.csv, in its order, for any reader of Parquet. Where no tie may yield,
@@ -126,7 +126,7 @@ fn samples_of_uncertain_parameters_are_walls() {
                  samples = 6\n[uncertain.parameters]\nthickness = { uniform = [0.2, 0.4] }\n";
     fs::write(folder.join("study.toml"), study).unwrap();
     let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out", "--threads", "2"]);
-    assert_has(&told, &["curves of classes of walls, and the parts of their beta", "a      CR "]);
+    assert!(told.contains("curves of classes of walls") && told.contains("\na      CR "), "{told}");
     let samples = content(&folder, "out/samples.csv");
     assert!(samples.starts_with("wall,of,sample,thickness\na 1,a,1,0."), "{samples}");
     assert_eq!(samples.lines().count(), 1 + 6);
