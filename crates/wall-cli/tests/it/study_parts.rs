@@ -6,7 +6,7 @@ use std::path::Path;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use crate::command_line::{assert_has, content, folder, printed, refused, succeed};
+use crate::command_line::{content, folder, printed, refused, succeed};
 use crate::ida::{bytes, part_files, study};
 
 /// The parts hold the rows of levels.csv, in its order, for any reader of Parquet. Where no tie may yield,
