@@ -104,7 +104,7 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
         }
     }
     let mut text = read(folder.join("rows.csv"))?;
-    let mut rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
+    let mut rows: Vec<Measured> = text.lines().skip(1).filter_map(Measured::parse).collect();
     rows.sort_by_key(|row| row.scene);
     let [table, printed] = [false, true].map(|with_peaks| report(&rows, &missing, with_peaks));
     print!("{printed}");
@@ -125,7 +125,7 @@ fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {
 }
 
 /// A line of the table.
-struct Row<'a> {
+struct Measured<'a> {
     scene: &'a str,
     tool: &'a str,
     /// Of a tool that is missing, fails or does not offer the model: the reason.
@@ -138,7 +138,7 @@ struct Row<'a> {
     peak: f64,
 }
 
-impl<'a> Row<'a> {
+impl<'a> Measured<'a> {
     fn parse(line: &'a str) -> Option<Self> {
         let mut words = line.split(',');
         let (scene, tool, setting) = (words.next()?, words.next()?, words.next()?);
@@ -148,7 +148,7 @@ impl<'a> Row<'a> {
     }
 }
 
-fn report(rows: &[Row<'_>], missing: &[(&str, String)], with_peaks: bool) -> String {
+fn report(rows: &[Measured<'_>], missing: &[(&str, String)], with_peaks: bool) -> String {
     let mut text = String::new();
     for rows in rows.chunk_by(|one, other| one.scene == other.scene) {
         // writing to a string does not fail
@@ -160,11 +160,11 @@ fn report(rows: &[Row<'_>], missing: &[(&str, String)], with_peaks: bool) -> Str
     text
 }
 
-fn write_scene(text: &mut String, rows: &[Row<'_>], with_peaks: bool) -> std::fmt::Result {
+fn write_scene(text: &mut String, rows: &[Measured<'_>], with_peaks: bool) -> std::fmt::Result {
     let of = |tool| rows.iter().filter(move |row| row.tool == tool);
     // the time of a run in a batch is a share
-    let in_batch = |row: &Row<'_>| row.setting.ends_with(AT_ONCE);
-    let good = |row: &Row<'_>| row.error <= GOOD && !in_batch(row);
+    let in_batch = |row: &Measured<'_>| row.setting.ends_with(AT_ONCE);
+    let good = |row: &Measured<'_>| row.error <= GOOD && !in_batch(row);
     let scene = rows[0].scene;
     // without a closed form, the fastest good one
     let own = of(OURS).find(|row| row.setting == "exact" && !row.error.is_nan());
@@ -199,7 +199,7 @@ fn write_scene(text: &mut String, rows: &[Row<'_>], with_peaks: bool) -> std::fm
             batch.seconds * 1e3
         )?;
     }
-    let good = |row: &Row<'_>| row.peak <= GOOD_PEAK;
+    let good = |row: &Measured<'_>| row.peak <= GOOD_PEAK;
     let Some(own) = fastest(of(OURS), |row| good(row) && in_batch(row)).filter(|_| with_peaks) else {
         return Ok(());
     };
@@ -216,14 +216,14 @@ fn write_scene(text: &mut String, rows: &[Row<'_>], with_peaks: bool) -> std::fm
 }
 
 fn fastest<'a>(
-    rows: impl Iterator<Item = &'a Row<'a>>,
-    good: impl Fn(&Row<'a>) -> bool,
-) -> Option<&'a Row<'a>> {
+    rows: impl Iterator<Item = &'a Measured<'a>>,
+    good: impl Fn(&Measured<'a>) -> bool,
+) -> Option<&'a Measured<'a>> {
     rows.filter(|row| good(row)).min_by(|one, other| one.seconds.total_cmp(&other.seconds))
 }
 
-fn write_row(text: &mut String, row: &Row<'_>, base: f64, error: f64) -> std::fmt::Result {
-    let Row { tool, setting, seconds, .. } = row;
+fn write_row(text: &mut String, row: &Measured<'_>, base: f64, error: f64) -> std::fmt::Result {
+    let Measured { tool, setting, seconds, .. } = row;
     let (milliseconds, ratio) = (seconds * 1e3, seconds / base);
     writeln!(text, "{tool:<14}{setting:<26}{milliseconds:>12.3}{error:>18.1e}{ratio:>12.2}")
 }

@@ -22,7 +22,7 @@ const SEQUENCE: [f64; 3] = [0.856_674_883_854_503, 0.733_891_856_627_126, 0.628_
 const LIMIT: f64 = 0.10;
 
 /// A kind of wall.
-struct Kind {
+struct WallKind {
     name: &'static str,
     /// Damping models: viscous ones do not go with one-sided rocking.
     models: &'static str,
@@ -34,22 +34,22 @@ struct Kind {
     ranges: [[f64; 2]; 2],
 }
 
-const KINDS: [Kind; 3] = [
-    Kind {
+const KINDS: [WallKind; 3] = [
+    WallKind {
         name: "parapets",
         models: "[\"CR\", \"CDR\"]",
         check: "before_activation = \"law\"",
         supports: "{ bottom = 3 }",
         ranges: [[0.6, 3.0], [3.0, 12.0]],
     },
-    Kind {
+    WallKind {
         name: "façades",
         models: "[\"CR\"]",
         check: "before_activation = \"rigid\"\noverburden_mass = 0",
         supports: "{ bottom = 2 }",
         ranges: [[4.0, 12.0], [8.0, 16.0]],
     },
-    Kind {
+    WallKind {
         name: "strips",
         models: "[\"CR\", \"CDR\"]",
         check: "before_activation = \"law\"",
@@ -209,7 +209,7 @@ fn falls(path: &Path) -> Result<BTreeMap<(String, String), Vec<Fall>>> {
 /// Makes the walls of a kind as CSV: heights and slendernesses of its ranges, evenly spread. Half of the
 /// façades have no overburden, the others up to their weight; strips have up to five times theirs, and their
 /// hinge at the least α0, x = 1/(1 + √(O/(2 (W + O)))), at most 0.9.
-fn walls(order: usize, kind: &Kind) -> String {
+fn walls(order: usize, kind: &WallKind) -> String {
     let mut text = String::from(
         "name,mechanism,height,thickness,density,overburden,hinge_ratio,a1,rocking,restitution_source\n",
     );
@@ -239,8 +239,8 @@ fn walls(order: usize, kind: &Kind) -> String {
 }
 
 /// Makes the study of a kind on a soil, on the ground or in a building of T₁ = 0.3 s.
-fn study(kind: &Kind, soil: &str, place: &str, records: &str) -> String {
-    let Kind { name, models, check, supports, .. } = kind;
+fn study(kind: &WallKind, soil: &str, place: &str, records: &str) -> String {
+    let WallKind { name, models, check, supports, .. } = kind;
     let storey = "[[storeys]]\nmass = 1e5\nstiffness = 2.2e8\ndamping_ratio = 0.1\n";
     let (storeys, damping, supports) = match place {
         "ground" => (String::new(), "", String::new()),

@@ -1,7 +1,7 @@
 //! A floor that an importer's solver moves: it sets the state; yielding and unloading are events.
 
 use crate::floor::{Branch, Floor, Yielding};
-use crate::motion::{Load, State};
+use crate::motion::{FloorState, Load};
 
 /// Event indicators: the distances to yielding towards +x and −x, or the velocity while yielding.
 pub(crate) const INDICATORS: usize = 2;
@@ -12,7 +12,7 @@ pub(crate) const INDICATORS: usize = 2;
 /// an event.
 const MARGIN: f64 = 1e-12;
 
-impl State {
+impl FloorState {
     /// Returns plastic displacement \[m\] and hysteretic energy \[J\] at a displacement that a solver has set
     /// since the last corner.
     pub(crate) fn flow(&self, floor: &Floor) -> (f64, f64) {

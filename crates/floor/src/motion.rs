@@ -2,11 +2,11 @@
 //!
 //! ```
 //! use rocking_floor::floor::{Floor, Parameters};
-//! use rocking_floor::motion::{Load, State};
+//! use rocking_floor::motion::{Load, FloorState};
 //!
 //! let undamped = Parameters { mass: 1e4, stiffness: 1e6, damping_ratio: 0.0, ..Parameters::default() };
 //! let floor = Floor::new(&undamped)?;
-//! let mut state = State::new(&floor, 0.01, 0.0, Load::default());
+//! let mut state = FloorState::new(&floor, 0.01, 0.0, Load::default());
 //! // half a period later it is on the other side
 //! state.advance(&floor, Load::default(), std::f64::consts::PI / floor.omega())?;
 //! assert!((state.displacement + 0.01).abs() < 1e-12);
@@ -20,7 +20,7 @@ use crate::piece::Piece;
 
 /// State of a floor: plain data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct FloorState {
     /// Displacement relative to the base \[m\].
     pub displacement: f64,
     /// Velocity relative to the base \[m/s\].
@@ -85,7 +85,7 @@ pub const MOST_SPANS: usize = 50_000;
 /// by twice that.
 const SLACK: f64 = 16.0 * f64::EPSILON;
 
-impl State {
+impl FloorState {
     /// Makes the state of a floor that has reached a displacement \[m\] by monotonic loading and has a
     /// velocity \[m/s\], under a load.
     pub fn new(floor: &Floor, displacement: f64, velocity: f64, load: Load) -> Self {

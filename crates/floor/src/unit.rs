@@ -5,7 +5,7 @@ use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec,
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
 use crate::inputs::{Base, Inputs, Owner};
-use crate::motion::{Load, State, Work};
+use crate::motion::{FloorState, Load, Work};
 use crate::values;
 use crate::variables::{
     BooleanVariable, CONTINUOUS_STATES, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable,
@@ -19,7 +19,7 @@ pub struct Unit {
     interface: Interface,
     pub(crate) floor: Floor,
     inputs: Inputs,
-    pub(crate) state: State,
+    pub(crate) state: FloorState,
     base: Base,
     /// Time of an importer's solver, in Model Exchange \[s\].
     pub(crate) time: f64,
@@ -45,7 +45,7 @@ impl Unit {
             interface: Interface::CoSimulation,
             floor,
             inputs: Inputs::default(),
-            state: State::new(&floor, 0.0, 0.0, Load::default()),
+            state: FloorState::new(&floor, 0.0, 0.0, Load::default()),
             base: Base::default(),
             time: 0.0,
             running: false,
@@ -286,7 +286,7 @@ impl Model for Unit {
         }
         self.floor = build(&self.parameters)?;
         let Parameters { displacement_start, velocity_start, .. } = self.parameters;
-        self.state = State::new(&self.floor, displacement_start, velocity_start, self.load());
+        self.state = FloorState::new(&self.floor, displacement_start, velocity_start, self.load());
         Ok(())
     }
 
@@ -329,7 +329,7 @@ impl Model for Unit {
             // what follows from the parameters, before the state itself
             self.calculate()?;
         }
-        let State { displacement, velocity, plastic, branch, damping_energy, hysteretic_energy } =
+        let FloorState { displacement, velocity, plastic, branch, damping_energy, hysteretic_energy } =
             &mut self.state;
         codec.f64s([displacement, velocity, plastic, damping_energy, hysteretic_energy])?;
         codec.item(branch, &[Branch::Elastic, Branch::YieldingUp, Branch::YieldingDown])?;

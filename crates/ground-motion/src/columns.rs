@@ -13,7 +13,7 @@ mod cells;
 mod heading;
 
 pub use crate::error::Fault;
-pub use cells::{Numbers, Row, Thousands};
+pub use cells::{Numbers, TextRow, Thousands};
 pub use heading::Name;
 
 use crate::error::excerpt;
@@ -178,11 +178,11 @@ impl<'a> Columns<'a> {
     ///
     /// # Errors
     /// [`Fault`] of a row with more or fewer cells than there are columns.
-    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Fault>> {
+    pub fn rows(&self) -> impl Iterator<Item = Result<TextRow<'a>, Fault>> {
         let Self { text, first_row, separator, width, .. } = *self;
         let rows = lines(text).skip_while(move |(number, _)| *number < first_row);
         rows.filter_map(move |(line, text)| {
-            let row = Row { line, text, separator, width };
+            let row = TextRow { line, text, separator, width };
             if text.starts_with(COMMENTS) {
                 return row.unclear_comment().map(Err);
             }

@@ -11,7 +11,7 @@ use crate::lanes::Lanes;
 use crate::number::{Eight, WIDTH};
 use crate::solver::{BatchRun, NoObserver, Observer, Outcome, RecordSolver, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
-use crate::together::{Kind, run_together_on};
+use crate::together::{Common, run_together_on};
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
 pub const LANES: usize = WIDTH;
@@ -139,7 +139,7 @@ impl Batch<'_> {
     /// Returns whether runs go side by side, not one by one. They go one by one on a processor without AVX2,
     /// and where the wall, the step or the length of the record does not suit.
     pub fn is_side_by_side(&self) -> bool {
-        self.vectors.is_some() && Kind::of(self.solver, &self.record).is_some()
+        self.vectors.is_some() && Common::of(self.solver, &self.record).is_some()
     }
 
     /// Moves walls through the record, each as if it were alone and up to `end`. Returns one outcome for each
@@ -156,7 +156,7 @@ impl Batch<'_> {
 
 /// Follows runs, side by side with some vectors or one by one.
 pub(crate) fn follow(
-    side_by_side: Option<(Vectors, Kind<'_>)>,
+    side_by_side: Option<(Vectors, Common<'_>)>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     match side_by_side {
@@ -171,28 +171,28 @@ pub(crate) fn follow(
 /// Follows runs side by side.
 pub(crate) fn in_lanes<S: Simd>(
     simd: S,
-    kind: Kind<'_>,
+    kind: Common<'_>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
         || match kind {
-            Kind::Prepared(_) => lanes.side_by_side(
+            Common::Prepared(_) => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
                 |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
             ),
-            Kind::Affine { .. } => lanes.side_by_side(
+            Common::Affine { .. } => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
                 |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
             ),
-            Kind::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
+            Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
             ),
-            Kind::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
+            Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
                 |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),

@@ -6,7 +6,7 @@ use crate::lanes::Lanes;
 use crate::line::Bounds;
 use crate::number::{BranchRow, Number, WIDTH};
 use crate::solver::RecordSolver;
-use crate::table::{Table, get};
+use crate::table::{BranchTable, get};
 
 /// The branch of each lane from `first` on.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ pub(crate) struct Branches<'a, N: Number> {
 impl<N: Number> Branches<'_, N> {
     /// Looks up the number of each lane's branch in a row of its table.
     #[inline(always)]
-    pub(crate) fn look_up(&self, token: N::Token, row: impl Fn(&Table) -> &BranchRow) -> N {
+    pub(crate) fn look_up(&self, token: N::Token, row: impl Fn(&BranchTable) -> &BranchRow) -> N {
         let Self { solvers, first, numbers } = *self;
         if N::ONE_TABLE {
             // one row for all lanes, which a vector permutes
@@ -33,7 +33,7 @@ impl<N: Number> Branches<'_, N> {
     pub(crate) fn look_up_all<const ROWS: usize>(
         &self,
         token: N::Token,
-        rows: impl Fn(&Table) -> &[BranchRow; ROWS],
+        rows: impl Fn(&BranchTable) -> &[BranchRow; ROWS],
     ) -> [N; ROWS] {
         let mut found = [N::splat(token, 0.0); ROWS];
         for (row, found) in found.iter_mut().enumerate() {
@@ -45,7 +45,7 @@ impl<N: Number> Branches<'_, N> {
 
 /// Returns the law of the branch of each lane, looked up by `look_up`.
 #[inline(always)]
-pub(crate) fn law<N>(look_up: impl Fn(fn(&Table) -> &BranchRow) -> N) -> SecantBranch<N> {
+pub(crate) fn law<N>(look_up: impl Fn(fn(&BranchTable) -> &BranchRow) -> N) -> SecantBranch<N> {
     SecantBranch {
         anchor: look_up(|table| &table.secant.anchor),
         force: look_up(|table| &table.secant.force),

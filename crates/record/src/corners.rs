@@ -1,10 +1,10 @@
 //! Corners passed in a step, as long as u̇ keeps its sign up to each (docs/record-path.md, §4).
 
 use crate::lanes::{Lanes, Waiting};
-use crate::line::{Bounds, Course, Line};
-use crate::number::{BranchRow, Number, Row, index};
+use crate::line::{Bounds, Course, LinearBranch};
+use crate::number::{BranchRow, LaneRow, Number, index};
 use crate::solver::{Observer, RecordSolver};
-use crate::table::{Table, end_kind};
+use crate::table::{BranchTable, end_kind};
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
@@ -21,7 +21,7 @@ pub(crate) struct Part<N: Number> {
     /// Lanes that have come to it.
     pub(crate) lanes: N::Mask,
     pub(crate) branch: N,
-    pub(crate) line: Line<N>,
+    pub(crate) line: LinearBranch<N>,
     /// u, u̇ and ü at its start, and u and u̇ at its end if the branch goes on.
     pub(crate) from: [N; 3],
     pub(crate) to: [N; 2],
@@ -71,7 +71,7 @@ impl<N: Number> Part<N> {
     pub(crate) fn step(
         lanes: N::Mask,
         branch: N,
-        line: Line<N>,
+        line: LinearBranch<N>,
         [from, to]: [[N; 2]; 2],
         [p0, p1]: [N; 2],
         step: f64,
@@ -184,7 +184,7 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn ahead<N: Number>(&self, token: N::Token, first: usize, part: &Part<N>) -> [N; 2] {
         let branches = self.branches(first, part.branch);
         let upwards = part.from[0].below(part.to[0]);
-        let at = |row: fn(&Table) -> &[BranchRow; 2]| {
+        let at = |row: fn(&BranchTable) -> &[BranchRow; 2]| {
             let [lower, upper] = branches.look_up_all(token, row);
             N::select(upwards, upper, lower)
         };
@@ -213,7 +213,7 @@ impl<O: Observer> Lanes<'_, O> {
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
         let branch = N::select(lanes, other, part.branch);
-        let line = Line::look_up(token, &self.branches(first, branch));
+        let line = LinearBranch::look_up(token, &self.branches(first, branch));
         let forcing = part.forcing + part.rate * time;
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
@@ -232,7 +232,7 @@ impl<O: Observer> Lanes<'_, O> {
         let share = -(left * (1.0 / self.solvers[first].step)) + 1.0;
         // a remainder below the rounding of the share counts as none
         let whole = left.at_most(zero) | N::splat(token, 1.0).at_most(share);
-        let put = |row: &mut Row, value: N| {
+        let put = |row: &mut LaneRow, value: N| {
             N::select(lanes, value, N::load(token, row, first)).store(row, first);
         };
         put(&mut rows.u, end[0]);
@@ -258,7 +258,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solvers[first]);
         let load = |row| N::load(token, row, first);
         let (branch, share) = (load(&rows.branch), load(&rows.share));
-        let line = Line::look_up(token, &self.branches(first, branch));
+        let line = LinearBranch::look_up(token, &self.branches(first, branch));
         let samples = self.records[first].forcing.from(index(rows.index[first]), 2);
         let [p0, p1] = [load(&rows.factor) * samples[0], load(&rows.factor) * samples[1]];
         let (length, rate) = (load(&rows.share) * -step + *step, (p1 - p0) * (1.0 / step));

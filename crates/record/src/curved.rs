@@ -6,10 +6,10 @@ use rocking_wall::solver::secant::{
 
 use crate::branches::law;
 use crate::lanes::{Lanes, Rows, Waiting, each};
-use crate::number::{BranchRow, Number, Row, WIDTH, index};
+use crate::number::{BranchRow, LaneRow, Number, WIDTH, index};
 use crate::regularised::Regularised;
 use crate::solver::{Observer, RecordSolver};
-use crate::table::{Law, Table, end_kind, get};
+use crate::table::{BranchTable, Law, end_kind, get};
 
 /// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a
 /// series fall fast enough to end at its order.
@@ -300,7 +300,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Enters p at both ends of a lane's step; returns whether its block has one more step.
     #[inline(always)]
-    fn take_forcing(&self, lane: usize, place: usize, ends: &mut [Row; 2]) -> bool {
+    fn take_forcing(&self, lane: usize, place: usize, ends: &mut [LaneRow; 2]) -> bool {
         if self.is_at_end(lane) {
             return false;
         }
@@ -316,7 +316,7 @@ impl<O: Observer> Lanes<'_, O> {
     fn laws<N: Number>(&self, token: N::Token, first: usize) -> (SecantBranch<N>, Bounds<N>) {
         let rows = &self.rows;
         // one lane after the other, for any number of branches: this is not done often
-        let look_up = |row: fn(&Table) -> &BranchRow| {
+        let look_up = |row: fn(&BranchTable) -> &BranchRow| {
             N::of_lanes(token, |lane| {
                 let lane = (first + lane) % WIDTH;
                 get(row(&self.solvers[lane].table), index(rows.branch[lane]))

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use crate::batch::Vectors;
 use crate::responses::Responses;
 use crate::solver::RecordSolver;
-use crate::together::Kind;
+use crate::together::Common;
 
 /// Samples of a block.
 pub(crate) const BLOCK: usize = 256;
@@ -114,8 +114,8 @@ impl<'a> Blocks<'a> {
     /// Prepares a forcing for many runs of one wall with some vectors.
     pub(crate) fn on(solver: &'a RecordSolver<'a>, forcing: Forcing<'a>, vectors: Option<Vectors>) -> Self {
         let record = Self::new(forcing);
-        let responses = match vectors.and_then(|_| Kind::of(solver, &record)) {
-            Some(Kind::Affine { .. }) => Responses::new(solver, forcing),
+        let responses = match vectors.and_then(|_| Common::of(solver, &record)) {
+            Some(Common::Affine { .. }) => Responses::new(solver, forcing),
             _ => None,
         };
         Self { responses, ..record }

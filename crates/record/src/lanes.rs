@@ -3,7 +3,7 @@
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
-use crate::number::{Row, WIDTH, index};
+use crate::number::{LaneRow, WIDTH, index};
 use crate::solver::{BatchRun, Observer, Outcome, RecordSolver, RunEnd};
 use crate::table::Stepping;
 
@@ -65,33 +65,33 @@ pub(crate) struct Run {
 pub(crate) struct Rows {
     /// The sample, the share of the step from there that is taken already, and the first sample at which no
     /// plain steps begin.
-    pub(crate) index: Row,
-    pub(crate) share: Row,
-    pub(crate) limit: Row,
+    pub(crate) index: LaneRow,
+    pub(crate) share: LaneRow,
+    pub(crate) limit: LaneRow,
     /// The factor of the forcing.
-    pub(crate) factor: Row,
+    pub(crate) factor: LaneRow,
     /// The factor on u̇ at an impact, and the |u̇| after it below which the wall may come to rest \[m/s\].
-    pub(crate) passage_factor: Row,
-    pub(crate) rest_speed: Row,
-    pub(crate) u: Row,
-    pub(crate) v: Row,
-    pub(crate) branch: Row,
+    pub(crate) passage_factor: LaneRow,
+    pub(crate) rest_speed: LaneRow,
+    pub(crate) u: LaneRow,
+    pub(crate) v: LaneRow,
+    pub(crate) branch: LaneRow,
     /// Extremes of u at the ends of the block's steps \[m\], and the largest |u̇| on curved branches \[m/s\].
-    pub(crate) highest: Row,
-    pub(crate) lowest: Row,
-    pub(crate) fastest: Row,
+    pub(crate) highest: LaneRow,
+    pub(crate) lowest: LaneRow,
+    pub(crate) fastest: LaneRow,
     /// P and D = P + f̂ \[m/s²\].
-    pub(crate) forcing: Row,
-    pub(crate) driving: Row,
+    pub(crate) forcing: LaneRow,
+    pub(crate) driving: LaneRow,
     /// The |u| beyond which f̂ is taken anew, and the limits that u must not leave: where f̂ bounds the
     /// forces, or the peaks \[m\].
-    pub(crate) half_reach: Row,
-    pub(crate) limits: [Row; 2],
+    pub(crate) half_reach: LaneRow,
+    pub(crate) limits: [LaneRow; 2],
     /// Corners passed here, and of these the passages of u = 0.
-    pub(crate) corners: Row,
-    pub(crate) impacts: Row,
+    pub(crate) corners: LaneRow,
+    pub(crate) impacts: LaneRow,
     /// The change of u in the next part on a curved branch, as a share of u.
-    pub(crate) stride: Row,
+    pub(crate) stride: LaneRow,
 }
 
 /// What a pass over the runs computes.

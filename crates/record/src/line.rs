@@ -17,14 +17,14 @@ const INVERSE_FACTORIALS: [f64; 24] = {
 
 /// The line of the branch of each lane, ü = p − c u̇ − f(0) − k u, and γ over a step.
 #[derive(Clone, Copy)]
-pub(crate) struct Line<N> {
+pub(crate) struct LinearBranch<N> {
     pub(crate) c: N,
     pub(crate) k: N,
     pub(crate) force_at_zero: N,
     pub(crate) growth: N,
 }
 
-impl<N: Number> Line<N> {
+impl<N: Number> LinearBranch<N> {
     #[inline(always)]
     pub(crate) fn look_up(token: N::Token, branches: &Branches<'_, N>) -> Self {
         Self {

@@ -15,9 +15,9 @@ pub(crate) const WIDTH: usize = 8;
 pub(crate) const MOST_BRANCHES: usize = 2 * WIDTH;
 
 /// A number for each lane.
-pub(crate) type Row = [f64; WIDTH];
+pub(crate) type LaneRow = [f64; WIDTH];
 /// A number for each branch of a wall.
-pub(crate) type BranchRow = [Row; MOST_BRANCHES / WIDTH];
+pub(crate) type BranchRow = [LaneRow; MOST_BRANCHES / WIDTH];
 
 /// A number of each lane.
 pub(crate) trait Number: secant::Number {
@@ -33,8 +33,8 @@ pub(crate) trait Number: secant::Number {
 
     fn splat(token: Self::Token, value: f64) -> Self;
     /// Loads the numbers of a row from lane `first` on.
-    fn load(token: Self::Token, row: &Row, first: usize) -> Self;
-    fn store(self, row: &mut Row, first: usize);
+    fn load(token: Self::Token, row: &LaneRow, first: usize) -> Self;
+    fn store(self, row: &mut LaneRow, first: usize);
     fn of_lanes(token: Self::Token, value: impl Fn(usize) -> f64) -> Self;
     /// Returns the first and the second numbers of pairs.
     fn unzip(token: Self::Token, pair: impl Fn(usize) -> [f64; 2]) -> [Self; 2];
@@ -69,12 +69,12 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn load((): (), row: &Row, first: usize) -> Self {
+    fn load((): (), row: &LaneRow, first: usize) -> Self {
         row[first % WIDTH]
     }
 
     #[inline(always)]
-    fn store(self, row: &mut Row, first: usize) {
+    fn store(self, row: &mut LaneRow, first: usize) {
         row[first % WIDTH] = self;
     }
 
@@ -234,12 +234,12 @@ impl<S: Simd, const ONE_TABLE: bool> Number for Eight<S, ONE_TABLE> {
     }
 
     #[inline(always)]
-    fn load(simd: S, row: &Row, _: usize) -> Self {
+    fn load(simd: S, row: &LaneRow, _: usize) -> Self {
         Self(f64x8::load_array_ref(simd, row))
     }
 
     #[inline(always)]
-    fn store(self, row: &mut Row, _: usize) {
+    fn store(self, row: &mut LaneRow, _: usize) {
         self.0.store_array(row);
     }
 

@@ -4,11 +4,11 @@
 use crate::corners::Part;
 use crate::forcing::{AHEAD, MOST_AT_ONCE};
 use crate::lanes::{Lanes, Rows, Waiting};
-use crate::line::{Bounds, Line};
+use crate::line::{Bounds, LinearBranch};
 use crate::number::{Number, WIDTH, index};
 use crate::responses::ROWS_AHEAD;
 use crate::solver::Observer;
-use crate::table::{Table, get};
+use crate::table::{BranchTable, get};
 
 /// The number of lanes at which plain steps stop, so that the lanes that wait are served. Serving them costs
 /// as much as some thirty plain steps, however few they are.
@@ -210,7 +210,7 @@ impl<O: Observer> Lanes<'_, O> {
     ) -> N::Mask {
         let (rows, record) = (&self.rows, self.records[first]);
         let branch = index(rows.branch[first]);
-        let Table { maps, at_once, .. } = &self.solvers[first].table;
+        let BranchTable { maps, at_once, .. } = &self.solvers[first].table;
         let (map, at_once) = (maps[branch], *at_once);
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
@@ -327,7 +327,7 @@ impl<O: Observer> Lanes<'_, O> {
         let branches = self.branches(first, branch);
         let u_by = branches.look_up_all(token, |table| &table.one_step[0]);
         let v_by = branches.look_up_all(token, |table| &table.one_step[1]);
-        let line = Line::look_up(token, &branches);
+        let line = LinearBranch::look_up(token, &branches);
         let length = N::splat(token, step);
         let furthest = self.records[first].forcing.count() - 1;
         let most =

@@ -3,7 +3,7 @@
 use rocking_wall::solver::{Motion, State, Work};
 
 use crate::forcing::Blocks;
-use crate::table::Table;
+use crate::table::BranchTable;
 
 /// Where a run through a record starts, and what multiplies the record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,7 +101,7 @@ pub struct RecordSolver<'a> {
     pub(crate) motion: &'a Motion,
     /// Length of the steps \[s\].
     pub(crate) step: f64,
-    pub(crate) table: Table,
+    pub(crate) table: BranchTable,
     /// Factor on u̇ at an impact.
     pub(crate) passage_factor: f64,
 }
@@ -111,7 +111,7 @@ impl<'a> RecordSolver<'a> {
     /// step.
     pub fn new(motion: &'a Motion, step: f64) -> Self {
         let passage_factor = motion.wall().passage_factor();
-        Self { motion, step, table: Table::new(motion, step), passage_factor }
+        Self { motion, step, table: BranchTable::new(motion, step), passage_factor }
     }
 
     /// Returns the motion whose steps are prepared.

@@ -72,7 +72,7 @@ fn reach(oscillator: &Oscillator, step: f64) -> f64 {
 /// The numbers of each branch of a wall. p₀ and p₁ are the forcing at the ends of a step.
 #[derive(Clone, Debug, Default)]
 #[repr(align(64))]
-pub(crate) struct Table {
+pub(crate) struct BranchTable {
     /// The number of plain steps taken at once, four or two.
     pub(crate) at_once: usize,
     /// The change over them, of u by u, u̇ and the branch's force at u = 0, and of u̇.
@@ -108,7 +108,7 @@ pub(crate) struct Table {
     pub(crate) terms: usize,
 }
 
-impl Table {
+impl BranchTable {
     pub(crate) fn new(motion: &Motion, step: f64) -> Self {
         let wall = motion.wall();
         let steppings: Vec<Stepping> =

@@ -9,7 +9,7 @@ use rocking_wall::wall::{Parameters, Support};
 use crate::batch::{Vectors, in_lanes};
 use crate::forcing::{Blocks, Forcing};
 use crate::lanes::{Block, Lanes};
-use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
+use crate::number::{BranchRow, Eight, LaneRow, MOST_BRANCHES, Number, WIDTH};
 use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd, RunStart};
 
 mod passages;
@@ -54,7 +54,7 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let record = Blocks::on(solver, forcing, Vectors::widest());
-    let kind = crate::together::Kind::of(solver, &record).expect("a wall for lanes");
+    let kind = crate::together::Common::of(solver, &record).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
     let outcomes = in_lanes(simd, kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
     outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
@@ -308,7 +308,7 @@ fn an_observed_run_is_the_same_run() {
 }
 
 /// Numbers of lanes, ordinary and not, and their branches.
-const ROWS: [Row; 3] = [
+const ROWS: [LaneRow; 3] = [
     [1.5, -2.25, 1e-300, -7e200, 0.1, f64::INFINITY, -3.0, 1.0 / 3.0],
     [0.3, -2.25, 3e-310, 9e150, -0.7, 2.0, f64::NEG_INFINITY, 1e17],
     [0.0, 7.0, 3.0, 3.0, 1.0, 6.0, 2.0, 5.0],

@@ -13,7 +13,7 @@ const FEWEST_SAMPLES: usize = 16;
 
 /// What runs have in common that go side by side: the numbers that a vector has once for all of its lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind<'a> {
+pub(crate) enum Common<'a> {
     /// One wall, with constant damping on all branches, through records prepared for it: steps are affine
     /// maps of several at once, by the responses of its branches to the records.
     Prepared(*const RecordSolver<'a>),
@@ -28,7 +28,7 @@ pub(crate) enum Kind<'a> {
     Curved { step: f64, law: Law },
 }
 
-impl<'a> Kind<'a> {
+impl<'a> Common<'a> {
     /// Returns the kind of a run; `None` if it goes by itself.
     pub(crate) fn of(solver: &'a RecordSolver<'a>, record: &Blocks<'_>) -> Option<Self> {
         let RecordSolver { step, table, .. } = solver;
@@ -87,9 +87,9 @@ pub(crate) fn run_together_on(
     end: RunEnd,
     vectors: Option<Vectors>,
 ) -> Vec<Result<Outcome, SolverError>> {
-    let mut kinds: Vec<(Option<Kind<'_>>, Vec<usize>)> = Vec::new();
+    let mut kinds: Vec<(Option<Common<'_>>, Vec<usize>)> = Vec::new();
     for (number, run) in runs.iter().enumerate() {
-        let kind = vectors.and_then(|_| Kind::of(run.solver, run.record));
+        let kind = vectors.and_then(|_| Common::of(run.solver, run.record));
         match kinds.iter_mut().find(|(known, _)| *known == kind) {
             Some((_, numbers)) => numbers.push(number),
             None => kinds.push((kind, vec![number])),

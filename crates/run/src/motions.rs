@@ -9,7 +9,7 @@ use crate::demands;
 
 /// A motion, and what the wall did under it.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct MotionRow {
     /// Name of the record.
     pub name: String,
     /// Sign with which it was run: `+`, `-`, or `±` where one run stands for both.
@@ -21,7 +21,7 @@ pub struct Row {
 }
 
 /// Returns a row for each motion.
-pub fn table(rows: &[Row]) -> Table {
+pub fn table(rows: &[MotionRow]) -> Table {
     let four = Digits::Decimals(4);
     let millimetres = Column::number("u_max_m", "|u| [mm]", Digits::Decimals(2)).shown(1000.0);
     Table::over(rows)
@@ -40,8 +40,8 @@ pub fn table(rows: &[Row]) -> Table {
 }
 
 /// Returns the rows in SI units, with the names of a summary.
-pub fn json(rows: &[Row]) -> Value {
-    let object = |Row { name, sign, peak_acceleration, summary }: &Row| {
+pub fn json(rows: &[MotionRow]) -> Value {
+    let object = |MotionRow { name, sign, peak_acceleration, summary }: &MotionRow| {
         json!({
             "record": name,
             "sign": sign,
@@ -57,7 +57,7 @@ pub fn json(rows: &[Row]) -> Value {
 }
 
 /// Counts the runs that overturned, and those of them that came back, in a line.
-pub fn overturned(rows: &[Row]) -> String {
+pub fn overturned(rows: &[MotionRow]) -> String {
     let count = |is: fn(&Summary) -> bool| rows.iter().filter(|row| is(&row.summary)).count();
     let overturned = count(|summary| summary.overturned);
     let back = overturned - count(|summary| summary.fate.falls());

@@ -182,7 +182,7 @@ fn end(run: &Coupled) -> f64 {
 }
 
 /// A name, a history and its colour.
-type Line = (String, Vec<(f64, f64)>, &'static str);
+type Trace = (String, Vec<(f64, f64)>, &'static str);
 
 /// Histories: floor accelerations, u/`u_ins` of each wall, the forces that support them.
 fn figures(building: &Building, run: &Coupled, end: f64) -> String {
@@ -190,7 +190,7 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
         let pairs = run.times.iter().copied().zip(values.iter().map(|value| scale * value));
         pairs.take_while(|(time, _)| *time <= end).collect()
     };
-    let drawn = |id, caption: &str, label, lines: Vec<Line>, limits: &[f64], marks: &[(f64, String)]| {
+    let drawn = |id, caption: &str, label, lines: Vec<Trace>, limits: &[f64], marks: &[(f64, String)]| {
         let keys = lines.iter().map(|(name, _, color)| {
             let name = escaped(&shown(name));
             format!(" <span class=\"key\"><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>")

@@ -114,7 +114,7 @@ impl WorkPrecision {
 }
 
 /// Displacements at the samples, NaN after overturning, and the result of the run.
-struct History {
+struct Displacements {
     displacements: Vec<f64>,
     outcome: Outcome,
 }
@@ -177,7 +177,7 @@ pub fn measure_at(
 }
 
 /// Returns |Δu|/`u_ins` at the samples before either run overturned.
-fn differences(a: &History, b: &History, scale: f64) -> impl Iterator<Item = f64> {
+fn differences(a: &Displacements, b: &Displacements, scale: f64) -> impl Iterator<Item = f64> {
     let pairs = a.displacements.iter().zip(&b.displacements);
     pairs.map(move |(a, b)| (a - b).abs() / scale).take_while(|difference| !difference.is_nan())
 }
@@ -185,8 +185,8 @@ fn differences(a: &History, b: &History, scale: f64) -> impl Iterator<Item = f64
 fn compare(
     setting: Setting,
     seconds: f64,
-    history: &History,
-    reference: &History,
+    history: &Displacements,
+    reference: &Displacements,
     scale: f64,
 ) -> Measurement {
     let differences = || differences(history, reference, scale);
@@ -241,7 +241,7 @@ impl<'a> Trial<'a> {
         RunStart { state, factor }
     }
 
-    fn history(&self, factor: f64) -> Result<History, SolverError> {
+    fn history(&self, factor: f64) -> Result<Displacements, SolverError> {
         let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
         displacements[0] = factor * self.problem.parameters.u_start;
         let mut observe = |index, u, _| {
@@ -263,7 +263,7 @@ impl<'a> Trial<'a> {
                 }
             }
         }
-        Ok(History { displacements, outcome })
+        Ok(Displacements { displacements, outcome })
     }
 
     /// Returns the shortest run time of at least three runs \[s\].

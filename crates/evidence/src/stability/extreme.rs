@@ -13,14 +13,14 @@ use run::bisection::first_true;
 
 type Value = Result<f64, EvidenceError>;
 /// Name, criterion, limit, and how the value is found.
-type Case = (&'static str, &'static str, f64, fn() -> Value);
+type ExtremeCase = (&'static str, &'static str, f64, fn() -> Value);
 
 const AGREE: &str = "exact against adaptive (1e-13): |Δu|/u_ins";
 const GROUPS: &str = "|Δu|/u_ins from the default wall, equal groups";
 
 /// All cases. The limits follow from ε = 2.2e-16, from the amplification of the case and from the tolerance
 /// 1e-13.
-const CASES: [Case; 24] = [
+const CASES: [ExtremeCase; 24] = [
     // u(t) = u_ins − δ cosh(pt) is 0 at t = acosh(u_ins/δ)/p; pt = 28 rounds to 28 ε, times the slope u_ins p
     ("u₀ = (1 − 1e-12) u_ins", "falls back; |u|/u_ins when it should pass 0", 1e-13, separatrix),
     ("overdamped, ξ = 2", "creeps back; growth of the energy in 5 ms steps", 64.0 * f64::EPSILON, overdamped),
@@ -62,8 +62,9 @@ const CASES: [Case; 24] = [
 /// # Errors
 /// [`EvidenceError`] if one cannot be run.
 pub fn extremes() -> Result<Vec<Comparison>, EvidenceError> {
-    let run =
-        |&(case, criterion, limit, value): &Case| Ok(Comparison::limited(case, criterion, value()?, limit));
+    let run = |&(case, criterion, limit, value): &ExtremeCase| {
+        Ok(Comparison::limited(case, criterion, value()?, limit))
+    };
     CASES.iter().map(run).collect()
 }
 
@@ -168,14 +169,14 @@ fn pulse(wall: &Wall, strength: f64) -> (Vec<f64>, f64) {
 }
 
 /// Displacements over `u_ins` under a record of forcing, and the time of overturning.
-type History = (Vec<f64>, Option<f64>);
+type RunOfForcing = (Vec<f64>, Option<f64>);
 
 fn history(
     parameters: &Parameters,
     method: Method,
     forcing: &[f64],
     step: f64,
-) -> Result<History, EvidenceError> {
+) -> Result<RunOfForcing, EvidenceError> {
     let motion = Motion::new(Wall::new(parameters)?, method);
     let solver = RecordSolver::new(&motion, step);
     let start = RunStart { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
@@ -188,7 +189,7 @@ fn history(
 }
 
 /// Returns the histories of the exact and of the adaptive solver under a pulse.
-fn both(parameters: &Parameters, strength: f64) -> Result<[History; 2], EvidenceError> {
+fn both(parameters: &Parameters, strength: f64) -> Result<[RunOfForcing; 2], EvidenceError> {
     let (forcing, step) = pulse(&Wall::new(parameters)?, strength);
     let exact = history(parameters, Method::Exact, &forcing, step)?;
     Ok([exact, history(parameters, Method::Adaptive { tolerance: 1e-13 }, &forcing, step)?])

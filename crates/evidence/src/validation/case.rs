@@ -18,7 +18,7 @@ const MAX_FILE_BYTES: u64 = 1 << 20;
 
 /// A published test.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct PublishedTest {
     /// Title.
     pub title: String,
     /// Where it is published.
@@ -42,7 +42,7 @@ pub enum Test {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Document {
+struct TestDocument {
     title: String,
     source: String,
     points: PathBuf,
@@ -51,7 +51,7 @@ struct Document {
     decay: Option<Spanned<Decay>>,
 }
 
-impl Case {
+impl PublishedTest {
     /// Reads a test and the points that it names, which lie beside it.
     ///
     /// # Errors
@@ -59,7 +59,7 @@ impl Case {
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let (name, text) = (path.display().to_string(), text(path)?);
         let place = &Place::new(&name, &text);
-        let document: Document = parse_toml(place)?;
+        let document: TestDocument = parse_toml(place)?;
         let mut parameters = Parameters::default();
         apply_group(&mut parameters, "geometry", &document.geometry, place)?;
         let points_path = path.with_file_name(&document.points);

@@ -1,10 +1,10 @@
 //! The model beside published tests: slow pushes and free decays. More tests are more files.
 //!
 //! ```
-//! use evidence::validation::{Case, Test};
+//! use evidence::validation::{PublishedTest, Test};
 //!
 //! let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/validation"));
-//! let case = Case::read(&folder.join("brick_wall_12.toml"))?;
+//! let case = PublishedTest::read(&folder.join("brick_wall_12.toml"))?;
 //! let Test::Push(push) = &case.test else { unreachable!("it was pushed") };
 //! let comparison = push.compare(&case.parameters)?;
 //! // P/W = 2 t/h at the hinge of a strip without overburden
@@ -17,7 +17,7 @@ mod decay;
 mod page;
 mod push;
 
-pub use case::{Case, Test};
+pub use case::{PublishedTest, Test};
 pub use decay::{Decay, DecayComparison, DecayModel};
 pub use push::{Push, PushComparison, PushedLaw};
 

@@ -6,20 +6,20 @@ use report::plot::{Plot, Series};
 use report::table::{Cell, Column, Digits, Table};
 use run::model::color;
 
-use super::{Case, DecayComparison, Push, PushComparison, PushedLaw, Test};
+use super::{DecayComparison, PublishedTest, Push, PushComparison, PushedLaw, Test};
 use crate::EvidenceError;
 
 /// Number of the colour and the mark of the measured points; no model here has the same one.
 const MEASURED: usize = 3;
 
-impl Case {
+impl PublishedTest {
     /// Compares the test with the model, in words for a terminal and as a chart.
     ///
     /// # Errors
     /// [`EvidenceError`] if the model cannot do what was tested.
     ///
     /// # Panics
-    /// If it has too few points, which [`Case::read`] refuses.
+    /// If it has too few points, which [`PublishedTest::read`] refuses.
     pub fn shown(&self) -> Result<(String, Plot), EvidenceError> {
         let (text, chart) = match &self.test {
             Test::Push(push) => {

@@ -1,12 +1,12 @@
 //! Tests the comparison with published tests.
 
-use evidence::validation::{Case, Decay, DecayComparison, Push, PushComparison, Test};
+use evidence::validation::{Decay, DecayComparison, PublishedTest, Push, PushComparison, Test};
 use rocking_wall::wall::{Parameters, Wall};
 
 use crate::root;
 
-fn case(name: &str) -> Case {
-    Case::read(&root().join("tests/data/validation").join(name)).unwrap()
+fn case(name: &str) -> PublishedTest {
+    PublishedTest::read(&root().join("tests/data/validation").join(name)).unwrap()
 }
 
 fn pushed() -> (Push, PushComparison) {

@@ -1,7 +1,7 @@
 //! The bilinear floor: loops, corners, energy.
 
 use rocking_floor::floor::{Branch, Floor, Parameters};
-use rocking_floor::motion::{Load, State};
+use rocking_floor::motion::{FloorState, Load};
 use rocking_floor::variables::{Coupling, Hysteresis};
 
 use super::{Driven, assert_close};
@@ -42,7 +42,7 @@ fn settings(hardening_ratio: f64, damping_ratio: f64) -> Vec<(&'static str, f64)
 fn a_kick_yields_as_energy_says() {
     let kick = 0.5;
     let floor = Floor::new(&parameters(0.0, 0.0)).unwrap();
-    let mut state = State::new(&floor, 0.0, kick, Load::default());
+    let mut state = FloorState::new(&floor, 0.0, kick, Load::default());
     let corners = state.advance(&floor, Load::default(), 5.0).unwrap().corners;
     assert_eq!(corners, 2);
     assert_eq!(state.branch, Branch::Elastic);
@@ -100,7 +100,7 @@ fn the_area_of_a_loop_is_the_energy_lost() {
 fn energy_balances_and_steps_do_not_matter() {
     let floor = Floor::new(&parameters(0.05, 0.02)).unwrap();
     let run = |pieces: u32| {
-        let mut state = State::new(&floor, 0.0, 0.1, Load::default());
+        let mut state = FloorState::new(&floor, 0.0, 0.1, Load::default());
         let (mut work, mut corners) = (0.0, 0);
         for n in 0..40_u32 {
             // a sawtooth of ±3 m/s², linear within 0.12 s: 1.5 times the yield force
@@ -128,7 +128,7 @@ fn energy_balances_and_steps_do_not_matter() {
         assert_close(other_mean, mean, 1e-11);
     }
     // without a load: the kinetic energy of a kick ends as elastic energy, damping and yielding
-    let mut state = State::new(&floor, 0.0, 1.0, Load::default());
+    let mut state = FloorState::new(&floor, 0.0, 1.0, Load::default());
     for _ in 0..50 {
         state.advance(&floor, Load::default(), 0.01).unwrap();
         let Floor { stiffness, hardening, .. } = floor;
@@ -159,7 +159,7 @@ fn a_start_beyond_yielding_was_loaded_monotonically() {
 fn a_fine_and_a_coarse_step_meet_the_same_corner_at_rest() {
     let floor = Floor::new(&parameters(0.0, 0.0)).unwrap();
     let load = Load { value: YIELD_FORCE / MASS, rate: 0.0 };
-    let mut state = State::new(&floor, LIMIT, 0.0, load);
+    let mut state = FloorState::new(&floor, LIMIT, 0.0, load);
     // in balance at the limit to the bit: neither yields nor unloads, and time passes
     state.advance(&floor, load, 1.0).unwrap();
     assert_close(state.displacement, LIMIT, 1e-16);
@@ -190,7 +190,7 @@ fn whatever_happens_the_law_is_kept() {
         let damping = if case % 4 == 0 { 0.0 } else { between(0.0, 3.0).powi(3) };
         let floor = Floor::new(&parameters(hardening, damping)).unwrap();
         let (position, velocity) = (between(-3.0, 3.0) * LIMIT, between(-1.0, 1.0));
-        let mut whole = State::new(&floor, position, velocity, Load::default());
+        let mut whole = FloorState::new(&floor, position, velocity, Load::default());
         let mut pieces = whole;
         let mut farthest = 3.0 * LIMIT;
         for _ in 0..30 {

@@ -1,7 +1,7 @@
 //! What a step costs: the spans that it looks at.
 
 use rocking_floor::floor::{Floor, Parameters};
-use rocking_floor::motion::{Load, MOST_SPANS, MotionError, State, Work};
+use rocking_floor::motion::{FloorState, Load, MOST_SPANS, MotionError, Work};
 use rocking_floor::variables::Hysteresis;
 
 fn bilinear() -> Parameters {
@@ -25,7 +25,7 @@ fn a_floor_at_rest_at_its_limit_stays_on_one_branch() {
     for (stiffness, yield_force, hardening_ratio, damping_ratio) in creeping {
         let parameters = Parameters { stiffness, yield_force, hardening_ratio, damping_ratio, ..bilinear() };
         let floor = Floor::new(&parameters).unwrap();
-        let mut state = State::new(&floor, -100.0, 0.0, Load::default());
+        let mut state = FloorState::new(&floor, -100.0, 0.0, Load::default());
         let Work { corners, spans } = state.advance(&floor, Load::default(), 0.08).unwrap();
         assert!(corners <= 2 && (spans as f64) < expected(&floor, 0.08), "{corners} {spans}");
         // it is where the spring has no force, to 32 ε of the displacements
@@ -61,7 +61,7 @@ fn a_step_looks_at_as_many_spans_as_the_floor_turns() {
         if most > 3000.0 {
             continue;
         }
-        let mut state = State::new(&floor, parameters.displacement_start, 0.0, Load::default());
+        let mut state = FloorState::new(&floor, parameters.displacement_start, 0.0, Load::default());
         for load in [Load::default(), Load { value, rate: 0.0 }, Load { value, rate }] {
             let Work { corners, spans } = state.advance(&floor, load, duration).unwrap();
             assert!(spans as f64 <= most && corners <= spans, "{spans} for {most}: {parameters:?} {load:?}");
@@ -77,7 +77,7 @@ fn a_step_with_too_many_turns_is_refused() {
     let floor = Floor::new(&Parameters { stiffness: 2e10, damping_ratio: 0.0, ..bilinear() }).unwrap();
     let turns = |count: f64| count * std::f64::consts::PI / floor.omega();
     let work = |duration| {
-        let mut state = State::new(&floor, 1e-9, 0.0, Load::default());
+        let mut state = FloorState::new(&floor, 1e-9, 0.0, Load::default());
         state.advance(&floor, Load::default(), duration)
     };
     let most = MOST_SPANS as f64;

@@ -66,7 +66,7 @@ impl Separator {
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug)]
-pub struct Row<'a> {
+pub struct TextRow<'a> {
     /// Its line, from 1.
     pub line: usize,
     pub(super) text: &'a str,
@@ -74,7 +74,7 @@ pub struct Row<'a> {
     pub(super) width: usize,
 }
 
-impl<'a> Row<'a> {
+impl<'a> TextRow<'a> {
     /// Returns the cells, one for each column, without blanks around them and without quotes.
     pub fn cells(&self) -> impl Iterator<Item = Cow<'a, str>> {
         self.all_cells().take(self.width)

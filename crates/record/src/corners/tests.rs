@@ -33,7 +33,7 @@ fn the_guess_of_a_corner_is_close() {
 fn corners_are_found_where_the_motion_passes_them() {
     let (mut found_all, mut all) = (0, 0);
     for [c, k] in [[0.0, 0.0], [3.0, 0.0], [0.0, 900.0], [0.0, -900.0], [6.0, 400.0], [5.0, -400.0]] {
-        let line = Line { force_at_zero: 0.4, ..line(c, k) };
+        let line = LinearBranch { force_at_zero: 0.4, ..line(c, k) };
         for length in [0.01, 0.016] {
             let terms = terms((c + f64::sqrt(f64::abs(k))) * length);
             for (speed, forcing, rate) in
@@ -82,7 +82,7 @@ fn corners_outside_a_part_are_not_found() {
 }
 
 /// A part of no length.
-fn part(line: Line<f64>) -> Part<f64> {
+fn part(line: LinearBranch<f64>) -> Part<f64> {
     let (length, forcing, rate, impacts) = (0.0, 0.0, 0.0, 0.0);
     Part { lanes: false, branch: 0.0, line, from: [0.0; 3], to: [0.0; 2], length, forcing, rate, impacts }
 }

@@ -39,7 +39,7 @@ fn series_of_a_line_are_its_closed_form() {
 /// The bound on |ü| is γ (P + c V + f̂), with the larger |u̇| and |f| of both instants.
 #[test]
 fn accelerations_are_bounded_by_the_larger_end() {
-    let line = Line { growth: 1.25, force_at_zero: -2.0, ..line(0.5, 3.0) };
+    let line = LinearBranch { growth: 1.25, force_at_zero: -2.0, ..line(0.5, 3.0) };
     // |f| = |−2 + 3u|: 1.1 and 4.4
     for (from, to) in [([0.3, -1.5], [-0.8, 0.2]), ([-0.8, 0.2], [0.3, -1.5]), ([-0.8, -1.5], [0.3, 0.2])] {
         let most = line.most(0.7, from, to);
@@ -98,7 +98,7 @@ fn margins_are_kept_from_the_ends_ahead_and_from_those_that_may_be_reached_again
 
 /// Finds where u goes over 0.5 s without forces, with A = γ P = 6 m/s².
 fn course(from: [f64; 2], to: [f64; 2], bounds: Bounds<f64>) -> Course<bool> {
-    Line { growth: 2.0, ..line(0.0, 0.0) }.course(from, to, 3.0, 0.5, &bounds)
+    LinearBranch { growth: 2.0, ..line(0.0, 0.0) }.course(from, to, 3.0, 0.5, &bounds)
 }
 
 fn bounds(ends: [f64; 2]) -> Bounds<f64> {
@@ -106,6 +106,6 @@ fn bounds(ends: [f64; 2]) -> Bounds<f64> {
 }
 
 /// A line through the origin, with the γ of a step of no length.
-pub(crate) fn line(c: f64, k: f64) -> Line<f64> {
-    Line { c, k, force_at_zero: 0.0, growth: 1.0 }
+pub(crate) fn line(c: f64, k: f64) -> LinearBranch<f64> {
+    LinearBranch { c, k, force_at_zero: 0.0, growth: 1.0 }
 }

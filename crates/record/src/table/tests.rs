@@ -74,7 +74,7 @@ fn margins_of_blocks_are_those_of_their_longest_steps() {
     {
         let wall = Parameters { height, thickness, a1, damping_model: model, ..Parameters::default() };
         let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
-        let table = Table::new(&motion, step);
+        let table = BranchTable::new(&motion, step);
         assert_eq!(table.at_once, at_once);
         let mut largest = 0.0_f64;
         for (branch, oscillator) in motion.oscillators().iter().enumerate() {
@@ -118,7 +118,7 @@ fn corners_of_a_branch_with_long_steps_are_closed() {
         let long: Vec<usize> =
             short.enumerate().filter(|(_, short)| !short).map(|(branch, _)| branch).collect();
         assert_eq!(long, if expected == end_kind::CLOSED { vec![elastic] } else { vec![] });
-        let exits = Table::new(&motion, step).exits;
+        let exits = BranchTable::new(&motion, step).exits;
         // out of the elastic branch on both sides, and into it
         for (side, branch) in [(0, elastic), (1, elastic), (1, elastic - 1), (0, elastic + 1)] {
             assert_eq!(get(&exits[side], branch), expected, "{a1}: branch {branch}");

@@ -8,7 +8,7 @@ use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 use super::*;
 use crate::lanes::Waiting;
 use crate::table::{Law, Stepping};
-use crate::together::Kind;
+use crate::together::Common;
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
@@ -39,15 +39,15 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         stuck.set(stuck.get() + waiting.stuck.count_ones());
         waiting
     };
-    let outcomes = match Kind::of(&solver, &record).expect("a wall for lanes") {
-        Kind::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+    let outcomes = match Common::of(&solver, &record).expect("a wall for lanes") {
+        Common::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
             count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
         }),
-        Kind::Affine { .. } => unreachable!("the record is prepared for the wall"),
-        Kind::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+        Common::Affine { .. } => unreachable!("the record is prepared for the wall"),
+        Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
         }),
-        Kind::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+        Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
             count(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
         }),
     };

@@ -1,11 +1,16 @@
 //! Tests parts along which ü keeps its sign, on motions in closed form.
 
 use super::*;
-use crate::line::{Line, tests::line};
+use crate::line::{LinearBranch, tests::line};
 use crate::table::terms;
 
 /// A part of `length` on a line from u, u̇ under p and its rate, and what its series needs.
-fn part(line: Line<f64>, [u, v]: [f64; 2], [forcing, rate]: [f64; 2], length: f64) -> (Part<f64>, usize) {
+fn part(
+    line: LinearBranch<f64>,
+    [u, v]: [f64; 2],
+    [forcing, rate]: [f64; 2],
+    length: f64,
+) -> (Part<f64>, usize) {
     let terms = terms((line.c + line.k.abs().sqrt()) * length);
     let from = [u, v, line.acceleration([u, v], forcing)];
     let [to_u, to_v, _] = line.after(terms, length, from, rate);

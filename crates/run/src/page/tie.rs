@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// What a drawn tie does, by the names of its classes in `wall.js`.
 #[derive(Clone, Copy)]
-enum State {
+enum TieShown {
     Slack,
     Pulls,
     Yields,
@@ -38,17 +38,17 @@ fn broke(response: &Response, sign: f64) -> Option<f64> {
     if sign > 0.0 { positive } else { negative }
 }
 
-fn state(tie: &Tie, sample: &Sample, sign: f64, broke: Option<f64>) -> State {
+fn state(tie: &Tie, sample: &Sample, sign: f64, broke: Option<f64>) -> TieShown {
     let outputs = &sample.outputs;
     let yields = |strength: f64| outputs.tie_force >= (1.0 - ROUNDING) * strength;
     if broke.is_some_and(|time| time <= sample.time) {
-        State::Broken
+        TieShown::Broken
     } else if outputs.displacement * sign <= 0.0 || outputs.tie_force <= 0.0 {
-        State::Slack
+        TieShown::Slack
     } else if tie.ultimate.and(tie.strength).is_some_and(yields) {
-        State::Yields
+        TieShown::Yields
     } else {
-        State::Pulls
+        TieShown::Pulls
     }
 }
 

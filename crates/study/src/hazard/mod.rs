@@ -24,7 +24,7 @@ mod rate;
 mod read;
 
 pub use curve::{HazardCurve, HazardError};
-pub use rate::{Rate, Verdict, probability};
+pub use rate::{AgainstTarget, Rate, probability};
 pub use read::read;
 
 use serde::{Deserialize, Serialize};

@@ -25,7 +25,7 @@ pub struct Rate {
 
 /// Whether a rate keeps to a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum AgainstTarget {
     /// Even the most that the rate can be is not above the target.
     Met,
     /// Even the least is above it.
@@ -140,18 +140,18 @@ impl Rate {
     }
 
     /// Holds the rate against a target \[1/year\].
-    pub fn against(&self, target: f64) -> Verdict {
+    pub fn against(&self, target: f64) -> AgainstTarget {
         if self.most() <= target {
-            Verdict::Met
+            AgainstTarget::Met
         } else if self.least() > target {
-            Verdict::Missed
+            AgainstTarget::Missed
         } else {
-            Verdict::Open
+            AgainstTarget::Open
         }
     }
 }
 
-impl Verdict {
+impl AgainstTarget {
     /// Returns the word of tables: `yes`, `no` or `open`.
     pub fn word(self) -> &'static str {
         match self {
@@ -217,9 +217,9 @@ mod tests {
         assert!((rate.beyond_continued / 3.038_573_345_53e-4 - 1.0).abs() < 1e-11);
         // half of the walls stand at θ, the last point
         assert_eq!(rate.beyond, [0.5 / 2475.0, 1.0 / 2475.0]);
-        assert_eq!(rate.against(1e-4), Verdict::Missed);
-        assert_eq!(rate.against(7e-4), Verdict::Open);
-        assert_eq!(rate.against(9e-4), Verdict::Met);
+        assert_eq!(rate.against(1e-4), AgainstTarget::Missed);
+        assert_eq!(rate.against(7e-4), AgainstTarget::Open);
+        assert_eq!(rate.against(9e-4), AgainstTarget::Met);
         assert!((rate.shares().iter().sum::<f64>() - 1.0).abs() < 1e-15);
         assert!((probability(1.860_702_745_8e-3, 50.0) - 0.088_838_516_0).abs() < 1e-10);
     }

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
 use rocking_wall::response::Response;
 use rocking_wall::wall::Wall;
-use run::motions::{self, Row};
+use run::motions::{self, MotionRow};
 use run::parallel;
 use serde_json::json;
 
@@ -45,7 +45,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         scene.output_step = scene.stop_time;
         let response = Response::of(&scene).with_context(|| name.clone())?;
         progress.add(runs);
-        anyhow::Ok(Row { name: name.clone(), sign, peak_acceleration, summary: response.summary })
+        anyhow::Ok(MotionRow { name: name.clone(), sign, peak_acceleration, summary: response.summary })
     };
     let threads = parallel::threads(None).get();
     let rows = progress::shown(|progress| parallel::map(runs, threads, |index| row(index, progress)))?;

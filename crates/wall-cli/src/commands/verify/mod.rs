@@ -9,7 +9,7 @@ use anyhow::Result;
 use clap::{Args, Subcommand, value_parser};
 use evidence::stability::page as maps_page;
 use evidence::stability::{RowQuantity, extremes, map, maps};
-use evidence::validation::Case;
+use evidence::validation::PublishedTest;
 use evidence::verification::{page as manual, verify};
 
 use crate::output::{self, Console};
@@ -97,7 +97,7 @@ fn formulas(console: &Console<'_>, arguments: &Formulas) -> Result<u8> {
 }
 
 fn tests(console: &Console<'_>, arguments: &Tests) -> Result<()> {
-    let case = Case::read(&arguments.test)?;
+    let case = PublishedTest::read(&arguments.test)?;
     console.check_distinct(&case.inputs, &arguments.plot)?;
     let (text, chart) = case.shown()?;
     console.print(&text)?;
