@@ -100,7 +100,7 @@ impl Fitting {
                 if !self.keeps_resamples {
                     summary.resamples = Vec::new();
                 }
-                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state].observations());
+                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state]);
                 let [a, b, c] = &all;
                 // the single run of a record in a cloud tells no crossing
                 let none = [Err(FitError::Cloud); 3];

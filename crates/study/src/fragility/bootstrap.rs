@@ -2,7 +2,7 @@
 
 use super::dispersion::Estimator;
 use super::fit::Lognormal;
-use super::observation::Sample;
+use super::sample::Sample;
 use report::table::{Digits, between};
 use run::sample::{Pcg, unsorted_fractile};
 

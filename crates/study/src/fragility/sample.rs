@@ -1,29 +1,9 @@
-//! Observations to which a fragility is fitted; medians and steps of exceedances.
+//! Samples to which a fragility is fitted; medians and steps of exceedances.
 
 use run::sample::sample_median;
 
 use super::term::Term;
 use crate::ida::{Crossing, Curve, Exceedance};
-
-/// An observation to which a fragility is fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Observation {
-    /// A record that exceeds the limit state from this intensity on.
-    At(f64),
-    /// A record that exceeds it from an intensity between these two on; the lower one may be 0.
-    Between([f64; 2]),
-    /// A record that does not exceed it up to this intensity: censored. Baker, Eq. (8).
-    Above(f64),
-    /// A stripe: of `runs` at this intensity, `exceeded` exceed the limit state. Baker, Eq. (11).
-    Stripe {
-        /// Intensity.
-        intensity: f64,
-        /// Number of runs.
-        runs: u32,
-        /// Number of runs that exceed the limit state.
-        exceeded: u32,
-    },
-}
 
 /// What the records show of one limit state.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,23 +70,11 @@ impl Sample {
         self.stripes.iter().map(count).collect()
     }
 
-    /// Returns the observations to which a curve is fitted.
-    pub fn observations(&self) -> Vec<Observation> {
-        let stripe = |(intensity, [runs, exceeded]): (f64, [u32; 2])| Observation::Stripe {
-            intensity,
-            runs,
-            exceeded,
-        };
-        let record = |exceedance: &Exceedance| match *exceedance {
-            Exceedance::At(intensity) => Observation::At(intensity),
-            Exceedance::Between(levels) => Observation::Between(levels),
-            Exceedance::Above(intensity) => Observation::Above(intensity),
-        };
-        if self.stripes.is_empty() {
-            self.exceedances.iter().map(record).collect()
-        } else {
-            self.counts().into_iter().map(stripe).collect()
-        }
+    /// Returns the terms of the likelihood of all records.
+    pub(super) fn terms(&self) -> Vec<Term> {
+        let mut terms = Vec::new();
+        self.prepared().terms(&vec![1; self.exceedances.len()], &mut terms);
+        terms
     }
 
     /// Prepares terms for many fits, with the logarithms of all intensities.
