@@ -110,7 +110,9 @@ impl Fragility {
         median: Resampled,
         [theta, beta]: [Resampled; 2],
     ) -> Self {
-        let pair = |(theta, beta): (&f64, &f64)| if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] };
+        let pair = |([_, theta], [_, beta]): (&[f64; 2], &[f64; 2])| {
+            if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] }
+        };
         let one = Interval::new(1.0, [1.0], CONFIDENCE);
         let summary = Summary {
             records,
@@ -123,7 +125,7 @@ impl Fragility {
             misfit: None,
             theta: theta.interval(CONFIDENCE),
             beta: beta.interval(CONFIDENCE),
-            resamples: theta.most.iter().zip(&beta.most).map(pair).collect(),
+            resamples: theta.samples.iter().zip(&beta.samples).map(pair).collect(),
             median_ratio: one,
             theta_ratio: one,
         };
@@ -137,7 +139,7 @@ impl Fragility {
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
         let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
         let crossings = estimator.crossings(&fitted);
-        let medians = Resampled::medians(states, bootstrap);
+        let medians = bootstrap.medians(states);
         let resampled = medians.into_iter().zip(bootstrap.fitted(states, estimator));
         let of_state = |(place, (median, curves)): (usize, (Resampled, [Resampled; 2]))| {
             let (state, fitted) = (&states[place], fitted[place]);

@@ -42,6 +42,12 @@ fn of_records(exceedances: &[Exceedance]) -> Result<Lognormal, FitError> {
     fit(&Sample::of_records(exceedances.to_vec()))
 }
 
+/// The median of each resample of some exceedances.
+pub(crate) fn medians(bootstrap: &Bootstrap, exceedances: &[Exceedance]) -> Vec<f64> {
+    let sample = Sample::of_records(exceedances.to_vec());
+    bootstrap.medians(&[sample]).remove(0).samples.into_iter().map(|[_, most]| most).collect()
+}
+
 fn near(found: f64, wanted: f64, allowed: f64) {
     assert!((found - wanted).abs() <= allowed, "{found} is not {wanted} to {allowed:e}");
 }
@@ -174,7 +180,7 @@ fn bootstrap_intervals_cover_the_truth() {
         // the draws of one bootstrap serve as random samples
         let sample: Vec<Exceedance> = draws(&population, 40, 1000 + seed);
         let bootstrap = Bootstrap::new(sample.len(), 400, seed);
-        let interval = Interval::new(median(&sample), bootstrap.medians(&sample), 0.95);
+        let interval = Interval::new(median(&sample), medians(&bootstrap, &sample), 0.95);
         covered += u32::from(interval.range[0] <= TRUTH.median && TRUTH.median <= interval.range[1]);
         assert!(interval.range[0] <= interval.estimate && interval.estimate <= interval.range[1]);
     }
@@ -203,23 +209,19 @@ fn ratios_are_paired() {
     let one: Vec<Exceedance> = stratified(30).into_iter().map(Exceedance::At).collect();
     let other: Vec<Exceedance> = stratified(30).into_iter().map(|x| Exceedance::At(1.1 * x)).collect();
     let bootstrap = Bootstrap::new(30, 500, 7);
-    for medians in [
-        |b: &Bootstrap, o: &[Exceedance]| b.medians(o),
-        |b: &Bootstrap, o: &[Exceedance]| {
-            let [theta, _] = b
-                .fitted(&[Sample::of_records(o.to_vec())], &Estimator::new(Dispersion::Own, &[1.0]))
-                .remove(0);
-            theta.most
-        },
-    ] {
-        let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
+    for resampled in [medians, |b: &Bootstrap, o: &[Exceedance]| {
+        let [theta, _] =
+            b.fitted(&[Sample::of_records(o.to_vec())], &Estimator::new(Dispersion::Own, &[1.0])).remove(0);
+        theta.samples.into_iter().map(|[_, most]| most).collect()
+    }] {
+        let (a, b): (Vec<f64>, Vec<f64>) = (resampled(&bootstrap, &one), resampled(&bootstrap, &other));
         assert!(a.iter().any(|median| (median / TRUTH.median - 1.0).abs() > 0.05), "resamples differ");
         let interval = Interval::new(1.1, b.iter().zip(&a).map(|(b, a)| b / a), 0.95);
         near(interval.range[0], 1.1, 1e-8);
         near(interval.range[1], 1.1, 1e-8);
     }
-    let again = Bootstrap::new(30, 500, 7).medians(&one);
-    assert_eq!(again, bootstrap.medians(&one), "the same seed draws the same");
+    let again = medians(&Bootstrap::new(30, 500, 7), &one);
+    assert_eq!(again, medians(&bootstrap, &one), "the same seed draws the same");
 }
 
 /// On a grid of four stripes, separate fits place the median of the lower limit state above that of the
@@ -372,7 +374,7 @@ fn medians_of_resamples_are_those_of_what_was_drawn() {
         };
         let exceedances: Vec<_> = (0..count).map(at).collect();
         let mut random = Pcg::new(3);
-        for found in Bootstrap::new(count, 60, 3).medians(&exceedances) {
+        for found in medians(&Bootstrap::new(count, 60, 3), &exceedances) {
             let draw = |_| exceedances[random.below(count)].or_infinity();
             assert_eq!(found, sample_median(&mut (0..count).map(draw).collect::<Vec<_>>()));
         }
