@@ -1,6 +1,6 @@
 //! Samples to which a fragility is fitted; medians and steps of exceedances.
 
-use run::sample::sample_median;
+use run::sample::{sample_median, sorted};
 
 use super::term::Term;
 use crate::ida::{Crossing, Curve, Exceedance};
@@ -129,11 +129,7 @@ impl Sample {
         if !counts.is_empty() {
             return counts.iter().filter(|(_, [runs, _])| *runs > 0).map(of_stripe).fold(0.0, f64::max);
         }
-        let [starts, ends] = [0, 1].map(|side| {
-            let mut ends: Vec<f64> = self.exceedances.iter().map(|one| one.bounds()[side]).collect();
-            ends.sort_by(f64::total_cmp);
-            ends
-        });
+        let [starts, ends] = [0, 1].map(|side| sorted(self.exceedances.iter().map(|one| one.bounds()[side])));
         let all = self.exceedances.len() as f64;
         let before = |y: &f64| probability(*y) - starts.partition_point(|start| start < y) as f64 / all;
         let after = |y: &f64| ends.partition_point(|end| end <= y) as f64 / all - probability(*y);
@@ -186,9 +182,8 @@ pub fn median(exceedances: &[Exceedance]) -> f64 {
 /// Returns the steps of the empirical fragility: intensities in rising order, each with the fraction of the
 /// records that exceed the limit state from there on. Censored records count among all records.
 pub fn steps(exceedances: &[Exceedance]) -> Vec<(f64, f64)> {
-    let mut intensities: Vec<f64> = exceedances.iter().map(|exceedance| exceedance.or_infinity()).collect();
-    intensities.retain(|intensity| intensity.is_finite());
-    intensities.sort_by(f64::total_cmp);
+    let intensities = exceedances.iter().map(|exceedance| exceedance.or_infinity());
+    let intensities = sorted(intensities.filter(|intensity| intensity.is_finite()));
     let all = exceedances.len() as f64;
     intensities.iter().enumerate().map(|(index, &intensity)| (intensity, (index + 1) as f64 / all)).collect()
 }
