@@ -247,7 +247,7 @@ impl<'a> Output<'a> {
         if self.resurrected > 0 {
             let _ = writeln!(
                 text,
-                "{} of {} stand again above their first overturning; collapse of [report] chooses which counts",
+                "{} of {} stand again above their first overturning; collapse in [report] says which counts",
                 self.resurrected,
                 counted(contents.count(), "curve")
             );

@@ -315,8 +315,8 @@ impl<'a> Risk<'a> {
             "add levels below or above, or records, or drop its fraction"
         };
         format!(
-            "{file} lacks {}, of walls and classes with a limit state that has no curve, or one so flat that a \
-             number of NRML would be 0 or infinite; {remedy}\n{pelicun}",
+            "{file} lacks {}, of walls and classes with a limit state that has no curve, or one so flat that \
+             a number of NRML would be 0 or infinite; {remedy}\n{pelicun}",
             counted(self.left_out, "function")
         )
     }

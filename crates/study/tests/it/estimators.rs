@@ -32,6 +32,12 @@ pub(crate) fn stripes(runs: u32, stripes: &[(f64, u32)]) -> Sample {
     Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels))
 }
 
+/// The median of each resample of some exceedances.
+pub(crate) fn medians(bootstrap: &Bootstrap, exceedances: &[Exceedance]) -> Vec<f64> {
+    let sample = Sample::of_records(exceedances.to_vec());
+    bootstrap.medians(&[sample]).remove(0).samples.into_iter().map(|[_, most]| most).collect()
+}
+
 /// ln L of a curve, term by term, from Φ and φ alone.
 fn log_likelihood(runs: &[Counted], median: f64, dispersion: f64) -> f64 {
     let z = |x: f64| (x / median).ln() / dispersion;

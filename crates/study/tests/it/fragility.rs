@@ -11,7 +11,7 @@ use study::fragility::{
 use study::ida::{Crossing, Curve, Exceedance, Run};
 
 use crate::configuration::mostly;
-use crate::estimators::stripes;
+use crate::estimators::{medians, stripes};
 
 const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
 
@@ -40,12 +40,6 @@ fn stratified(count: u32) -> Vec<f64> {
 
 fn of_records(exceedances: &[Exceedance]) -> Result<Lognormal, FitError> {
     fit(&Sample::of_records(exceedances.to_vec()))
-}
-
-/// The median of each resample of some exceedances.
-pub(crate) fn medians(bootstrap: &Bootstrap, exceedances: &[Exceedance]) -> Vec<f64> {
-    let sample = Sample::of_records(exceedances.to_vec());
-    bootstrap.medians(&[sample]).remove(0).samples.into_iter().map(|[_, most]| most).collect()
 }
 
 fn near(found: f64, wanted: f64, allowed: f64) {

@@ -1,6 +1,6 @@
 //! Records with both signs: which runs they are, and how they are kept and drawn.
 
-use crate::fragility::medians;
+use crate::estimators::medians;
 use ground_motion::SyntheticMotion;
 use rocking_wall::variables::{Impact, Rocking};
 use rocking_wall::wall::Parameters;
