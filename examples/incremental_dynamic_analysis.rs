@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (index, model) in study.models().iter().enumerate() {
         let of_model = (0..study.count()).filter(|&case| study.case(case).model == index);
         let of_model: Vec<_> = of_model.map(|case| curves[case].clone()).collect();
-        let fragility = fit(&Sample::of_curves(&of_model, 1.0, Crossing::First, None).observations())?;
+        let fragility = fit(&Sample::of_curves(&of_model, 1.0, Crossing::First, None))?;
         println!(
             "{}: median PGA {:.2} m/s², dispersion {:.2}",
             model.name, fragility.median, fragility.dispersion

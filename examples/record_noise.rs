@@ -61,7 +61,7 @@ fn outcome(study: &Study) -> Result<Outcome, Box<dyn Error>> {
     let curves = study.run(THREADS)?;
     let intensity = |exceedance: Exceedance| exceedance.or_infinity();
     let collapses = curves.iter().map(|curve| intensity(curve.exceedance(1.0, Crossing::First, false)));
-    let of_fit = |curves| fit(&Sample::of_curves(curves, 1.0, Crossing::First, None).observations());
+    let of_fit = |curves| fit(&Sample::of_curves(curves, 1.0, Crossing::First, None));
     let sensitivities = curves.iter().filter_map(Curve::sensitivity).collect();
     let fits = curves.chunks(study.records().len()).map(of_fit).collect::<Result<_, _>>()?;
     Ok((collapses.collect(), sensitivities, fits))

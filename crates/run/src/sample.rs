@@ -38,6 +38,13 @@ impl Pcg {
     }
 }
 
+/// Returns a sample in rising order.
+pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
 /// Returns a fractile of a sorted sample: its smallest value that at least a fraction `part` of it does not
 /// exceed.
 pub fn fractile(sorted: &[f64], part: f64) -> Option<f64> {

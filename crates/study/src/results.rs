@@ -2,7 +2,8 @@
 
 use crate::document::ReportOptions;
 use crate::fragility::{
-    Bootstrap, Cloud, Estimator, FitError, Lognormal, Sample, Summary, compare, compare_clouds, fit,
+    Bootstrap, Cloud, Dispersion, Estimator, FitError, Lognormal, Sample, Summary, compare, compare_clouds,
+    fit,
 };
 use crate::ida::{Crossing, Curve, Exceedance, Polarity};
 
@@ -17,7 +18,7 @@ pub struct Fitting {
     /// Levels that all records share, in SI units.
     grid: Option<Vec<f64>>,
     crossing: Crossing,
-    estimator: Estimator,
+    dispersion: Dispersion,
     is_cloud: bool,
     keeps_resamples: bool,
     bootstrap: Bootstrap,
@@ -57,7 +58,7 @@ impl Fitting {
             grid,
             crossing: report.collapse,
             is_cloud: false,
-            estimator: Estimator::new(report.beta, &report.fractions),
+            dispersion: report.beta,
             keeps_resamples: !report.classes.is_empty() || report.hazard.is_some(),
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
         }
@@ -89,18 +90,13 @@ impl Fitting {
         let all = Crossing::ALL.map(|(_, crossing)| self.samples(&curves, &self.fractions, crossing));
         let chosen =
             &all[Crossing::ALL.iter().position(|(_, crossing)| *crossing == self.crossing).unwrap_or(0)];
-        let clouds = self.clouds(&curves);
-        let summaries = if self.is_cloud {
-            compare_clouds(&clouds, &self.fractions, self.reference, &self.bootstrap)
-        } else {
-            compare(chosen, self.reference, &self.estimator, &self.bootstrap)
-        };
+        let summaries = self.summaries(&curves, &self.fractions);
         let state = |(state, summaries): (usize, Vec<Summary>)| {
             let of_model = |(model, mut summary): (usize, Summary)| {
                 if !self.keeps_resamples {
                     summary.resamples = Vec::new();
                 }
-                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state].observations());
+                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state]);
                 let [a, b, c] = &all;
                 // the single run of a record in a cloud tells no crossing
                 let none = [Err(FitError::Cloud); 3];
@@ -110,7 +106,7 @@ impl Fitting {
             summaries.into_iter().enumerate().map(of_model).collect()
         };
         let states = summaries.into_iter().enumerate().map(state).collect();
-        WallResults { records: self.records, curves, states, clouds }
+        WallResults { records: self.records, clouds: self.clouds(&curves), curves, states }
     }
 
     /// Fits the fragilities of a wall at some fractions of `u_ins`: fraction by fraction, model by model,
@@ -123,8 +119,7 @@ impl Fitting {
             return compare_clouds(&self.clouds(curves), fractions, self.reference, &self.bootstrap);
         }
         let samples = self.samples(curves, fractions, self.crossing);
-        let estimator = Estimator::new(self.estimator.dispersion, fractions);
-        compare(&samples, self.reference, &estimator, &self.bootstrap)
+        compare(&samples, self.reference, &Estimator::new(self.dispersion, fractions), &self.bootstrap)
     }
 
     /// Takes the clouds of the models; none of other studies.

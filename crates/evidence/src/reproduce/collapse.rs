@@ -11,6 +11,7 @@ use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
 use run::parallel;
 use run::records::NamedRecord;
+use run::sample::sorted;
 use run::walls::NamedWall;
 use study::fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare, steps};
 use study::ida::{Case, Crossing, Exceedance, IdaError, IntensityMeasure, Levels, Study};
@@ -130,9 +131,8 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot 
     });
     let series: Vec<_> = series.collect();
     // a single record far above the rest would squeeze all others
-    let mut widest: Vec<f64> =
-        series[0].points.iter().map(|point| point.0).filter(|intensity| *intensity > 0.0).collect();
-    widest.sort_by(f64::total_cmp);
+    let widest = series[0].points.iter().map(|point| point.0);
+    let widest = sorted(widest.filter(|intensity| *intensity > 0.0));
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
     let x = ("AvgSA (g)", [0.0, 1.6 * nine_tenths]);

@@ -11,8 +11,9 @@ use rocking_wall::wall::{Parameters, Wall, equivalence};
 use super::{circolare, overturning, paper};
 use crate::{Comparison, EvidenceError};
 use check::fractions::{Demand, Fractions, check};
-use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
+use study::fragility::{FragilityFunction, Lognormal, Sample, fit};
 use study::hazard::HazardCurve;
+use study::ida::Exceedance;
 
 pub(super) type Comparisons = Result<Vec<Comparison>, EvidenceError>;
 
@@ -233,7 +234,7 @@ fn annual_rates() -> Comparisons {
 }
 
 fn fragility() -> Comparisons {
-    let fitted = fit(&[1.0, 2.0, 4.0].map(Observation::At))?;
+    let fitted = fit(&Sample::of_records([1.0, 2.0, 4.0].map(Exceedance::At).to_vec()))?;
     let wall = |median| FragilityFunction::new(&[Lognormal { median, dispersion: 0.3 }], 0.4);
     let class = FragilityFunction::of_class(&[0.5, 0.5], &[wall(1.0), wall(4.0)]);
     let two = std::f64::consts::LN_2;

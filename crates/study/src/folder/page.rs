@@ -5,11 +5,9 @@ use std::fmt::Write;
 use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
 use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
 use crate::results::WallResults;
-use report::counted;
-use report::escaped;
 use report::many_lines::STYLE;
 use report::table::{Cell, Column, Digits, Table};
-use report::template;
+use report::{counted, escaped, number, template};
 
 use super::contents::{Contents, Manifest};
 use super::legend::{key, spelled_out};
@@ -18,6 +16,8 @@ use super::tables::{OF_INTENSITY, OF_RATIO, with_ends};
 
 /// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
+/// Parameters that tell walls apart.
+const SHOWN: [&str; 7] = ["mechanism", "height", "thickness", "hinge_ratio", "overburden", "force_law", "a1"];
 /// Most records whose collapse the page lists.
 const MOST_LISTED: usize = 200;
 
@@ -200,31 +200,16 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     html
 }
 
-/// Shape, law and loads of a wall, from its parameters.
+/// Shape, loads and force law of a wall, as a study file states them.
 fn shape(parameters: &str) -> String {
-    let find = |name: &str| {
-        parameters
-            .lines()
-            .find_map(|line| line.strip_prefix(name)?.strip_prefix(" = "))
-            .map(|v| v.trim_matches('"'))
-    };
-    let text = |name| find(name).unwrap_or("?");
     // a sample has all its digits
-    let short = |text: &str| text.parse().map_or(text.to_owned(), |number: f64| report::number(number, 4));
-    let size = |name| short(text(name));
-    let mut words =
-        format!("{}, {} m × {} m", text("mechanism").replace('_', " "), size("height"), size("thickness"));
-    if text("mechanism") == "vertical_spanning" {
-        let _ = write!(words, ", h1 = {} h", size("hinge_ratio"));
-    }
-    let _ = write!(words, ", {}", text("force_law").replace('_', " "));
-    if let Some(a1) = find("a1") {
-        let _ = write!(words, ", a1 = {}", short(a1));
-    }
-    if find("overburden").is_some_and(|load| load != "0.0") {
-        let _ = write!(words, ", overburden {} N", size("overburden"));
-    }
-    words
+    let short = |text: &str| {
+        text.parse().map_or_else(|_| text.trim_matches('"').replace('_', " "), |x: f64| number(x, 4))
+    };
+    let lines = parameters.lines().take_while(|line| *line != "[damping]");
+    let stated = lines.filter_map(|line| line.split_once(" = ")).filter(|(key, _)| SHOWN.contains(key));
+    let texts: Vec<_> = stated.map(|(key, value)| format!("{key} = {}", short(value))).collect();
+    texts.join(", ")
 }
 
 /// Lists the collapse of each record with each model, unless there are too many records for a page.

@@ -1,11 +1,11 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
 use crate::fragility::{Regression, steps};
-use crate::ida::{Crossing, Curve, IntensityUnit, Run};
+use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
 use report::many_lines::ManyLines;
 use report::palette::Mark;
-use run::sample::fractile;
+use run::sample::{fractile, sorted};
 
 use super::contents::Manifest;
 use super::legend::looks;
@@ -33,16 +33,11 @@ pub(crate) struct Shown<'a> {
 pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
     let models = shown.manifest.contents.models.len();
     let largest = |model: usize| {
-        let mut intensities: Vec<f64> = shown
-            .results
-            .exceedances(place, model)
-            .iter()
-            .map(|exceedance| match exceedance.bounds() {
-                [least, f64::INFINITY] => least,
-                [_, most] => most,
-            })
-            .collect();
-        intensities.sort_by(f64::total_cmp);
+        let known = |exceedance: &Exceedance| match exceedance.bounds() {
+            [least, f64::INFINITY] => least,
+            [_, most] => most,
+        };
+        let intensities = sorted(shown.results.exceedances(place, model).iter().map(known));
         let (most, all) = (fractile(&intensities, 0.9), intensities.last().copied());
         // a single outlying record must not squeeze the others
         (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
@@ -156,8 +151,7 @@ fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<[f64; 2]>; 3] {
     for k in 1..=POINTS {
         let demand = f64::from(k) / f64::from(POINTS);
         let first = |curve: &Curve| curve.exceedance(demand, Crossing::First, false).or_infinity();
-        let mut intensities: Vec<f64> = curves.iter().map(first).collect();
-        intensities.sort_by(f64::total_cmp);
+        let intensities = sorted(curves.iter().map(first));
         for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
             // unknown above the levels
             let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());

@@ -6,7 +6,7 @@ use crate::results::WallResults;
 use report::escaped;
 use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
-use run::sample::fractile;
+use run::sample::{fractile, sorted};
 
 use super::contents::Manifest;
 use super::legend::looks;
@@ -59,7 +59,8 @@ impl Population {
         );
         let (measure, unit) = (manifest.contents.axis(), manifest.contents.unit);
         for (place, fraction) in manifest.report.fractions.iter().enumerate() {
-            let medians = self.medians[place].iter().map(|medians| sorted(medians, |x| unit.of(x)));
+            let medians =
+                self.medians[place].iter().map(|medians| sorted(medians.iter().map(|x| unit.of(*x))));
             let medians: Vec<_> = medians.collect();
             let _ = write!(
                 html,
@@ -69,7 +70,7 @@ impl Population {
             );
         }
         let dispersions: Vec<_> =
-            self.dispersions.iter().map(|values| sorted(values, |value| value)).collect();
+            self.dispersions.iter().map(|values| sorted(values.iter().copied())).collect();
         let _ = write!(
             html,
             "<figure><figcaption>Dispersions β at {}</figcaption>{}</figure></div></section>\n{}",
@@ -116,7 +117,7 @@ impl Population {
         let rows = places.iter().flat_map(|&place| {
             let models = manifest.contents.models.iter().zip(&self.medians[place]);
             let unit = manifest.contents.unit;
-            models.map(move |(model, medians)| (place, model, sorted(medians, |x| unit.of(x))))
+            models.map(move |(model, medians)| (place, model, sorted(medians.iter().map(|x| unit.of(*x)))))
         });
         let mut table = Table::over(rows)
             .number("", "u_max/u_ins", Digits::AtMost(6), |(place, ..)| manifest.report.fractions[*place])
@@ -136,12 +137,6 @@ impl Population {
 /// Returns a median, `open` above the levels.
 fn known(median: Option<f64>) -> Cell<'static> {
     median.filter(|median| median.is_finite()).map_or("open".into(), Cell::Number)
-}
-
-fn sorted(values: &[f64], convert: impl Fn(f64) -> f64) -> Vec<f64> {
-    let mut values: Vec<f64> = values.iter().map(|&value| convert(value)).collect();
-    values.sort_by(f64::total_cmp);
-    values
 }
 
 /// Draws sorted values of each model as distributions.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Crossing, Curve, Exceedance, MOST_LISTED, SENSITIVE_ABOVE};
+use crate::ida::{Curve, Exceedance, MOST_LISTED, SENSITIVE_ABOVE};
 use crate::results::WallResults;
 use report::counted;
 use report::table::{Cell, Table};
@@ -247,14 +247,9 @@ impl<'a> Output<'a> {
         if self.resurrected > 0 {
             let _ = writeln!(
                 text,
-                "{} of {} stand again above their first overturning{}",
+                "{} of {} stand again above their first overturning; collapse in [report] says which counts",
                 self.resurrected,
-                counted(contents.count(), "curve"),
-                match report.collapse {
-                    Crossing::First => ", which counts as the collapse",
-                    Crossing::Last => "; the last one counts as the collapse",
-                    Crossing::Fraction => "; each level counts for itself",
-                }
+                counted(contents.count(), "curve")
             );
         }
         text

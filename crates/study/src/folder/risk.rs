@@ -45,8 +45,8 @@ pub(crate) struct Risk<'a> {
     shown: Shown<'a>,
     rates: Option<Rates<'a>>,
     losses: Option<Losses<'a>>,
-    /// Number of functions without a curve, and of those that NRML cannot hold.
-    left_out: [usize; 2],
+    /// Number of functions without all curves, or with numbers that NRML cannot hold.
+    left_out: usize,
 }
 
 impl<'a> Risk<'a> {
@@ -94,7 +94,7 @@ impl<'a> Risk<'a> {
             shown: Shown::new(manifest, "probability"),
             rates: rates.transpose()?,
             losses: losses.transpose()?,
-            left_out: [0; 2],
+            left_out: 0,
         })
     }
 
@@ -169,23 +169,22 @@ impl<'a> Risk<'a> {
         self.table.add(&table)?;
         for (of_model, model) in subject.models.iter().zip(&contents.models) {
             let names = [subject.name, &model.name];
-            self.left_out[0] += usize::from(of_model.function.is_none());
             if let Some((pelicun, function)) = self.pelicun.as_mut().zip(of_model.function.as_ref()) {
                 pelicun.add(names, function)?;
             }
             let Some(xml) = &mut self.xml else { continue };
-            if let Some(function) = &of_model.function {
-                let states = report.rising().into_iter().map(|place| report.fractions[place]);
-                let Some(text) = nrml::fragility(function, states, &xml.measure, contents.unit) else {
-                    self.left_out[1] += 1;
-                    continue;
-                };
+            let states = report.rising().into_iter().map(|place| report.fractions[place]);
+            let function = of_model.function.as_ref();
+            let text =
+                function.and_then(|function| nrml::fragility(function, states, &xml.measure, contents.unit));
+            self.left_out += usize::from(text.is_none());
+            if let Some(text) = text {
                 let id = escaped(&xml.id(subject.name, &model.name));
                 xml.write(&format!(
                     "    <fragilityFunction id=\"{id}\" format=\"continuous\" shape=\"logncdf\">\n{text}    \
                      </fragilityFunction>\n"
                 ))?;
-            } else {
+            } else if function.is_none() {
                 xml.write(&no_function(self.manifest, names, &of_model.states))?;
             }
         }
@@ -307,23 +306,19 @@ impl<'a> Risk<'a> {
                  for it run the study with intensity = {{ measure = \"AvgSA\" }}\n{pelicun}"
             );
         }
-        let lack = |(count, reason): (usize, &str)| {
-            let functions = counted(count, "function");
-            (count > 0).then(|| format!("{file} lacks {functions}, of a wall or class {reason}\n"))
-        };
-        let without_curve = if self.manifest.contents.is_cloud {
-            "without a regression; change the scale, or add records"
+        if self.left_out == 0 {
+            return pelicun;
+        }
+        let remedy = if self.manifest.contents.is_cloud {
+            "change the scale, or add records"
         } else {
-            "with a limit state that has no curve: it is exceeded by no run or by all, or its records do not \
-             scatter; add levels below or above, or drop its fraction"
+            "add levels below or above, or records, or drop its fraction"
         };
-        let without_numbers =
-            "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
-        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)]
-            .into_iter()
-            .filter_map(lack)
-            .collect::<String>()
-            + &pelicun
+        format!(
+            "{file} lacks {}, of walls and classes with a limit state that has no curve, or one so flat that \
+             a number of NRML would be 0 or infinite; {remedy}\n{pelicun}",
+            counted(self.left_out, "function")
+        )
     }
 
     /// Says that a class has no curve, as some of its walls have none.

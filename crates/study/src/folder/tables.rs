@@ -2,7 +2,7 @@
 
 use ground_motion::STANDARD_GRAVITY;
 use report::table::{Cell, Column, Digits, Growing, Table};
-use run::sample::fractile;
+use run::sample::{fractile, sorted};
 
 use crate::fragility::{FitError, Interval, Lognormal, Summary};
 use crate::ida::{Crossing, Curve, Exceedance, TieDemand};
@@ -116,8 +116,7 @@ impl TieRow {
     }
 
     fn fractile(&self, of: fn(&TieDemand) -> f64, part: f64) -> Option<f64> {
-        let mut values: Vec<f64> = self.demands.iter().map(of).collect();
-        values.sort_by(f64::total_cmp);
+        let values = sorted(self.demands.iter().map(of));
         fractile(&values, part)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::dispersion::Estimator;
 use super::fit::Lognormal;
-use super::observation::Sample;
+use super::sample::Sample;
 use report::table::{Digits, between};
 use run::sample::{Pcg, unsorted_fractile};
 
@@ -41,10 +41,8 @@ pub struct Interval {
 pub struct Resampled {
     /// Least and most of the estimate from all records.
     pub estimate: [f64; 2],
-    /// Least of each resample.
-    pub least: Vec<f64>,
-    /// Most of each resample.
-    pub most: Vec<f64>,
+    /// Least and most of each resample.
+    pub samples: Vec<[f64; 2]>,
 }
 
 impl Bootstrap {
@@ -83,13 +81,24 @@ impl Bootstrap {
         (0..self.samples).map(resample).collect()
     }
 
-    /// Returns the median of each resample of one model's exceedances.
+    /// Takes the sample median of the exceedances of each limit state, and those of its resamples.
     ///
     /// # Panics
     /// If there are not as many exceedances as records.
-    pub fn medians(&self, exceedances: &[Exceedance]) -> Vec<f64> {
-        let sorted = Sorted::new(exceedances);
-        self.counted(|counts| sorted.median(counts))
+    pub fn medians(&self, states: &[Sample]) -> Vec<Resampled> {
+        // a censored record exceeds at least above its levels, one that exceeds at its lowest level anywhere
+        // below it
+        let least = |exceedance: &Exceedance| match exceedance.bounds() {
+            [least, most] if least == 0.0 || most == f64::INFINITY => Exceedance::At(least),
+            _ => *exceedance,
+        };
+        let of_state = |state: &Sample| {
+            let least: Vec<_> = state.exceedances().iter().map(least).collect();
+            let ends = [&least, state.exceedances()].map(Sorted::new);
+            let of = |counts: &[u32]| ends.each_ref().map(|sorted| sorted.median(counts));
+            Resampled { estimate: of(&vec![1; self.records]), samples: self.counted(of) }
+        };
+        states.iter().map(of_state).collect()
     }
 
     /// Fits the curves of each resample: of each limit state θ with the bounds of those that have no fit, and
@@ -125,64 +134,31 @@ impl Bootstrap {
 }
 
 impl Resampled {
-    fn new(estimate: [f64; 2], samples: impl Iterator<Item = [f64; 2]>) -> Self {
-        let (least, most) = samples.map(|[least, most]| (least, most)).unzip();
-        Self { estimate, least, most }
-    }
-
     /// Takes θ and β from its least and most and from β, of all records and of each resample.
     pub(super) fn curves(
         [least, most, beta]: [f64; 3],
         samples: impl Iterator<Item = [f64; 3]> + Clone,
     ) -> [Self; 2] {
-        let thetas = samples.clone().map(|[least, most, _]| [least, most]);
-        [Self::new([least, most], thetas), Self::new([beta; 2], samples.map(|[.., beta]| [beta; 2]))]
-    }
-
-    /// Takes the sample median of the exceedances of each limit state, and those of its resamples.
-    pub(super) fn medians(states: &[Sample], bootstrap: &Bootstrap) -> Vec<Self> {
-        // a censored record exceeds at least above its levels, one that exceeds at its lowest level anywhere
-        // below it
-        let least = |exceedance: &Exceedance| match exceedance.bounds() {
-            [least, most] if least == 0.0 || most == f64::INFINITY => Exceedance::At(least),
-            _ => *exceedance,
-        };
-        let ends = |state: &Sample| {
-            let least: Vec<_> = state.exceedances().iter().map(least).collect();
-            [&least, state.exceedances()].map(Sorted::new)
-        };
-        let ends: Vec<_> = states.iter().map(ends).collect();
-        let of = |counts: &[u32]| -> Vec<[f64; 2]> {
-            ends.iter().map(|ends| ends.each_ref().map(|sorted| sorted.median(counts))).collect()
-        };
-        let (all, samples) = (of(&vec![1; bootstrap.records]), bootstrap.counted(of));
-        let of_state = |(state, estimate): (usize, [f64; 2])| {
-            Self::new(estimate, samples.iter().map(|sample: &Vec<[f64; 2]>| sample[state]))
-        };
-        all.into_iter().enumerate().map(of_state).collect()
+        let thetas = samples.clone().map(|[least, most, _]| [least, most]).collect();
+        let betas = samples.map(|[.., beta]| [beta; 2]).collect();
+        [Self { estimate: [least, most], samples: thetas }, Self { estimate: [beta; 2], samples: betas }]
     }
 
     /// Divides by another estimate, resample by resample.
     pub(super) fn over(&self, other: &Self) -> Self {
-        let quotients = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a / b).collect();
-        let ([least, most], [other_least, other_most]) = (self.estimate, other.estimate);
+        let quotient = |[least, most]: [f64; 2], over: [f64; 2]| [least / over[1], most / over[0]];
+        let samples = self.samples.iter().zip(&other.samples);
         Self {
-            estimate: [least / other_most, most / other_least],
-            least: quotients(&self.least, &other.most),
-            most: quotients(&self.most, &other.least),
+            estimate: quotient(self.estimate, other.estimate),
+            samples: samples.map(|(one, over)| quotient(*one, *over)).collect(),
         }
     }
 
     /// Encloses the central `part` of the resamples.
     pub(super) fn interval(&self, part: f64) -> Interval {
-        let [least, most] = self.estimate;
-        let interval = Interval::new(most, self.most.iter().copied(), part);
-        let [low, high] = if self.least == self.most {
-            interval.range
-        } else {
-            Interval::new(least, self.least.iter().copied(), part).range
-        };
-        Interval { least: [least, low, high], ..interval }
+        let [least, most] = [0, 1]
+            .map(|end| Interval::new(self.estimate[end], self.samples.iter().map(|ends| ends[end]), part));
+        Interval { least: [least.estimate, least.range[0], least.range[1]], ..most }
     }
 }
 

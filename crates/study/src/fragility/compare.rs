@@ -4,7 +4,7 @@ use super::bootstrap::{Bootstrap, Interval, Resampled};
 use super::cloud::{Cloud, Regression};
 use super::dispersion::{Dispersion, Estimator};
 use super::fit::{FitError, Lognormal, fit_from, log_likelihood};
-use super::observation::Sample;
+use super::sample::Sample;
 use super::term::Term;
 use crate::ida::Exceedance;
 
@@ -110,7 +110,9 @@ impl Fragility {
         median: Resampled,
         [theta, beta]: [Resampled; 2],
     ) -> Self {
-        let pair = |(theta, beta): (&f64, &f64)| if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] };
+        let pair = |([_, theta], [_, beta]): (&[f64; 2], &[f64; 2])| {
+            if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] }
+        };
         let one = Interval::new(1.0, [1.0], CONFIDENCE);
         let summary = Summary {
             records,
@@ -123,7 +125,7 @@ impl Fragility {
             misfit: None,
             theta: theta.interval(CONFIDENCE),
             beta: beta.interval(CONFIDENCE),
-            resamples: theta.most.iter().zip(&beta.most).map(pair).collect(),
+            resamples: theta.samples.iter().zip(&beta.samples).map(pair).collect(),
             median_ratio: one,
             theta_ratio: one,
         };
@@ -131,18 +133,13 @@ impl Fragility {
     }
 
     fn of_states(states: &[Sample], estimator: &Estimator, bootstrap: &Bootstrap) -> Vec<Self> {
-        let terms = |state: &Sample| {
-            let mut terms = Vec::new();
-            state.prepared().terms(&vec![1; state.exceedances().len()], &mut terms);
-            terms
-        };
-        let terms: Vec<_> = states.iter().map(terms).collect();
+        let terms: Vec<_> = states.iter().map(Sample::terms).collect();
         let mut own = estimator.clone();
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
         let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
         let crossings = estimator.crossings(&fitted);
-        let medians = Resampled::medians(states, bootstrap);
+        let medians = bootstrap.medians(states);
         let resampled = medians.into_iter().zip(bootstrap.fitted(states, estimator));
         let of_state = |(place, (median, curves)): (usize, (Resampled, [Resampled; 2]))| {
             let (state, fitted) = (&states[place], fitted[place]);
@@ -211,14 +208,14 @@ fn contradict_common_dispersion(
     alone: &[Result<Lognormal, FitError>],
     group: usize,
 ) -> bool {
-    let own = states.iter().zip(alone).filter_map(|(terms, alone)| Some((Ok(terms.as_slice()), alone.ok()?)));
+    let own = states.iter().zip(alone).filter_map(|(terms, alone)| Some((terms, alone.ok()?)));
     let (states, alone): (Vec<_>, Vec<_>) = own.unzip();
     let joint: Vec<Lognormal> = fit_from(&states, &[]).into_iter().flatten().collect();
     if states.len() < 2 || joint.len() < states.len() {
         return false;
     }
     let sum = |curves: &[Lognormal]| -> f64 {
-        states.iter().flatten().zip(curves).map(|(terms, curve)| log_likelihood(terms, curve)).sum()
+        states.iter().zip(curves).map(|(terms, curve)| log_likelihood(terms, curve)).sum()
     };
     2.0 * (sum(&alone) - sum(&joint)) / group as f64 > chi_squared_95(states.len() - 1)
 }

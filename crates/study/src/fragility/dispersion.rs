@@ -3,7 +3,7 @@
 use rocking_wall::choices;
 use serde::{Deserialize, Serialize};
 
-use super::fit::{FitError, Lognormal, fit_from, fit_one};
+use super::fit::{FitError, Lognormal, fit_from};
 use super::linear::{cholesky, solve};
 use super::term::{Likelihood, Term};
 
@@ -60,11 +60,10 @@ impl Estimator {
         near: &[Result<Lognormal, FitError>],
     ) -> Vec<Result<Lognormal, FitError>> {
         if self.dispersion == Dispersion::Common {
-            let all: Vec<_> = states.iter().map(|terms| Ok(terms.as_slice())).collect();
-            return fit_from(&all, near);
+            return fit_from(states, near);
         }
-        let own = |(state, terms): (usize, &Vec<Term>)| fit_one(terms, near.get(state));
-        let mut fitted: Vec<_> = states.iter().enumerate().map(own).collect();
+        let own = |k| fit_from(&states[k..=k], near.get(k..=k).unwrap_or_default());
+        let mut fitted: Vec<_> = (0..states.len()).flat_map(own).collect();
         if self.dispersion == Dispersion::Ordered && self.crossings(&fitted).iter().any(Option::is_some) {
             let known = |&state: &usize| fitted[state].ok().map(|curve| (state, curve));
             let known: Vec<_> = self.rising.iter().filter_map(known).collect();

@@ -3,7 +3,7 @@
 use run::bisection::first_true;
 
 use super::normal::cumulative;
-use super::observation::Observation;
+use super::sample::Sample;
 use super::term::{Likelihood, Term};
 
 /// A lognormal fragility.
@@ -58,11 +58,9 @@ pub enum FitError {
          records, or change the scale"
     )]
     Cloud,
-    /// An intensity that has no logarithm, or more exceedances than runs.
-    #[error(
-        "an observation is invalid: intensities must be positive and finite, exceedances no more than runs"
-    )]
-    Observation,
+    /// An intensity that has no logarithm, or two levels that fall.
+    #[error("an exceedance is invalid: its intensity must be positive and finite, two levels must rise")]
+    Exceedance,
 }
 
 /// Bounds on Newton's steps and on halvings of one; ten and two are usual.
@@ -85,9 +83,9 @@ const LEAST_SPREAD: f64 = 0.05;
 /// Fits θ and β of one limit state by maximum likelihood.
 ///
 /// # Errors
-/// [`FitError`] if the observations do not determine a curve.
-pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
-    fit_jointly(&[observations.to_vec()]).pop().unwrap_or(Err(FitError::OneSided))
+/// [`FitError`] if the sample does not determine a curve.
+pub fn fit(sample: &Sample) -> Result<Lognormal, FitError> {
+    fit_jointly(std::slice::from_ref(sample)).remove(0)
 }
 
 /// Fits the curves of several limit states of the same runs by maximum likelihood, with one β for all.
@@ -105,45 +103,23 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
 /// At(x):           ln a − z²/2
 /// Between(x₁, x₂): ln(Φ(z₂) − Φ(z₁))
 /// Above(x):        ln Φ(−z)                                                             Eq. (8)
-/// Stripe:          k ln Φ(z) + (n − k) ln Φ(−z)                                        Eq. (11)
+/// of n runs at x, k exceed:  k ln Φ(z) + (n − k) ln Φ(−z)                              Eq. (11)
 /// ```
 ///
 /// For exact intensities alone the maximum has a closed form: their means and their pooled standard
-/// deviation. A limit state whose observations determine no median has an error and leaves the others alone.
-pub fn fit_jointly(states: &[Vec<Observation>]) -> Vec<Result<Lognormal, FitError>> {
-    let states: Vec<_> = states.iter().map(|state| terms(state)).collect();
-    let states: Vec<_> = states.iter().map(|terms| terms.as_deref().map_err(|error| *error)).collect();
-    fit_from(&states, &[])
+/// deviation. A limit state whose sample determines no median has an error and leaves the others alone.
+pub fn fit_jointly(states: &[Sample]) -> Vec<Result<Lognormal, FitError>> {
+    fit_from(&states.iter().map(Sample::terms).collect::<Vec<_>>(), &[])
 }
 
-/// Returns the terms of the likelihood of observations.
-pub(super) fn terms(observations: &[Observation]) -> Result<Vec<Term>, FitError> {
-    observations.iter().try_fold(Vec::new(), |mut terms, observation| {
-        terms.extend(Term::of(observation)?);
-        Ok(terms)
-    })
-}
-
-/// Fits as [`fit_jointly`] does, starting from the curves of similar observations.
+/// Fits as [`fit_jointly`] does, starting from the curves of similar samples, if there are some.
 pub(super) fn fit_from(
-    states: &[Result<&[Term], FitError>],
+    states: &[impl AsRef<[Term]>],
     near: &[Result<Lognormal, FitError>],
 ) -> Vec<Result<Lognormal, FitError>> {
-    let mut states: Vec<Result<State<'_>, FitError>> =
-        states.iter().map(|terms| State::new((*terms)?)).collect();
+    let mut states: Vec<_> = states.iter().map(|terms| State::new(terms.as_ref())).collect();
     let a = maximum(&mut states, near);
     states.into_iter().map(|state| Ok(state?.curve(a?))).collect()
-}
-
-/// Fits one limit state, starting from its curve of similar observations if there is one.
-pub(super) fn fit_one(
-    terms: &[Term],
-    near: Option<&Result<Lognormal, FitError>>,
-) -> Result<Lognormal, FitError> {
-    let mut state = [State::new(terms)];
-    let a = maximum(&mut state, near.map_or(&[], std::slice::from_ref));
-    let [state] = state;
-    Ok(state?.curve(a?))
 }
 
 /// Returns a = 1/β of the maximum, and stores c in each limit state.
@@ -162,7 +138,7 @@ fn maximum(
         return Ok(1.0 / spread);
     }
     let mut a = 1.0 / spread.max(LEAST_SPREAD);
-    // the midpoints of narrow intervals are a better start than other observations
+    // the midpoints of narrow intervals are a better start than other samples
     let is_known = usable().count() == near.iter().flatten().count();
     if is_known && !terms.all(Term::is_bounded) {
         for (state, near) in states.iter_mut().flatten().zip(near.iter().flatten()) {
@@ -220,7 +196,7 @@ pub(super) fn log_likelihood(terms: &[Term], curve: &Lognormal) -> f64 {
     Likelihood::of(terms, libm::log(curve.median), [1.0 / curve.dispersion, 0.0]).value
 }
 
-/// The observations of one limit state.
+/// The sample of one limit state.
 struct State<'a> {
     terms: &'a [Term],
     /// About where ln θ lies: at first the mean of the logarithms.
@@ -229,7 +205,7 @@ struct State<'a> {
     squares: f64,
     /// Number of runs.
     weight: f64,
-    /// Whether the observations bound β from below.
+    /// Whether the sample bounds β from below.
     scatters: bool,
     /// Parameter of its curve. Logarithms of intensities are about their centre, so that a and c are nearly
     /// independent.
@@ -242,6 +218,11 @@ struct State<'a> {
 
 impl<'a> State<'a> {
     fn new(terms: &'a [Term]) -> Result<Self, FitError> {
+        let has_logarithms =
+            |[from, to]: [f64; 2]| from <= to && from < f64::INFINITY && to > f64::NEG_INFINITY;
+        if !terms.iter().all(|term| has_logarithms(term.between)) {
+            return Err(FitError::Exceedance);
+        }
         let least_end = terms.iter().map(|term| term.between[1]).fold(f64::INFINITY, f64::min);
         let last_start = terms.iter().map(|term| term.between[0]).fold(f64::NEG_INFINITY, f64::max);
         if least_end == f64::INFINITY || last_start == f64::NEG_INFINITY {

@@ -12,10 +12,11 @@
 //! curves do not cross: see [`Dispersion`]. Those of a [`Cloud`] follow from a regression.
 //!
 //! ```
-//! use study::fragility::{Observation, fit};
+//! use study::fragility::{Sample, fit};
+//! use study::ida::Exceedance::{Above, At};
 //!
 //! // two records exceed the limit state at 2 and at 4 m/s², a third one does not up to 5 m/s²
-//! let curve = fit(&[Observation::At(2.0), Observation::At(4.0), Observation::Above(5.0)])?;
+//! let curve = fit(&Sample::of_records(vec![At(2.0), At(4.0), Above(5.0)]))?;
 //! assert!(curve.median > 3.0 && curve.probability(curve.median) == 0.5);
 //! # Ok::<(), study::fragility::FitError>(())
 //! ```
@@ -28,7 +29,7 @@ mod dispersion;
 mod fit;
 pub(crate) mod linear;
 mod normal;
-mod observation;
+mod sample;
 mod term;
 
 pub use bootstrap::{Bootstrap, Interval, Resampled};
@@ -38,4 +39,4 @@ pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};
 pub use dispersion::{Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::{cumulative, quantile};
-pub use observation::{Observation, Sample, median, steps};
+pub use sample::{Sample, median, steps};

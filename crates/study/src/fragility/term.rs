@@ -1,8 +1,6 @@
 //! Terms of the likelihood of a lognormal curve.
 
-use super::fit::FitError;
 use super::normal::{HALF_LOG_2_PI, log_and_hazard};
-use super::observation::Observation;
 
 /// Runs whose exceedances lie between two intensities.
 #[derive(Clone, Copy, Debug)]
@@ -41,30 +39,6 @@ impl Term {
     /// Returns this term for another number of runs.
     pub(super) fn of_runs(self, runs: f64) -> Self {
         Self { runs, ..self }
-    }
-
-    /// Returns the terms of an observation.
-    pub(super) fn of(observation: &Observation) -> Result<impl Iterator<Item = Self>, FitError> {
-        let term = |between: [f64; 2], runs: u32| Self::new(between.map(libm::log), runs.into());
-        let none = term([1.0; 2], 0);
-        let (intensity, terms) = match *observation {
-            Observation::At(x) => (x, [term([x; 2], 1), none]),
-            // a lower level of 0 is below all levels
-            Observation::Between([from, to]) if (0.0..=to).contains(&from) => {
-                (to, [term([from, to], 1), none])
-            }
-            Observation::Between(between) => (f64::NAN, [term(between, 0), none]),
-            Observation::Above(x) => (x, [term([x, f64::INFINITY], 1), none]),
-            Observation::Stripe { intensity, runs, exceeded } => {
-                let stand = runs.checked_sub(exceeded).ok_or(FitError::Observation)?;
-                let exceeded = term([0.0, intensity], exceeded);
-                (intensity, [exceeded, term([intensity, f64::INFINITY], stand)])
-            }
-        };
-        if !(intensity > 0.0 && intensity.is_finite()) {
-            return Err(FitError::Observation);
-        }
-        Ok(terms.into_iter().filter(|term| term.runs > 0.0))
     }
 
     /// Returns whether the intensity is exact.

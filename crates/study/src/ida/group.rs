@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use record::{LANES, Outcome, RecordSolver, RunEnd};
 use rocking_wall::solver::{Motion, SolverError};
+use run::sample::sorted;
 use run::shaking::{Shaken, Shaking, together};
 
 use super::levels::Trace;
@@ -44,8 +45,7 @@ impl Study {
         let Some(&Case { wall, model, .. }) = cases.first() else { return Ok(Vec::new()) };
         let motion = self.motion(wall, model);
         let supports = cases.iter().map(|case| self.support_motion(*case)).collect::<Result<Vec<_>, _>>()?;
-        let mut steps: Vec<f64> = supports.iter().map(|support| support.step()).collect();
-        steps.sort_by(f64::total_cmp);
+        let mut steps = sorted(supports.iter().map(|support| support.step()));
         steps.dedup();
         let solvers: Vec<_> = steps.iter().map(|step| RecordSolver::new(&motion, *step)).collect();
         let mut shakings = Vec::with_capacity(cases.len());

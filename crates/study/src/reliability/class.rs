@@ -97,13 +97,6 @@ pub(super) fn grouped<K: PartialEq, V>(
     groups
 }
 
-/// Sorts values.
-pub(super) fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
 fn quantities(wall: &NamedWall) -> [f64; 4] {
     let p = &wall.parameters;
     let weight = Wall::new(p).map_or(f64::NAN, |wall| wall.body().weight);

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use report::counted;
 use run::file;
-use run::sample::fractile;
+use run::sample::{fractile, sorted};
 
-use super::class::{Class, sorted};
+use super::class::Class;
 use super::{FILES, Reliability, page, table};
 use crate::folder::{Folder, FolderError, MOST_WALLS, Report, Rows, each_wall};
 use crate::ida::Curve;

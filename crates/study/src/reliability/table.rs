@@ -2,9 +2,9 @@
 
 use ground_motion::STANDARD_GRAVITY;
 use report::table::{Cell, Digits, Table};
-use run::sample::fractile;
+use run::sample::{fractile, sorted};
 
-use super::class::{Class, FRACTILES, grouped, sorted};
+use super::class::{Class, FRACTILES, grouped};
 use super::wall::WallReliability;
 use crate::folder::tables::in_g;
 use crate::fragility::Interval;

@@ -4,6 +4,7 @@ use check::circolare::MEAN_COUNTS_FROM;
 use check::{Code, Subject, Verdict};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
+use run::sample::sorted;
 use run::walls::NamedWall;
 
 use crate::fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
@@ -218,8 +219,7 @@ fn dynamic(curves: &[Curve], signs: usize, fraction: f64) -> f64 {
         return lowest(fraction);
     }
     let falls = lowest(1.0);
-    let mut levels: Vec<f64> = curves.iter().flat_map(Curve::runs).map(|run| run.intensity).collect();
-    levels.sort_by(f64::total_cmp);
+    let levels = sorted(curves.iter().flat_map(Curve::runs).map(|run| run.intensity));
     // the mean is straight between levels
     let mut before = [0.0, 0.0];
     for level in levels.into_iter().take_while(|level| *level < falls) {

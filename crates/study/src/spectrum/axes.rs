@@ -70,9 +70,12 @@ pub enum PulseForm {
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum SpectrumError {
-    /// A value of an axis makes no wall or pulse.
+    /// A value of an axis makes no pulse.
     #[error("{name} = {value} is out of range; it must be {limit}")]
     Value { name: &'static str, value: f64, limit: String },
+    /// A size and a slenderness make no wall.
+    #[error("{} = {}, {} = {}: {reason}", place[0], values[0], place[1], values[1])]
+    Shape { place: [&'static str; 2], values: [f64; 2], reason: String },
     /// There are more points than [`MOST_POINTS`].
     #[error("{found} points are more than {MOST_POINTS}; take fewer rows or columns")]
     TooManyPoints { found: usize },

@@ -16,7 +16,8 @@
 //!     axes: String::new(),
 //!     own: None,
 //! };
-//! assert!(svg(&shown).contains("a_p / a₀"));
+//! // an index stands low
+//! assert!(svg(&shown).contains(&report::label("a_p / a₀")));
 //! ```
 
 use crate::spectrum::{Point, RockingSpectrum};

@@ -27,14 +27,14 @@ mod axes;
 pub mod figure;
 pub mod page;
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::TAU;
 
-use fmu_export::{Kind, VariableId};
+use fmu_export::VariableId;
 
 use ground_motion::GroundMotion;
 use record::{Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use report::table::Table;
-use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::scene::{Scene, SceneError, check_limits};
 use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};
@@ -115,14 +115,12 @@ pub fn over_walls(
             return Err(SpectrumError::ParapetOnly { name });
         }
     }
-    let walls: Vec<Parameters> = rows
-        .iter()
-        .flat_map(|&row| sizes.iter().map(move |&column| (row, column)))
-        .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
-        .collect::<Result<_, _>>()?;
+    let places = || rows.iter().flat_map(|&row| sizes.iter().map(move |&column| (row, column)));
+    let walls = places().map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)));
+    let walls = walls.collect::<Result<Vec<_>, _>>()?;
     let run = |index: usize| -> Result<Point, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
-        wall.point(-wall.participation(), motion)
+        Ok(wall.points(&[-wall.participation()], motion)?[0])
     };
     let points = parallel::map(walls.len(), threads, run)?;
     let points = points.chunks(sizes.len().max(1)).map(<[Point]>::to_vec).collect();
@@ -209,36 +207,26 @@ fn upright(parameters: &Parameters) -> Parameters {
 /// Returns the wall of a size and a slenderness, within the limits of the model description.
 fn shaped(
     parameters: &Parameters,
-    (size, value): (Size, f64),
+    (size, column): (Size, f64),
     (slenderness, row): (Slenderness, f64),
 ) -> Result<Parameters, SpectrumError> {
-    let positive = |name: &'static str, value: f64, highest: f64| {
-        if value > 0.0 && value <= highest {
-            return Ok(());
-        }
-        Err(SpectrumError::Value { name, value, limit: format!("above 0 and at most {highest:.4}") })
+    let ratio = match slenderness {
+        Slenderness::Ratio => row,
+        Slenderness::Angle => 1.0 / libm::tan(row),
     };
-    positive(size.quantity().label, value, 1e6)?;
-    let (highest, ratio) = match slenderness {
-        Slenderness::Ratio => (1e6, row),
-        Slenderness::Angle => (FRAC_PI_4, 1.0 / libm::tan(row)),
-    };
-    positive(slenderness.quantity().label, row, highest)?;
     let height = match size {
-        Size::Height => value,
+        Size::Height => column,
         // 2R = √(h² + b²) = h √(1 + (b/h)²)
-        Size::SemiDiagonal => 2.0 * value / (1.0 + 1.0 / (ratio * ratio)).sqrt(),
+        Size::SemiDiagonal => 2.0 * column / (1.0 + 1.0 / (ratio * ratio)).sqrt(),
     };
     let thickness = height / ratio;
     for (variable, value) in [(RealVariable::Height, height), (RealVariable::Thickness, thickness)] {
-        let variable = variable.variable();
-        if let Kind::Real { min, max, .. } = variable.kind {
-            let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
-            if !(min..=max).contains(&value) {
-                let limit = format!("from {min} to {max} m");
-                return Err(SpectrumError::Value { name: variable.name, value, limit });
-            }
-        }
+        let place = [size.quantity().label, slenderness.quantity().label];
+        check_limits(variable.variable(), value).map_err(|reason| SpectrumError::Shape {
+            place,
+            values: [column, row],
+            reason,
+        })?;
     }
     Ok(Parameters { height, thickness, ..upright(parameters) })
 }
@@ -263,35 +251,24 @@ impl Prepared {
         self.motion.wall().body().participation
     }
 
-    /// Runs through a motion, with `factor` times its accelerations as forcing, and the free motion after it.
-    fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
-        let samples = Forcing::Samples(motion.samples());
-        let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcome = solver.run(self.run_start(factor, motion), samples, RunEnd::AtOverturning);
-        outcome
-            .and_then(|outcome| self.followed(outcome, motion.duration()))
-            .map_err(|error| self.failed(error))
-    }
-
-    /// Runs as [`point`](Self::point) does, for each of many factors.
+    /// Runs from upright and at rest through a motion, with each of some factors times its accelerations as
+    /// forcing, and through the free motion after it.
     fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
-        let samples = Forcing::Samples(motion.samples());
-        let starts: Vec<_> = factors.iter().map(|&factor| self.run_start(factor, motion)).collect();
+        let Self { height, thickness, .. } = *self;
+        let first = motion.samples()[0];
+        let start =
+            |&factor: &f64| RunStart { state: self.motion.start_under(0.0, 0.0, factor * first), factor };
+        let starts: Vec<_> = factors.iter().map(start).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcomes =
-            solver.batch(samples).run(&starts, RunEnd::AtOverturning).map_err(|error| self.failed(error))?;
-        let followed =
-            |outcome| self.followed(outcome, motion.duration()).map_err(|error| self.failed(error));
-        outcomes.into_iter().map(followed).collect()
-    }
-
-    /// Returns the start of a run: upright and at rest, with `factor` times the motion as forcing.
-    fn run_start(&self, factor: f64, motion: &GroundMotion) -> RunStart {
-        RunStart { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
-    }
-
-    fn failed(&self, source: SolverError) -> SpectrumError {
-        SpectrumError::Run { height: self.height, thickness: self.thickness, source }
+        let (samples, end) = (Forcing::Samples(motion.samples()), RunEnd::AtOverturning);
+        let outcomes = match starts[..] {
+            // it has no use for what many runs share
+            [alone] => solver.run(alone, samples, end).map(|outcome| vec![outcome]),
+            _ => solver.batch(samples).run(&starts, end),
+        };
+        let followed = |outcome| self.followed(outcome, motion.duration());
+        let points = outcomes.and_then(|outcomes| outcomes.into_iter().map(followed).collect());
+        points.map_err(|source| SpectrumError::Run { height, thickness, source })
     }
 
     /// Follows the free motion after a record of `duration` \[s\].

@@ -17,19 +17,16 @@ pub fn picture(study: &TieStudy, rows: &[Row]) -> Picture {
             shown.iter().map(|row| (varied.factor * row.value, scale * row.of(pick)[part])).collect()
         };
         let largest = points(2);
-        let top = 1.08 * largest.iter().map(|point| point.1).fold(0.0, f64::max);
-        let ends = [largest.first(), largest.last()].map(|point| point.map_or(1.0, |point| point.0));
-        let (x, scale) = if varied.is_logarithmic {
-            ([0.8 * ends[0], 1.25 * ends[1]], Scale::LogarithmicAcross)
-        } else {
-            let margin = 0.02 * (ends[1] - ends[0]).max(1e-9);
-            ([ends[0] - margin, ends[1] + margin], Scale::Linear)
+        let (x, scale) = match (varied.is_logarithmic, largest.first(), largest.last()) {
+            (true, Some(first), Some(last)) => {
+                (Axis::over(varied.label, [0.8 * first.0, 1.25 * last.0]), Scale::LogarithmicAcross)
+            }
+            _ => (Axis::new(varied.label), Scale::Linear),
         };
         let marks = Series { look: Look::Marks(Mark::Circle), ..Series::stroke(color, 3.0, largest) };
         let upper = Series { look: Look::Dashed, ..Series::stroke(color, 1.3, points(1)) };
         let series = vec![Series::stroke(color, 1.6, points(0)), upper, marks];
-        let axes = [Axis::over(varied.label, x), Axis::over(label, [-0.02 * top, top])];
-        Plot { scale, ..Plot::new([820.0, 320.0], axes, series) }
+        Plot { scale, ..Plot::new([820.0, 320.0], [x, Axis::new(label)], series) }
     };
     let mut panels = vec![
         Plot {

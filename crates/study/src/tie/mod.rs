@@ -29,7 +29,7 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use run::parallel;
 use run::polarity::Polarities;
-use run::sample::{fractile, sample_median};
+use run::sample::{fractile, sample_median, sorted};
 
 pub use level::{AtLevel, at_level};
 pub use table::table;
@@ -322,8 +322,7 @@ fn outcome(scene: &Scene) -> Result<Outcome, TieError> {
 impl Row {
     /// Returns median, 84 % fractile and largest of a quantity.
     pub fn of(&self, pick: fn(&Outcome) -> f64) -> [f64; 3] {
-        let mut values: Vec<f64> = self.outcomes.iter().map(pick).collect();
-        values.sort_by(f64::total_cmp);
+        let mut values = sorted(self.outcomes.iter().map(pick));
         let [upper, largest] = [UPPER, 1.0].map(|part| fractile(&values, part).unwrap_or(f64::NAN));
         [sample_median(&mut values), upper, largest]
     }

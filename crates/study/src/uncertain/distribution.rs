@@ -110,25 +110,20 @@ impl Shape {
     /// Sees that it has the numbers that it needs, and values within limits.
     fn check(&self, [least, most]: [f64; 2]) -> Result<(), String> {
         let positive = |number: f64| number > 0.0 && number.is_finite();
-        let (is_right, needs) = match *self {
-            Self::Normal { mean, deviation } => {
-                (mean.is_finite() && positive(deviation), "a finite mean and a standard deviation above 0")
+        let is_right = match *self {
+            Self::Normal { mean, deviation } => mean.is_finite() && positive(deviation),
+            Self::Lognormal { median, beta } => positive(median) && positive(beta),
+            Self::Uniform([low, high]) => positive(high - low),
+            Self::Triangular([low, mode, high]) => low <= mode && mode <= high && positive(high - low),
+            Self::Values(ref values) => {
+                !values.is_empty() && values.iter().all(|[x, weight]| x.is_finite() && positive(*weight))
             }
-            Self::Lognormal { median, beta } => (
-                positive(median) && positive(beta),
-                "a median and a standard deviation of the logarithm above 0",
-            ),
-            Self::Uniform([low, high]) => (positive(high - low), "a lower end below its upper end"),
-            Self::Triangular([low, mode, high]) => {
-                (low <= mode && mode <= high && positive(high - low), "a lower end, a mode and an upper end")
-            }
-            Self::Values(ref values) => (
-                !values.is_empty() && values.iter().all(|[x, weight]| x.is_finite() && positive(*weight)),
-                "values with weights above 0",
-            ),
         };
         if !is_right {
-            return Err(format!("{self:?} needs {needs}"));
+            return Err(format!(
+                "{self:?}: numbers must be finite, a median, deviations, betas and weights above 0, and ends \
+                 with a mode between them must rise"
+            ));
         }
         let values = if let Self::Values(values) = self { &values[..] } else { &[] };
         match values.iter().find(|[value, _]| !(least..=most).contains(value)) {

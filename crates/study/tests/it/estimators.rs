@@ -2,26 +2,55 @@
 
 use study::document::StudyFile;
 use study::fragility::{
-    Bootstrap, Dispersion, Estimator, Lognormal, Observation, Sample, Summary, TAIL, compare, cumulative, fit,
+    Bootstrap, Dispersion, Estimator, Lognormal, Sample, Summary, TAIL, compare, cumulative, fit,
 };
-use study::ida::{Crossing, Curve, Run};
+use study::ida::{Crossing, Curve, Exceedance, Run};
 use study::results::Fitting;
 
-/// ln L of a curve, term by term, from Φ and φ alone.
-fn log_likelihood(observations: &[Observation], median: f64, dispersion: f64) -> f64 {
-    let z = |x: f64| (x / median).ln() / dispersion;
-    let term = |observation: &Observation| match *observation {
-        Observation::At(x) => -0.5 * z(x).powi(2) - dispersion.ln(),
-        Observation::Between([from, to]) => (cumulative(z(to)) - cumulative(z(from))).ln(),
-        Observation::Above(x) => cumulative(-z(x)).ln(),
-        Observation::Stripe { intensity, runs, exceeded } => {
-            let [p, q] = [cumulative(z(intensity)), cumulative(-z(intensity))];
-            // 0 ln 0 is 0
-            let part = |count: u32, p: f64| if count == 0 { 0.0 } else { f64::from(count) * p.ln() };
-            part(exceeded, p) + part(runs - exceeded, q)
-        }
+/// An exceedance, and how many runs have it.
+type Counted = (Exceedance, u32);
+
+/// The runs of stripes, each with its intensity and how many of the runs exceed.
+fn counted(runs: u32, stripes: &[(f64, u32)]) -> Vec<Counted> {
+    let of_stripe = |&(intensity, exceeded): &(f64, u32)| {
+        [(Exceedance::Between([0.0, intensity]), exceeded), (Exceedance::Above(intensity), runs - exceeded)]
     };
-    observations.iter().map(term).sum()
+    stripes.iter().flat_map(of_stripe).collect()
+}
+
+/// The sample of records whose runs have these counts at the levels.
+pub(crate) fn stripes(runs: u32, stripes: &[(f64, u32)]) -> Sample {
+    let curve = |record: u32| {
+        let run = |&(intensity, exceeded): &(f64, u32)| {
+            let overturning = (record < exceeded).then_some(1.0);
+            Run { intensity, demand: 1.0, overturning, ..Run::default() }
+        };
+        Curve::new(stripes.iter().map(run).collect())
+    };
+    let curves: Vec<_> = (0..runs).map(curve).collect();
+    let levels: Vec<_> = stripes.iter().map(|(intensity, _)| *intensity).collect();
+    Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels))
+}
+
+/// The median of each resample of some exceedances.
+pub(crate) fn medians(bootstrap: &Bootstrap, exceedances: &[Exceedance]) -> Vec<f64> {
+    let sample = Sample::of_records(exceedances.to_vec());
+    bootstrap.medians(&[sample]).remove(0).samples.into_iter().map(|[_, most]| most).collect()
+}
+
+/// ln L of a curve, term by term, from Φ and φ alone.
+fn log_likelihood(runs: &[Counted], median: f64, dispersion: f64) -> f64 {
+    let z = |x: f64| (x / median).ln() / dispersion;
+    let term = |(exceedance, count): &Counted| {
+        let one = match *exceedance {
+            Exceedance::At(x) => -0.5 * z(x).powi(2) - dispersion.ln(),
+            Exceedance::Between([from, to]) => (cumulative(z(to)) - cumulative(z(from))).ln(),
+            Exceedance::Above(x) => cumulative(-z(x)).ln(),
+        };
+        // 0 ln 0 is 0
+        if *count == 0 { 0.0 } else { f64::from(*count) * one }
+    };
+    runs.iter().map(term).sum()
 }
 
 /// Place and value of the maximum of a function with one, by golden sections.
@@ -40,11 +69,9 @@ fn golden([mut low, mut high]: [f64; 2], value: &dyn Fn(f64) -> f64) -> [f64; 2]
 }
 
 /// The likeliest curve, with θ from 0.05 to 20 and β from 0.02 to 5.
-fn likeliest(observations: &[Observation]) -> Lognormal {
+fn likeliest(runs: &[Counted]) -> Lognormal {
     let of_median = |logarithm: f64| {
-        golden([0.02_f64.ln(), 5.0_f64.ln()], &|beta| {
-            log_likelihood(observations, logarithm.exp(), beta.exp())
-        })
+        golden([0.02_f64.ln(), 5.0_f64.ln()], &|beta| log_likelihood(runs, logarithm.exp(), beta.exp()))
     };
     let [median, _] = golden([0.05_f64.ln(), 20.0_f64.ln()], &|logarithm| of_median(logarithm)[1]);
     Lognormal { median: median.exp(), dispersion: of_median(median)[0].exp() }
@@ -83,13 +110,10 @@ fn each_choice_of_the_collapse_has_the_likeliest_curve() {
     let (curves, levels) = (curves(&levels()), levels());
     let count =
         |holds: &dyn Fn(&Curve) -> bool| u32::try_from(curves.iter().filter(|c| holds(c)).count()).unwrap();
-    let stripe = |(k, &intensity): (usize, &f64)| Observation::Stripe {
-        intensity,
-        runs: 30,
-        exceeded: count(&|curve| curve.runs()[k].overturning.is_some()),
-    };
+    let stripe =
+        |(k, &intensity): (usize, &f64)| (intensity, count(&|curve| curve.runs()[k].overturning.is_some()));
     let stripes: Vec<_> = levels.iter().enumerate().map(stripe).collect();
-    let bracket = |last: bool| -> Vec<Observation> {
+    let bracket = |last: bool| -> Vec<Counted> {
         let of_curve = |curve: &Curve| {
             let falls: Vec<bool> = curve.runs().iter().map(|run| run.overturning.is_some()).collect();
             let upper = if last {
@@ -97,15 +121,14 @@ fn each_choice_of_the_collapse_has_the_likeliest_curve() {
             } else {
                 falls.iter().position(|f| *f).unwrap()
             };
-            Observation::Between([levels[upper - 1], levels[upper]])
+            (Exceedance::Between([levels[upper - 1], levels[upper]]), 1)
         };
         curves.iter().map(of_curve).collect()
     };
-    let found = [Crossing::First, Crossing::Last, Crossing::Fraction].map(|crossing| {
-        fit(&Sample::of_curves(&curves, 1.0, crossing, Some(&levels)).observations()).unwrap()
-    });
-    for (found, observations) in found.iter().zip([bracket(false), bracket(true), stripes]) {
-        assert_near(found, &likeliest(&observations));
+    let found = [Crossing::First, Crossing::Last, Crossing::Fraction]
+        .map(|crossing| fit(&Sample::of_curves(&curves, 1.0, crossing, Some(&levels))).unwrap());
+    for (found, runs) in found.iter().zip([bracket(false), bracket(true), counted(30, &stripes)]) {
+        assert_near(found, &likeliest(&runs));
     }
     // standing again raises θ
     let [first, last, fraction] = found.map(|curve| curve.median);
@@ -118,19 +141,17 @@ fn intervals_have_the_likeliest_curve() {
     let lows = [0.4, 0.5, 0.62, 0.8, 0.85, 1.1, 1.4, 1.9];
     for width in [1e-9, 1e-4, 0.01, 0.05, 0.3, 1.0] {
         let mut all: Vec<_> =
-            lows.iter().map(|low| Observation::Between([*low, low * (1.0 + width)])).collect();
-        all.extend([Observation::Between([0.0, 0.3]), Observation::Above(1.5), Observation::At(0.9)]);
-        let found = fit(&all).unwrap();
-        if width > 1e-3 {
-            assert_near(&found, &likeliest(&all));
-        } else {
-            // a difference of Φ would lose its digits; their middle is exact to the square of their width
-            let middle = |observation: &Observation| match *observation {
-                Observation::Between([from, to]) if from > 0.0 => Observation::At((from * to).sqrt()),
-                other => other,
-            };
-            assert_near(&found, &likeliest(&all.iter().map(middle).collect::<Vec<_>>()));
-        }
+            lows.iter().map(|low| Exceedance::Between([*low, low * (1.0 + width)])).collect();
+        all.extend([Exceedance::Between([0.0, 0.3]), Exceedance::Above(1.5), Exceedance::At(0.9)]);
+        // a difference of Φ would lose its digits; their middle is exact to the square of their width
+        let known = |exceedance: &Exceedance| match *exceedance {
+            Exceedance::Between([from, to]) if from > 0.0 && width <= 1e-3 => {
+                (Exceedance::At((from * to).sqrt()), 1)
+            }
+            other => (other, 1),
+        };
+        let known: Vec<_> = all.iter().map(known).collect();
+        assert_near(&fit(&Sample::of_records(all)).unwrap(), &likeliest(&known));
     }
 }
 
@@ -138,28 +159,13 @@ fn intervals_have_the_likeliest_curve() {
 /// common z there is the likeliest.
 #[test]
 fn ordered_curves_are_the_likeliest_that_do_not_cross() {
-    let stripe = |(intensity, exceeded)| Observation::Stripe { intensity, runs: 20, exceeded };
-    let states = [[0, 6, 15, 19, 20], [1, 5, 8, 12, 16]]
-        .map(|counts| [0.4, 0.6, 0.9, 1.3, 2.0].into_iter().zip(counts).map(stripe).collect::<Vec<_>>());
-    // records whose runs have these counts at the levels
-    let sample = |counts: &[Observation]| {
-        let curve = |record: u32| {
-            let run = |observation: &Observation| {
-                let Observation::Stripe { intensity, exceeded, .. } = *observation else { unreachable!() };
-                Run {
-                    intensity,
-                    demand: 1.0,
-                    overturning: (record < exceeded).then_some(1.0),
-                    ..Run::default()
-                }
-            };
-            Curve::new(counts.iter().map(run).collect())
-        };
-        let curves: Vec<_> = (0..20).map(curve).collect();
-        Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&[0.4, 0.6, 0.9, 1.3, 2.0]))
-    };
-    let samples: Vec<_> = states.iter().map(|state| sample(state)).collect();
-    assert_eq!(samples[0].observations(), states[0]);
+    let counts = [[0, 6, 15, 19, 20], [1, 5, 8, 12, 16]]
+        .map(|counts| [0.4, 0.6, 0.9, 1.3, 2.0].into_iter().zip(counts).collect::<Vec<_>>());
+    let states = counts.each_ref().map(|counts| counted(20, counts));
+    let samples: Vec<_> = counts.iter().map(|counts| stripes(20, counts)).collect();
+    for ((level, [runs, exceeded]), wanted) in samples[0].counts().into_iter().zip(&counts[0]) {
+        assert_eq!((level, exceeded, runs), (wanted.0, wanted.1, 20));
+    }
     let summaries = |dispersion| -> [Summary; 2] {
         let estimator = Estimator::new(dispersion, &[0.4, 1.0]);
         let all = compare(std::slice::from_ref(&samples), 0, &estimator, &Bootstrap::new(20, 100, 1));

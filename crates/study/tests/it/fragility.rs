@@ -5,12 +5,13 @@ use proptest::prelude::*;
 use report::table::Digits;
 use run::sample::{Pcg, sample_median};
 use study::fragility::{
-    Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Observation, Sample, Summary, compare,
-    cumulative, fit, fit_jointly, median, steps,
+    Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Sample, Summary, compare, cumulative,
+    fit, fit_jointly, median, steps,
 };
 use study::ida::{Crossing, Curve, Exceedance, Run};
 
 use crate::configuration::mostly;
+use crate::estimators::{medians, stripes};
 
 const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
 
@@ -35,6 +36,10 @@ fn quantile(p: f64) -> f64 {
 fn stratified(count: u32) -> Vec<f64> {
     let z = |k: u32| quantile((f64::from(k) + 0.5) / f64::from(count));
     (0..count).map(|k| TRUTH.median * libm::exp(TRUTH.dispersion * z(k))).collect()
+}
+
+fn of_records(exceedances: &[Exceedance]) -> Result<Lognormal, FitError> {
+    fit(&Sample::of_records(exceedances.to_vec()))
 }
 
 fn near(found: f64, wanted: f64, allowed: f64) {
@@ -65,30 +70,26 @@ fn exact_intensities_have_a_closed_form() {
     let logarithms = intensities.map(f64::ln);
     let mean = logarithms.iter().sum::<f64>() / 6.0;
     let variance = logarithms.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / 6.0;
-    let exact = intensities.map(Observation::At);
-    let found = fit(&exact).unwrap();
+    let exact = intensities.map(Exceedance::At).to_vec();
+    let found = of_records(&exact).unwrap();
     // sums of six terms
     near(found.median, mean.exp(), 1e-15);
     near(found.dispersion, variance.sqrt(), 1e-15);
     // a record censored 40 β below has no influence, but Newton's method finds the same values; its last step
     // leaves 1e-14
-    let searched = fit(&[&exact[..], &[Observation::Above(1e-9)]].concat()).unwrap();
+    let searched = of_records(&[&exact[..], &[Exceedance::Above(1e-9)]].concat()).unwrap();
     near(searched.median, found.median, 1e-13);
     near(searched.dispersion, found.dispersion, 1e-13);
 }
 
 #[test]
 fn stripes_recover_the_truth() {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a probability of 1e6")]
-    let stripe = |intensity: f64| Observation::Stripe {
-        intensity,
-        runs: 1_000_000,
-        exceeded: (1e6 * TRUTH.probability(intensity)).round() as u32,
-    };
-    let found = fit(&[0.2, 0.4, 0.6, 0.8, 1.2, 2.0].map(stripe)).unwrap();
-    // counts rounded to 5e-7 of the runs; θ and β follow within a few times that
-    near(found.median, TRUTH.median, 5e-6);
-    near(found.dispersion, TRUTH.dispersion, 5e-6);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a probability of 1e5")]
+    let counts = [0.2, 0.4, 0.6, 0.8, 1.2, 2.0].map(|x| (x, (1e5 * TRUTH.probability(x)).round() as u32));
+    let found = fit(&stripes(100_000, &counts)).unwrap();
+    // counts rounded to 5e-6 of the runs; θ and β follow within a few times that
+    near(found.median, TRUTH.median, 5e-5);
+    near(found.dispersion, TRUTH.dispersion, 5e-5);
 }
 
 /// A large sample censored at 0.7 still gives the true values; leaving out the censored records does not.
@@ -97,13 +98,13 @@ fn censored_records_count() {
     let top = 0.7;
     let sample = stratified(4000);
     let censored: Vec<_> =
-        sample.iter().map(|&x| if x <= top { Observation::At(x) } else { Observation::Above(top) }).collect();
-    let found = fit(&censored).unwrap();
+        sample.iter().map(|&x| if x <= top { Exceedance::At(x) } else { Exceedance::Above(top) }).collect();
+    let found = of_records(&censored).unwrap();
     // the error of a stratified sample of n is O(1/n), that of a random one O(1/√n)
     near(found.median, TRUTH.median, 2e-3);
     near(found.dispersion, TRUTH.dispersion, 2e-3);
-    let kept: Vec<_> = censored.iter().copied().filter(|o| matches!(o, Observation::At(_))).collect();
-    assert!(fit(&kept).unwrap().median < 0.8 * TRUTH.median);
+    let kept: Vec<_> = censored.iter().copied().filter(|o| matches!(o, Exceedance::At(_))).collect();
+    assert!(of_records(&kept).unwrap().median < 0.8 * TRUTH.median);
 }
 
 /// With steps as wide as half of θ, a record is known only to lie between two levels. These give the true
@@ -113,36 +114,41 @@ fn wide_steps_leave_intervals() {
     let step = 0.31;
     let upper = |x: f64| (x / step).ceil() * step;
     let sample: Vec<_> =
-        stratified(4000).into_iter().map(|x| Observation::Between([upper(x) - step, upper(x)])).collect();
-    let found = fit(&sample).unwrap();
+        stratified(4000).into_iter().map(|x| Exceedance::Between([upper(x) - step, upper(x)])).collect();
+    let found = of_records(&sample).unwrap();
     // counts are off by less than one in 4000
     near(found.median, TRUTH.median, 1e-3);
     near(found.dispersion, TRUTH.dispersion, 1e-3);
-    let upper: Vec<_> = stratified(4000).into_iter().map(|x| Observation::At(upper(x))).collect();
-    assert!(fit(&upper).unwrap().median > 1.15 * TRUTH.median);
+    let upper: Vec<_> = stratified(4000).into_iter().map(|x| Exceedance::At(upper(x))).collect();
+    assert!(of_records(&upper).unwrap().median > 1.15 * TRUTH.median);
 }
 
 #[test]
 fn what_gives_no_curve_is_refused() {
-    use Observation::{Above, At, Stripe};
-    let stripe = |intensity, exceeded| Stripe { intensity, runs: 10, exceeded };
-    for (observations, error) in [
+    use Exceedance::{Above, At, Between};
+    for (records, error) in [
         (vec![], FitError::OneSided),
         (vec![Above(1.0), Above(1.0)], FitError::OneSided),
-        (vec![stripe(1.0, 10), stripe(2.0, 10)], FitError::OneSided),
         (vec![At(0.5)], FitError::NoScatter),
         (vec![At(0.5), At(0.5), Above(0.4)], FitError::NoScatter),
-        (vec![stripe(0.5, 0), stripe(1.0, 10)], FitError::NoScatter),
-        (vec![stripe(0.5, 0), stripe(1.0, 4), stripe(2.0, 10)], FitError::NoScatter),
-        (vec![stripe(0.5, 9), stripe(1.0, 2)], FitError::Falling),
-        (vec![At(-1.0), At(1.0)], FitError::Observation),
-        (vec![At(f64::NAN), At(1.0)], FitError::Observation),
-        (vec![stripe(1.0, 11)], FitError::Observation),
+        (vec![At(-1.0), At(1.0)], FitError::Exceedance),
+        (vec![At(f64::NAN), At(1.0)], FitError::Exceedance),
+        (vec![At(0.5), At(0.0)], FitError::Exceedance),
+        (vec![At(0.5), Above(f64::INFINITY)], FitError::Exceedance),
+        (vec![At(0.5), Between([2.0, 1.0])], FitError::Exceedance),
     ] {
-        assert_eq!(fit(&observations), Err(error), "{observations:?}");
+        assert_eq!(of_records(&records), Err(error), "{records:?}");
+    }
+    for (counts, error) in [
+        (vec![(1.0, 10), (2.0, 10)], FitError::OneSided),
+        (vec![(0.5, 0), (1.0, 10)], FitError::NoScatter),
+        (vec![(0.5, 0), (1.0, 4), (2.0, 10)], FitError::NoScatter),
+        (vec![(0.5, 9), (1.0, 2)], FitError::Falling),
+    ] {
+        assert_eq!(fit(&stripes(10, &counts)), Err(error), "{counts:?}");
     }
     // far tails: likelihoods of e^-1000 and less are still distinguished
-    let far = fit(&[At(1e-6), At(1.1e-6), Above(1e-3), At(1e3)]).unwrap();
+    let far = of_records(&[At(1e-6), At(1.1e-6), Above(1e-3), At(1e3)]).unwrap();
     assert!(far.median.is_finite() && far.dispersion > 5.0);
 }
 
@@ -168,7 +174,7 @@ fn bootstrap_intervals_cover_the_truth() {
         // the draws of one bootstrap serve as random samples
         let sample: Vec<Exceedance> = draws(&population, 40, 1000 + seed);
         let bootstrap = Bootstrap::new(sample.len(), 400, seed);
-        let interval = Interval::new(median(&sample), bootstrap.medians(&sample), 0.95);
+        let interval = Interval::new(median(&sample), medians(&bootstrap, &sample), 0.95);
         covered += u32::from(interval.range[0] <= TRUTH.median && TRUTH.median <= interval.range[1]);
         assert!(interval.range[0] <= interval.estimate && interval.estimate <= interval.range[1]);
     }
@@ -197,33 +203,27 @@ fn ratios_are_paired() {
     let one: Vec<Exceedance> = stratified(30).into_iter().map(Exceedance::At).collect();
     let other: Vec<Exceedance> = stratified(30).into_iter().map(|x| Exceedance::At(1.1 * x)).collect();
     let bootstrap = Bootstrap::new(30, 500, 7);
-    for medians in [
-        |b: &Bootstrap, o: &[Exceedance]| b.medians(o),
-        |b: &Bootstrap, o: &[Exceedance]| {
-            let [theta, _] = b
-                .fitted(&[Sample::of_records(o.to_vec())], &Estimator::new(Dispersion::Own, &[1.0]))
-                .remove(0);
-            theta.most
-        },
-    ] {
-        let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
+    for resampled in [medians, |b: &Bootstrap, o: &[Exceedance]| {
+        let [theta, _] =
+            b.fitted(&[Sample::of_records(o.to_vec())], &Estimator::new(Dispersion::Own, &[1.0])).remove(0);
+        theta.samples.into_iter().map(|[_, most]| most).collect()
+    }] {
+        let (a, b): (Vec<f64>, Vec<f64>) = (resampled(&bootstrap, &one), resampled(&bootstrap, &other));
         assert!(a.iter().any(|median| (median / TRUTH.median - 1.0).abs() > 0.05), "resamples differ");
         let interval = Interval::new(1.1, b.iter().zip(&a).map(|(b, a)| b / a), 0.95);
         near(interval.range[0], 1.1, 1e-8);
         near(interval.range[1], 1.1, 1e-8);
     }
-    let again = Bootstrap::new(30, 500, 7).medians(&one);
-    assert_eq!(again, bootstrap.medians(&one), "the same seed draws the same");
+    let again = medians(&Bootstrap::new(30, 500, 7), &one);
+    assert_eq!(again, medians(&bootstrap, &one), "the same seed draws the same");
 }
 
 /// On a grid of four stripes, separate fits place the median of the lower limit state above that of the
 /// higher one. The joint fit keeps their order.
 #[test]
 fn curves_of_growing_limit_states_do_not_cross() {
-    let states = [[3, 3, 4, 4], [0, 0, 4, 4]].map(|counts| {
-        let stripe = |(intensity, exceeded)| Observation::Stripe { intensity, runs: 10, exceeded };
-        [1.0, 2.0, 3.0, 4.0].into_iter().zip(counts).map(stripe).collect::<Vec<_>>()
-    });
+    let states = [[3, 3, 4, 4], [0, 0, 4, 4]]
+        .map(|counts| stripes(10, &[1.0, 2.0, 3.0, 4.0].into_iter().zip(counts).collect::<Vec<_>>()));
     let [lower, higher] = [0, 1].map(|state| fit(&states[state]).unwrap());
     assert!(lower.median > 1.5 * higher.median, "{lower:?} {higher:?}");
     let joint: Vec<Lognormal> = fit_jointly(&states).into_iter().map(Result::unwrap).collect();
@@ -235,17 +235,18 @@ fn curves_of_growing_limit_states_do_not_cross() {
 #[test]
 fn exact_limit_states_pool_their_dispersion() {
     let states = [vec![1.0, 2.0, 4.0], vec![3.0, 9.0, 27.0]];
-    let observed = states.map(|state| state.into_iter().map(Observation::At).collect::<Vec<_>>());
-    let joint: Vec<Lognormal> = fit_jointly(&observed).into_iter().map(Result::unwrap).collect();
+    let observed = states.map(|state| state.into_iter().map(Exceedance::At).collect::<Vec<_>>());
+    let joint: Vec<Lognormal> =
+        fit_jointly(&observed.clone().map(Sample::of_records)).into_iter().map(Result::unwrap).collect();
     let variance = (2.0_f64.ln().powi(2) + 3.0_f64.ln().powi(2)) / 3.0;
     for (found, median) in joint.iter().zip([2.0, 9.0]) {
         near(found.median, median, 1e-14 * median);
         near(found.dispersion, variance.sqrt(), 1e-14);
     }
     // Newton's method finds the same, and a limit state without a curve leaves the others alone
-    let censored = [observed[0].clone(), vec![Observation::Above(1.0)], observed[1].clone()];
-    let with_one = |state: &[Observation]| [state, &[Observation::Above(1e-9)]].concat();
-    let searched = fit_jointly(&[with_one(&censored[0]), censored[1].clone(), with_one(&censored[2])]);
+    let with_one = |state: &[Exceedance]| [state, &[Exceedance::Above(1e-9)]].concat();
+    let censored = [with_one(&observed[0]), vec![Exceedance::Above(1.0)], with_one(&observed[1])];
+    let searched = fit_jointly(&censored.map(Sample::of_records));
     assert_eq!(searched[1], Err(FitError::OneSided));
     for (found, exact) in [searched[0], searched[2]].into_iter().zip(joint) {
         near(found.unwrap().median, exact.median, 1e-12);
@@ -259,19 +260,19 @@ fn medians_rise_with_the_limit_states() {
     let records = prop::collection::vec([0.1..4.0_f64, 0.0..2.0, 0.0..2.0], 2..30);
     mostly(0.95, (records, any::<bool>()), |(records, striped)| {
         let step = 0.25;
-        let state = |number: usize| -> Vec<Observation> {
+        let state = |number: usize| -> Vec<Exceedance> {
             let reach = |increments: &[f64; 3]| increments[..=number].iter().sum::<f64>();
             let exceedance = |intensity: f64| match intensity {
-                intensity if intensity > 5.0 => Observation::Above(5.0),
+                intensity if intensity > 5.0 => Exceedance::Above(5.0),
                 intensity if striped => {
                     let upper = (intensity / step).ceil() * step;
-                    Observation::Between([upper - step, upper])
+                    Exceedance::Between([upper - step, upper])
                 }
-                intensity => Observation::At(intensity),
+                intensity => Exceedance::At(intensity),
             };
             records.iter().map(reach).map(exceedance).collect()
         };
-        let states: Vec<_> = (0..3).map(state).collect();
+        let states: Vec<_> = (0..3).map(state).map(Sample::of_records).collect();
         let medians: Vec<f64> = fit_jointly(&states).into_iter().flatten().map(|fit| fit.median).collect();
         for pair in medians.windows(2) {
             // Newton's last step leaves 1e-14
@@ -367,27 +368,27 @@ fn medians_of_resamples_are_those_of_what_was_drawn() {
         };
         let exceedances: Vec<_> = (0..count).map(at).collect();
         let mut random = Pcg::new(3);
-        for found in Bootstrap::new(count, 60, 3).medians(&exceedances) {
+        for found in medians(&Bootstrap::new(count, 60, 3), &exceedances) {
             let draw = |_| exceedances[random.below(count)].or_infinity();
             assert_eq!(found, sample_median(&mut (0..count).map(draw).collect::<Vec<_>>()));
         }
     }
 }
 
-/// Twice the same observations have the same maximum, since both fits go on until it is reached: to 1e-14
+/// Twice the same runs have the same maximum, since both fits go on until it is reached: to 1e-14
 /// standard errors, which a rounding of ln L of 1e-14 would make 1e-7.
 #[test]
 fn fits_reach_the_maximum() {
     let mut random = Pcg::new(2);
     let mut compared = 0;
     for _ in 0..60 {
-        let mut stripe = |k: u32| Observation::Stripe {
-            intensity: 0.3 + 0.2 * f64::from(k),
-            runs: 30,
-            exceeded: (4 * k + u32::try_from(random.below(9)).unwrap()).min(30),
+        let mut count = |k: u32| {
+            let exceeded = (4 * k + u32::try_from(random.below(9)).unwrap()).min(30);
+            (0.3 + 0.2 * f64::from(k), exceeded)
         };
-        let once: Vec<Observation> = (0..8).map(&mut stripe).collect();
-        let (Ok(one), Ok(two)) = (fit(&once), fit(&[&once[..], &once].concat())) else { continue };
+        let once: Vec<_> = (0..8).map(&mut count).collect();
+        let twice: Vec<_> = once.iter().map(|(intensity, exceeded)| (*intensity, 2 * exceeded)).collect();
+        let (Ok(one), Ok(two)) = (fit(&stripes(30, &once)), fit(&stripes(60, &twice))) else { continue };
         assert!((one.median / two.median - 1.0).abs() < 1e-13, "{one:?} {two:?}");
         assert!((one.dispersion / two.dispersion - 1.0).abs() < 1e-13, "{one:?} {two:?}");
         compared += 1;

@@ -1,5 +1,6 @@
 //! Records with both signs: which runs they are, and how they are kept and drawn.
 
+use crate::estimators::medians;
 use ground_motion::SyntheticMotion;
 use rocking_wall::variables::{Impact, Rocking};
 use rocking_wall::wall::Parameters;
@@ -118,9 +119,9 @@ fn pairs_are_drawn_together() {
         let all = (1..=15).flat_map(|k| std::iter::repeat_n(Exceedance::At(f64::from(k)), signs));
         all.collect()
     };
-    let single = Bootstrap::new(15, 200, 7).medians(&values(1));
-    assert_eq!(Bootstrap::new(30, 200, 7).in_groups(2).medians(&values(2)), single);
+    let single = medians(&Bootstrap::new(15, 200, 7), &values(1));
+    assert_eq!(medians(&Bootstrap::new(30, 200, 7).in_groups(2), &values(2)), single);
     // drawn one by one, thirty records scatter less
     let spread = |medians: &[f64]| medians.iter().map(|median| (median - 8.0).powi(2)).sum::<f64>();
-    assert!(spread(&Bootstrap::new(30, 200, 7).medians(&values(2))) < 0.8 * spread(&single));
+    assert!(spread(&medians(&Bootstrap::new(30, 200, 7), &values(2))) < 0.8 * spread(&single));
 }

@@ -302,10 +302,19 @@ fn what_is_no_wall_is_refused_by_name() {
     };
     let height: (Size, &[f64]) = (Size::Height, &[3.0]);
     for (error, words) in [
-        (walls(&bilinear(), (Size::Height, &[-1.0]), (Slenderness::Ratio, &[8.0])), &["height", "-1"][..]),
-        (walls(&bilinear(), height, (Slenderness::Ratio, &[f64::NAN])), &["h/b", "NaN"]),
-        (walls(&bilinear(), height, (Slenderness::Angle, &[1.0])), &["angle", "at most 0.7854"]),
-        (walls(&bilinear(), (Size::Height, &[1e-5]), (Slenderness::Ratio, &[8.0])), &["height", "0.00001"]),
+        (
+            walls(&bilinear(), (Size::Height, &[-1.0]), (Slenderness::Ratio, &[8.0])),
+            &["height h (m) = -1", "height = -1 m is below its limit 0.001"][..],
+        ),
+        (
+            walls(&bilinear(), height, (Slenderness::Ratio, &[f64::NAN])),
+            &["h/b = NaN", "thickness = NaN must be a finite number"],
+        ),
+        (walls(&bilinear(), height, (Slenderness::Angle, &[2.0])), &["α (rad) = 2", "thickness = -6"]),
+        (
+            walls(&bilinear(), (Size::Height, &[1e-5]), (Slenderness::Ratio, &[8.0])),
+            &["= 0.00001", "is below its limit 0.001"],
+        ),
         (
             walls(&bilinear(), (Size::Height, &[1.0; 600]), (Slenderness::Ratio, &[8.0; 600])),
             &["360000 points"],

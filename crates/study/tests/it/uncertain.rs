@@ -159,7 +159,7 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         (
             "[uncertain.parameters]\nheight = { normal = [3, -1] }",
-            "line 7: height: Normal { mean: 3.0, deviation: -1.0 } needs a",
+            "line 7: height: Normal { mean: 3.0, deviation: -1.0 }: numbers must be finite",
         ),
         ("[uncertain.parameters]\nheight = { normal = [3] }", "line 7: normal = [3]: expected"),
         ("[uncertain.parameters]\nheight = 3", "line 7: height = 3: expected a table"),

@@ -1,29 +1,9 @@
-//! Observations to which a fragility is fitted; medians and steps of exceedances.
+//! Samples to which a fragility is fitted; medians and steps of exceedances.
 
-use run::sample::sample_median;
+use run::sample::{sample_median, sorted};
 
 use super::term::Term;
 use crate::ida::{Crossing, Curve, Exceedance};
-
-/// An observation to which a fragility is fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Observation {
-    /// A record that exceeds the limit state from this intensity on.
-    At(f64),
-    /// A record that exceeds it from an intensity between these two on; the lower one may be 0.
-    Between([f64; 2]),
-    /// A record that does not exceed it up to this intensity: censored. Baker, Eq. (8).
-    Above(f64),
-    /// A stripe: of `runs` at this intensity, `exceeded` exceed the limit state. Baker, Eq. (11).
-    Stripe {
-        /// Intensity.
-        intensity: f64,
-        /// Number of runs.
-        runs: u32,
-        /// Number of runs that exceed the limit state.
-        exceeded: u32,
-    },
-}
 
 /// What the records show of one limit state.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,23 +70,11 @@ impl Sample {
         self.stripes.iter().map(count).collect()
     }
 
-    /// Returns the observations to which a curve is fitted.
-    pub fn observations(&self) -> Vec<Observation> {
-        let stripe = |(intensity, [runs, exceeded]): (f64, [u32; 2])| Observation::Stripe {
-            intensity,
-            runs,
-            exceeded,
-        };
-        let record = |exceedance: &Exceedance| match *exceedance {
-            Exceedance::At(intensity) => Observation::At(intensity),
-            Exceedance::Between(levels) => Observation::Between(levels),
-            Exceedance::Above(intensity) => Observation::Above(intensity),
-        };
-        if self.stripes.is_empty() {
-            self.exceedances.iter().map(record).collect()
-        } else {
-            self.counts().into_iter().map(stripe).collect()
-        }
+    /// Returns the terms of the likelihood of all records.
+    pub(super) fn terms(&self) -> Vec<Term> {
+        let mut terms = Vec::new();
+        self.prepared().terms(&vec![1; self.exceedances.len()], &mut terms);
+        terms
     }
 
     /// Prepares terms for many fits, with the logarithms of all intensities.
@@ -161,11 +129,7 @@ impl Sample {
         if !counts.is_empty() {
             return counts.iter().filter(|(_, [runs, _])| *runs > 0).map(of_stripe).fold(0.0, f64::max);
         }
-        let [starts, ends] = [0, 1].map(|side| {
-            let mut ends: Vec<f64> = self.exceedances.iter().map(|one| one.bounds()[side]).collect();
-            ends.sort_by(f64::total_cmp);
-            ends
-        });
+        let [starts, ends] = [0, 1].map(|side| sorted(self.exceedances.iter().map(|one| one.bounds()[side])));
         let all = self.exceedances.len() as f64;
         let before = |y: &f64| probability(*y) - starts.partition_point(|start| start < y) as f64 / all;
         let after = |y: &f64| ends.partition_point(|end| end <= y) as f64 / all - probability(*y);
@@ -218,9 +182,8 @@ pub fn median(exceedances: &[Exceedance]) -> f64 {
 /// Returns the steps of the empirical fragility: intensities in rising order, each with the fraction of the
 /// records that exceed the limit state from there on. Censored records count among all records.
 pub fn steps(exceedances: &[Exceedance]) -> Vec<(f64, f64)> {
-    let mut intensities: Vec<f64> = exceedances.iter().map(|exceedance| exceedance.or_infinity()).collect();
-    intensities.retain(|intensity| intensity.is_finite());
-    intensities.sort_by(f64::total_cmp);
+    let intensities = exceedances.iter().map(|exceedance| exceedance.or_infinity());
+    let intensities = sorted(intensities.filter(|intensity| intensity.is_finite()));
     let all = exceedances.len() as f64;
     intensities.iter().enumerate().map(|(index, &intensity)| (intensity, (index + 1) as f64 / all)).collect()
 }
