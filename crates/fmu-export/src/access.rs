@@ -44,29 +44,19 @@ pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -
 /// Returns why `variable` cannot be set; `now` describes the present phase.
 #[cold]
 pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
-    let why = match (variable.causality, variable.variability) {
-        (Causality::Parameter, Variability::Tunable) => {
-            format!("is tunable and cannot be set {now}: set it in Event Mode")
-        }
-        (Causality::Parameter, Variability::Fixed) => format!(
-            "is a fixed parameter and cannot be set {now}: set it before the end of Initialization Mode"
-        ),
-        (Causality::Input, Variability::Discrete) => {
-            format!("is not continuous and cannot change {now}: set another value in Event Mode")
-        }
-        _ => "cannot be set: only parameters and inputs that are not constant can".to_owned(),
-    };
-    Failure(format!("{} {why}", variable.name))
+    let Variable { name, causality, variability, .. } = variable;
+    Failure(format!(
+        "{name} ({causality:?}, {variability:?}) cannot be set {now}: fixed parameters can before the end of \
+         Initialization Mode, tunable ones and discrete inputs in Event Mode, constants and others never"
+    ))
 }
 
 /// Checks that `variable` is an input whose derivative can be set.
 pub(crate) fn check_derivable_input(variable: &Variable) -> Result<(), Failure> {
-    let name = variable.name;
-    match (variable.causality, variable.variability) {
-        (Causality::Input, Variability::Continuous) => Ok(()),
-        (Causality::Input, _) => Err(Failure(format!("{name} is not continuous and takes no derivative"))),
-        _ => Err(Failure(format!("{name} is not an input and takes no derivative"))),
+    if (variable.causality, variable.variability) == (Causality::Input, Variability::Continuous) {
+        return Ok(());
     }
+    Err(Failure(format!("{} takes no derivative: it is no continuous input", variable.name)))
 }
 
 /// Checks that the derivative requested is the first.
