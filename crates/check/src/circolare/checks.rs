@@ -67,10 +67,8 @@ impl Statement {
             warnings.extend(found);
             found_sides[Side::of(sign) as usize] = Some(verdict);
         }
-        if case.alike {
-            found_sides[1] = found_sides[0].clone();
-        }
         let [positive, negative] = found_sides;
+        let negative = if case.alike { positive.clone() } else { negative };
         let sides = SideVerdicts { positive, negative };
         let floors = subject.floors;
         let dynamic = super::dynamic::check(subject.parameters, &case, &sides)?;
