@@ -23,8 +23,8 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError`] of the first whose period does not rise from 0 on, or whose `S_a` is not above 0, and of
-    /// fewer than two; `place` names a point by its index.
+    /// [`CheckError`] of fewer than two, and of the first whose period does not rise from 0 on, or whose
+    /// `S_a` is not above 0; `place` names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
         let refused = |message| CheckError::value(&["spectrum"], message);
         check_points(&points, place).map_err(refused)?;

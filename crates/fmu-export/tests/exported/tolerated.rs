@@ -206,7 +206,7 @@ fn other_types_are_not_read_as_reals() {
 fn a_function_of_another_type_names_the_variable() {
     let calls: [(Call, &str); 11] = [
         (|c| unsafe { fmi3GetInt32(c, &Real::X.reference(), 1, &mut 0, 1) },
-         "fmi3GetInt32: no variable of this type has the value reference 6; x has it: use the function of its"),
+         "fmi3GetInt32: no variable of this type has the value reference 6; x has it: use the function"),
         (|c| unsafe { fmi3GetFloat32(c, &Real::X.reference(), 1, &mut 0.0, 1) },
          "; x has it"),
         (|c| unsafe { fmi3SetFloat32(c, &Real::Force.reference(), 1, &0.0, 1) },
