@@ -76,7 +76,7 @@ def test_event_mode_changes_a_record_in_event_mode_alone(unpacked3):
         unit.set(a_g=1.5).step(0.01)
         with pytest.raises(FMICallException):
             unit.set(a_g=1.6)
-        assert "a_g is not continuous and cannot change in step mode" in unit.messages[-1][-1]
+        assert "a_g (Input, Discrete) cannot be set in step mode" in unit.messages[-1][-1]
 
 
 def test_a_boolean_is_read_as_a_number(running):

@@ -45,24 +45,41 @@ impl Records {
     }
 }
 
-/// Finds the first of points (T, `S_a`) that is not one of a spectrum: T rises from 0 on, `S_a` is above 0.
-pub(crate) fn misplaced(points: &[(f64, f64)]) -> Option<usize> {
+/// Checks that points (T, `S_a`) are a spectrum; `place` names one by its index.
+///
+/// # Errors
+/// The first whose T does not rise from 0 on, or whose `S_a` is not above 0; or that there are too few.
+pub(crate) fn check_points(points: &[(f64, f64)], place: impl Fn(usize) -> String) -> Result<(), String> {
     let is_usable = |index: usize| {
         let (period, acceleration) = points[index];
         let rises = if index == 0 { period == 0.0 } else { period > points[index - 1].0 };
         rises && period.is_finite() && acceleration > 0.0 && acceleration.is_finite()
     };
-    (0..points.len()).find(|index| !is_usable(*index))
+    let expected = "expected T from 0 on that rises, and Sa above 0";
+    match (0..points.len()).find(|index| !is_usable(*index)) {
+        Some(index) => {
+            let ((period, acceleration), at) = (points[index], place(index));
+            Err(format!("{expected}; found T = {period} s and Sa = {acceleration} m/s² at {at}"))
+        }
+        None if points.len() < 2 => Err(format!("{expected}, at two points or more; found {}", points.len())),
+        None => Ok(()),
+    }
 }
 
-/// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them; `None` beyond
-/// its ends.
-pub(crate) fn interpolated(points: &[(f64, f64)], period: f64) -> Option<f64> {
+/// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them.
+///
+/// # Errors
+/// A period beyond its ends.
+pub(crate) fn interpolated(points: &[(f64, f64)], period: f64) -> Result<f64, String> {
     let after = points.partition_point(|point| point.0 < period);
-    let &(t1, s1) = points.get(after)?;
-    if t1 == period {
-        return Some(s1);
+    match (points.get(after), after.checked_sub(1).map(|before| points[before])) {
+        (Some(&(at, found)), _) if at == period => Ok(found),
+        (Some(&(t1, s1)), Some((t0, s0))) => Ok(s0 + (s1 - s0) * ((period - t0) / (t1 - t0))),
+        _ => {
+            let [from, to] = [points.first(), points.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
+            Err(format!(
+                "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period"
+            ))
+        }
     }
-    let &(t0, s0) = points.get(after.checked_sub(1)?)?;
-    Some(s0 + (s1 - s0) * ((period - t0) / (t1 - t0)))
 }

@@ -22,7 +22,7 @@ pub(super) fn reason(
         Ok(checked) => checked,
         Err(error) => return Some(format!("at the end of the range it is refused: {error}")),
     };
-    let zeta = |side: &SideVerdict| side.checks().zetas()[which as usize];
+    let zeta = |side: &SideVerdict| side.checks.zetas()[which as usize];
     let sides = &checked.outcome.sides;
     let (side, verdict) = sides.iter().min_by(|a, b| zeta(a.1).total_cmp(&zeta(b.1)))?;
     let reached = format!("{:.3} at the end of the range", zeta(verdict));
@@ -30,9 +30,9 @@ pub(super) fn reason(
         return Some(reached);
     }
     let by_acceleration = matches!(which, Deciding::Sld | Deciding::SlvWithQ);
-    let broken = verdict.tie_break.filter(|_| !by_acceleration);
+    let broken = verdict.curve.tie_break().filter(|_| !by_acceleration);
     let share = statement.rules(which.state()).fraction;
-    let limit = share * verdict.d0 / verdict.d_per_u;
+    let limit = share * verdict.curve.d0 / verdict.curve.d_per_u;
     let why = match (verdict.tie, broken) {
         (None, _) => format!("{}: the side without a tie governs", side.name()),
         _ if by_acceleration && statement.at_activation() == AtActivation::None => {

@@ -147,12 +147,9 @@ impl<'a> Case<'a> {
         };
         let found = || {
             let curve = Curve::new(self, sign, hinge, tied)?;
-            let own;
-            let demands = if let Some(shared) = &self.shared {
-                shared
-            } else {
-                own = self.demands_at(curve.body())?;
-                &own
+            let demands = match &self.shared {
+                Some(shared) => shared,
+                None => &self.demands_at(curve.body())?,
             };
             let checks = Checks::new(&curve, self.statement, demands, wanted)?;
             Ok((curve, checks))

@@ -3,6 +3,7 @@
 use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Body, Warning};
+use serde::Serialize;
 
 use super::case::{Case, Demands};
 use super::curve::Curve;
@@ -59,16 +60,16 @@ impl Statement {
 
     fn check_wall<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
         let case = Case::new(self, subject)?;
-        let mut sides = SideVerdicts { positive: None, negative: None };
+        let mut found_sides = [None, None];
         let mut warnings = Vec::new();
         for sign in case.sides().take(if case.alike { 1 } else { 2 }) {
             let (verdict, found) = super::sides::side(&case, sign)?;
             warnings.extend(found);
-            *sides.of_mut(Side::of(sign)) = Some(verdict);
+            found_sides[Side::of(sign) as usize] = Some(verdict);
         }
-        if case.alike {
-            sides.negative.clone_from(&sides.positive);
-        }
+        let [positive, negative] = found_sides;
+        let negative = if case.alike { positive.clone() } else { negative };
+        let sides = SideVerdicts { positive, negative };
         let floors = subject.floors;
         let dynamic = super::dynamic::check(subject.parameters, &case, &sides)?;
         let governs = governing(self, &sides, dynamic.as_ref())?;
@@ -76,7 +77,7 @@ impl Statement {
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
         // the wall as it is drawn: with the hinge of the side that governs
         let mut parameters = case.parameters.clone();
-        let hinge = sides.shown(governs.side).and_then(|side| side.hinge);
+        let hinge = sides.shown(governs.side).and_then(|side| side.curve.hinge);
         parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
         let wall = super::sides::drawn(&parameters)?;
         let demands = case.demands_at(wall.body())?;
@@ -135,12 +136,20 @@ pub(super) fn modes_of_storeys(
 }
 
 /// The checks of a side; `None` for one that is not made.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Checks {
-    pub(super) sld: Option<ActivationCheck>,
-    pub(super) slv_q: Option<ActivationCheck>,
-    pub(super) slv: Option<DisplacementCheck>,
-    pub(super) slc: Option<DisplacementCheck>,
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Checks {
+    /// SLD, activation.
+    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
+    pub sld: Option<ActivationCheck>,
+    /// SLV with q.
+    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
+    pub slv_q: Option<ActivationCheck>,
+    /// SLV by displacement.
+    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
+    pub slv: Option<DisplacementCheck>,
+    /// SLC by displacement.
+    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
+    pub slc: Option<DisplacementCheck>,
 }
 
 impl Checks {
@@ -196,6 +205,16 @@ impl Checks {
         ]
     }
 
+    /// Where the hinge is in a check, of h \[-\].
+    pub(super) fn hinge(&self, check: Deciding) -> Option<f64> {
+        match check {
+            Deciding::Sld => self.sld?.hinge,
+            Deciding::SlvWithQ => self.slv_q?.hinge,
+            Deciding::Slv => self.slv?.hinge,
+            Deciding::Slc => self.slc?.hinge,
+        }
+    }
+
     /// The check that governs this side, and its `ζ_E`; infinite where none decides.
     pub(super) fn governing(&self, statement: &Statement) -> (Deciding, f64) {
         let all = Deciding::ALL.into_iter().zip(self.zetas());
@@ -213,7 +232,7 @@ fn activation(
     xi: f64,
     factor: f64,
 ) -> Result<ActivationCheck, CheckError> {
-    let own = curve.elastic.acceleration;
+    let own = curve.ay;
     let AtActivationNumbers { acceleration, t0, .. } = at_activation(curve, statement)?;
     let capacity = factor * acceleration / statement.confidence_factor;
     let required = match curve.tie() {
@@ -244,8 +263,8 @@ pub(super) fn at_activation(curve: &Curve, statement: &Statement) -> Result<AtAc
     let pull = tie_at_activation(curve, statement)?;
     Ok(AtActivationNumbers {
         alpha0: curve.alpha0 + pull / curve.pushed_weight,
-        acceleration: curve.elastic.acceleration + curve.of_force(pull),
-        t0: if pull > 0.0 { curve.tied_period() } else { curve.elastic.period },
+        acceleration: curve.ay + curve.of_force(pull),
+        t0: if pull > 0.0 { curve.tied_period() } else { curve.t0 },
         force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
     })
 }
@@ -301,11 +320,11 @@ fn displacement(
     let state = given.state;
     let Displacements { fraction, period_factor } = rules;
     let (u, limited_by_tie) = limit(curve, given, fraction)?;
-    let (d, a) = (curve.stretch * u, curve.tied(u));
+    let (d, a) = (curve.d_per_u * u, curve.tied(u));
     if a <= 0.0 {
         return Err(CheckError::wall(format!("{state}: a is not positive at d = {d} m")));
     }
-    let (elastic, end) = (curve.elastic.displacement, fraction * curve.d0());
+    let (elastic, end) = (curve.dy, fraction * curve.d0);
     if end <= elastic {
         let [elastic, end] = apart([elastic, end].map(|d| 1e3 * d), 4);
         return Err(CheckError::wall(format!(
@@ -321,7 +340,7 @@ fn displacement(
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
-    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.stretch], curve.anchors));
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
     Ok(DisplacementCheck {
         hinge: curve.hinge,
         d,
@@ -336,7 +355,6 @@ fn displacement(
         limited_by_tie,
         raised,
         tie,
-        d0: curve.d0(),
     })
 }
 
@@ -349,7 +367,7 @@ fn governing(
     let is_dynamic = statement.table.method == Method::Dynamic;
     let mut all = Vec::new();
     for (side, verdict) in sides.iter() {
-        for (limit_state, zeta) in Deciding::ALL.into_iter().zip(verdict.checks().zetas()) {
+        for (limit_state, zeta) in Deciding::ALL.into_iter().zip(verdict.checks.zetas()) {
             let by_runs = is_dynamic && limit_state != Deciding::Sld;
             if statement.decides(limit_state) && !by_runs && zeta.is_finite() {
                 all.push(Governs { side, limit_state, zeta });

@@ -17,6 +17,7 @@ use std::f64::consts::{PI, TAU};
 
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
+use serde::Serialize;
 
 use super::case::Case;
 use super::set_back::SetBack;
@@ -29,47 +30,62 @@ use crate::error::CheckError;
 const CANTILEVER: f64 = 6.2;
 const BENDING: f64 = 2.2;
 
-/// The elastic branch before the wall rocks, C8.7.1.2.1.3.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Elastic {
-    /// T0; 0 where the wall is rigid \[s\].
-    pub(super) period: f64,
-    /// `d_y`, where the branch ends; 0 where the wall is rigid \[m\].
-    pub(super) displacement: f64,
-    /// `a_y` without FC: the largest acceleration before the wall rocks \[m/s²\].
-    pub(super) acceleration: f64,
-}
-
-/// The curve of one side, with the hinge of a strip in one place.
-#[derive(Clone, Debug)]
-pub(super) struct Curve {
+/// The curve of one side, with the hinge of a strip in one place. Serialized it is its numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct Curve {
+    #[serde(skip)]
     statics: Statics,
+    #[serde(skip)]
     sign: f64,
+    #[serde(skip)]
     activation: Activation,
+    #[serde(skip)]
     confidence_factor: f64,
     /// Whether the tie counts.
+    #[serde(skip)]
     tied: bool,
-    /// Where the hinge of a strip is, of h \[-\].
-    pub(super) hinge: Option<f64>,
-    /// Set-backs of the hinges, and F0'/F0.
-    pub(super) set_back: SetBack,
-    pub(super) a3: f64,
-    /// Σ (P + Q) δ over the work of F per unit of u \[N\].
-    pub(super) pushed_weight: f64,
+    #[serde(skip)]
     gravity: f64,
-    /// `F_act`, the force at u = 0 of the line from `a_0` to `d_0` \[N\].
-    pub(super) acting: f64,
-    /// d/u \[-\].
-    pub(super) stretch: f64,
-    /// M* \[kg\].
-    pub(super) mass: f64,
-    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
-    pub(super) anchors: Option<f64>,
-    /// α0 \[-\].
-    pub(super) alpha0: f64,
     /// `u_0`, where the force of the wall alone vanishes \[m\].
-    pub(super) zero: f64,
-    pub(super) elastic: Elastic,
+    #[serde(skip)]
+    pub zero: f64,
+    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
+    #[serde(skip)]
+    pub anchors: Option<f64>,
+    /// Where the hinge of a strip is, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// Set-backs of the hinges; 0 without a compressive strength.
+    pub set_back: SetBack,
+    /// F0'/F0 of hinges that are set back \[-\].
+    #[serde(skip)]
+    pub a3: f64,
+    /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
+    #[serde(skip)]
+    pub pushed_weight: f64,
+    /// `F_act`, the force at u = 0 of the line from `a_0` to `d_0` \[N\].
+    #[serde(skip)]
+    pub acting_force: f64,
+    /// α0 [C8.7.1.1] \[-\].
+    pub alpha0: f64,
+    /// e* [C8.7.1.5] \[-\].
+    pub e_star: f64,
+    /// M* = e* Σ(P + Q)/g \[kg\].
+    #[serde(rename = "M_star")]
+    pub mass: f64,
+    /// `a_0` = α0 g/e*, without FC \[m/s²\].
+    pub a0: f64,
+    /// `d_0` \[m\].
+    pub d0: f64,
+    /// d/u \[-\].
+    pub d_per_u: f64,
+    /// T0 of the elastic branch, C8.7.1.2.1.3; 0 where the wall is rigid \[s\].
+    #[serde(rename = "T0")]
+    pub t0: f64,
+    /// `d_y`, the end of the elastic branch \[m\].
+    pub dy: f64,
+    /// `a_y`, without FC: the largest acceleration before the wall rocks \[m/s²\].
+    pub ay: f64,
 }
 
 impl Curve {
@@ -99,7 +115,7 @@ impl Curve {
         let body = statics.body();
         let gravity = body.weight / body.mass;
         let moved = case.moved;
-        let (pushed_weight, stretch) = match body.mechanism {
+        let (pushed_weight, d_per_u) = match body.mechanism {
             Mechanism::Parapet => {
                 let pushed = body.weight + 2.0 * moved;
                 (pushed, pushed / (body.weight + moved))
@@ -111,44 +127,40 @@ impl Curve {
             let message = "the restoring force never falls to zero, so d_0 does not exist";
             return Err(CheckError::wall(message));
         }
-        // F_act: the softening line at u = 0, at most F0; a law with a plateau has its largest force
-        let acting = if has_plateau(&parameters) {
+        // the softening line at u = 0, at most F0; a law with a plateau has its largest force
+        let acting_force = if has_plateau(&parameters) {
             statics.largest_own_force(sign)
         } else {
             statics.softening_force(sign, 0.0).min(body.strength.of(sign))
         };
         let mass = (body.weight + moved) / gravity;
+        let alpha0 = acting_force / pushed_weight;
         let mut curve = Self {
             statics,
             sign,
             activation: case.activation,
             confidence_factor: case.statement.confidence_factor,
             tied,
+            gravity,
+            zero,
+            anchors: tie::anchors(&parameters),
             hinge,
             set_back,
             a3,
             pushed_weight,
-            gravity,
-            acting,
-            stretch,
+            acting_force,
+            alpha0,
+            e_star: 1.0,
             mass,
-            anchors: tie::anchors(&parameters),
-            alpha0: acting / pushed_weight,
-            zero,
-            elastic: Elastic { period: 0.0, displacement: 0.0, acceleration: 0.0 },
+            a0: alpha0 * gravity,
+            d0: d_per_u * zero,
+            d_per_u,
+            t0: 0.0,
+            dy: 0.0,
+            ay: alpha0 * gravity,
         };
-        curve.elastic = curve.elastic_branch(&parameters, case.young_modulus);
+        curve.set_elastic_branch(&parameters, case.young_modulus);
         Ok(curve)
-    }
-
-    /// `a_0` = α0 g/e*, without FC \[m/s²\].
-    pub(super) fn a0(&self) -> f64 {
-        self.alpha0 * self.gravity
-    }
-
-    /// `d_0` \[m\].
-    pub(super) fn d0(&self) -> f64 {
-        self.stretch * self.zero
     }
 
     /// Whether the wall is held before it rocks.
@@ -162,7 +174,7 @@ impl Curve {
     }
 
     /// The tie that holds this side.
-    pub(super) fn tie(&self) -> Option<&Tie> {
+    pub fn tie(&self) -> Option<&Tie> {
         self.statics.tie().filter(|tie| self.tied && tie.holds(self.sign))
     }
 
@@ -173,9 +185,9 @@ impl Curve {
 
     /// T0 of the wall beside a tie that is tight from the start \[s\].
     pub(super) fn tied_period(&self) -> f64 {
-        let own = self.elastic.period;
+        let own = self.t0;
         let Some(tie) = self.tie().filter(|tie| tie.slack == 0.0 && !self.is_rigid()) else { return own };
-        let stiffness = self.of_force(tie.slope()) / self.stretch;
+        let stiffness = self.of_force(tie.slope()) / self.d_per_u;
         TAU / ((TAU / own).powi(2) + stiffness).sqrt()
     }
 
@@ -192,7 +204,7 @@ impl Curve {
 
     /// |u| up to `u_0` at which the curve may have a corner, in order \[m\].
     fn places(&self) -> Vec<f64> {
-        let mut at = vec![0.0, self.elastic.displacement / self.stretch, self.zero];
+        let mut at = vec![0.0, self.dy / self.d_per_u, self.zero];
         if self.activation == Activation::Law {
             at.extend(self.statics.own_corners(self.sign));
         }
@@ -212,9 +224,9 @@ impl Curve {
         let breaks = self.tie().and_then(Tie::fracture_displacement);
         let mut corners = Vec::new();
         for u in self.places() {
-            corners.push((self.stretch * u, self.tied(u)));
+            corners.push((self.d_per_u * u, self.tied(u)));
             if breaks == Some(u) {
-                corners.push((self.stretch * u, self.own(u)));
+                corners.push((self.d_per_u * u, self.own(u)));
             }
         }
         corners
@@ -235,15 +247,13 @@ impl Curve {
     fn largest_own_from(&self, u: f64) -> f64 {
         let force = match self.activation {
             Activation::Law => self.statics.largest_own_force_from(self.sign, u),
-            Activation::Rigid | Activation::Beam => {
-                self.softening(u.max(self.elastic.displacement / self.stretch))
-            }
+            Activation::Rigid | Activation::Beam => self.softening(u.max(self.dy / self.d_per_u)),
         };
         self.of_force(force) / self.confidence_factor
     }
 
     fn own_force(&self, u: f64) -> f64 {
-        let elastic = self.elastic.displacement / self.stretch;
+        let elastic = self.dy / self.d_per_u;
         match self.activation {
             Activation::Law => self.statics.own_force(self.sign, u),
             Activation::Beam if u < elastic => self.softening(elastic) * (u / elastic),
@@ -256,30 +266,30 @@ impl Curve {
         self.statics.softening_force(self.sign, u).min(self.statics.body().strength.of(self.sign))
     }
 
-    fn elastic_branch(&self, parameters: &Parameters, young_modulus: Option<f64>) -> Elastic {
+    /// Sets T0, `d_y` and `a_y` of a wall that is not rigid.
+    fn set_elastic_branch(&mut self, parameters: &Parameters, young_modulus: Option<f64>) {
         match (self.activation, young_modulus) {
             (Activation::Law, _) => {
                 let u1 = self.statics.elastic_end(self.sign);
-                let (d1, a1) = (self.stretch * u1, self.of_force(self.statics.own_force(self.sign, u1)));
-                let largest = self.of_force(self.statics.largest_own_force(self.sign));
+                let a1 = self.of_force(self.statics.own_force(self.sign, u1));
+                self.dy = self.d_per_u * u1;
+                self.ay = self.of_force(self.statics.largest_own_force(self.sign));
                 // [C8.7.1.6]: a = 4π²/T0² d
-                Elastic { period: TAU * (d1 / a1).sqrt(), displacement: d1, acceleration: largest }
+                self.t0 = TAU * (self.dy / a1).sqrt();
             }
             (Activation::Beam, Some(young_modulus)) => {
-                let factor = match self.statics.body().mechanism {
+                let factor = match self.body().mechanism {
                     Mechanism::Parapet => CANTILEVER,
                     Mechanism::VerticalSpanning => BENDING,
                 };
                 let Parameters { height, thickness, density, .. } = *parameters;
                 // [C8.7.1.7]: T0 = κ λ L √(W_s/(E g)), W_s/g the density
-                let period = factor * (height / thickness) * height * (density / young_modulus).sqrt();
-                let stiffness = (TAU / period).powi(2);
-                let displacement = self.a0() / (stiffness + self.a0() / self.d0());
-                Elastic { period, displacement, acceleration: stiffness * displacement }
+                self.t0 = factor * (height / thickness) * height * (density / young_modulus).sqrt();
+                let stiffness = (TAU / self.t0).powi(2);
+                self.dy = self.a0 / (stiffness + self.a0 / self.d0);
+                self.ay = stiffness * self.dy;
             }
-            (Activation::Rigid, _) | (Activation::Beam, None) => {
-                Elastic { period: 0.0, displacement: 0.0, acceleration: self.a0() }
-            }
+            (Activation::Rigid, _) | (Activation::Beam, None) => {}
         }
     }
 

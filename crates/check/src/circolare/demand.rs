@@ -84,12 +84,8 @@ impl Demand {
                     );
                     return Err(CheckError::value(&[state.key(), "spectrum_damping"], message));
                 }
-                interpolated(points, period).ok_or_else(|| {
-                    let [from, to] = [points[0].0, points[points.len() - 1].0];
-                    let message = format!(
-                        "{state} needs the spectrum up to T = {period} s; it goes from {from} to {to} s"
-                    );
-                    CheckError::value(&[state.key(), "spectrum"], message)
+                interpolated(points, period).map_err(|message| {
+                    CheckError::value(&[state.key(), "spectrum"], format!("{state}: {message}"))
                 })
             }
             Self::Records(records) => {

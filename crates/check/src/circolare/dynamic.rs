@@ -55,7 +55,7 @@ impl Thresholds {
             // runs rock as the scene does: where the static checks leave a side out, they may go up to
             // overturning
             let falls = stretch * wall.body().instability.of(sign);
-            let end = side.map_or(falls, |side| side.d0.min(falls));
+            let end = side.map_or(falls, |side| side.curve.d0.min(falls));
             let limit = side.and_then(|side| side.displacement(state)).map_or(end, |check| check.d);
             let tie = wall.tie().filter(|tie| side.is_some() && tie.holds(sign));
             let strength = tie.and_then(Tie::strength_displacement).map_or(f64::INFINITY, |u| stretch * u);
@@ -191,7 +191,7 @@ pub(super) fn check(
     has_storeys(statement, floors)?;
     let (divided, hinge) = divided(parameters, case, sides)?;
     let motion = Motion::of(&divided, divided.tolerance)?;
-    let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
+    let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.curve.d_per_u);
     let decides = statement.table.method == Method::Dynamic;
     // a wall that rocks, and is checked, alike on both sides has mirrored runs
     let is_alike = case.alike && motion.wall().has_equal_sides();

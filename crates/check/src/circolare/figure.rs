@@ -88,6 +88,7 @@ pub(super) fn over_demand(
     demands: &[Option<Demand>; 3],
     cut: Option<f64>,
 ) -> Result<Plot, CheckError> {
+    let corners = side.curve.corners();
     let shown = side.by_displacement().filter_map(|(state, check)| {
         Some((statement.state(state)?, demands[state as usize].as_ref()?, check))
     });
@@ -96,7 +97,7 @@ pub(super) fn over_demand(
     let place = |check: &DisplacementCheck| {
         (check.demand, check.demand * (std::f64::consts::TAU / check.period).powi(2))
     };
-    let ends = shown.iter().map(|(.., check)| place(check)).chain(side.corners.iter().copied());
+    let ends = shown.iter().map(|(.., check)| place(check)).chain(corners.iter().copied());
     let last = cut.unwrap_or(f64::INFINITY);
     let ends = ends.filter(|end| end.0 <= last);
     let (right, top) = ends.fold((0.0_f64, 0.0_f64), |(d, a), end| (d.max(end.0), a.max(end.1)));
@@ -128,7 +129,7 @@ pub(super) fn over_demand(
         marks.push(mark(CAPACITY, format!("d_{state}"), (check.d, check.a)));
         marks.push(mark(DEMAND, format!("demand of {state}"), place(&check)));
     }
-    let curve = Series::stroke(BLACK, 2.2, side.corners.clone());
+    let curve = Series::stroke(BLACK, 2.2, corners);
     series.push(Series { name: "capacity, with FC".to_owned(), ..curve });
     series.extend(marks);
     let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);

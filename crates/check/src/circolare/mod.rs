@@ -59,8 +59,9 @@ use crate::find::Sought;
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
 
-pub use checks::LARGEST_LOSS;
+pub use checks::{Checks, LARGEST_LOSS};
 pub use compatibility::{BAND, Compatibility};
+pub use curve::Curve;
 pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use floor::{FloorSpectrum, Mode};
 pub use grid::GridUnit;

@@ -43,8 +43,8 @@ impl<'a> Checked<'a> {
         let site = |state| self.statement.state(state).map_or(f64::NAN, |given| given.ag);
         for (side, _, verdict) in self.sides() {
             let activations = [
-                (Deciding::Sld, verdict.sld, class_iv, "C8.7.1.2.1.5"),
-                (Deciding::SlvWithQ, verdict.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
+                (Deciding::Sld, verdict.checks.sld, class_iv, "C8.7.1.2.1.5"),
+                (Deciding::SlvWithQ, verdict.checks.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
             ];
             for (check, found, decides, clause) in activations {
                 rows.extend(found.map(|found| Row {
@@ -62,7 +62,7 @@ impl<'a> Checked<'a> {
             rows.extend(verdict.by_displacement().map(|(state, found)| Row {
                 decides: method == Method::Nonlinear,
                 ground: Some([found.ag, site(state)]),
-                displacement: Some(found.d / verdict.d_per_u),
+                displacement: Some(found.d / verdict.curve.d_per_u),
                 clause: "C8.7.1.2.1.8",
                 remark: remark(state, &found),
                 ..Row::new(state.key(), side, found.zeta, Ends::Displacements([found.d, found.demand]))
@@ -308,7 +308,7 @@ impl Details for Checked<'_> {
         }
         for state in [LimitState::Slv, LimitState::Slc] {
             for (name, unit, factor, value) in DISPLACEMENT {
-                let of = |side: &SideVerdict| side.displacement(state).as_ref().and_then(value);
+                let of = |side: &SideVerdict| side.displacement(state).and_then(|check| value(side, &check));
                 let values = shown.iter().map(|(_, side)| of(side)).collect();
                 row(format!("{state} {name}"), unit, factor, values);
             }

@@ -5,42 +5,21 @@ use serde::Serialize;
 
 use super::LimitState;
 use super::checks::Checks;
-use super::set_back::SetBack;
+use super::curve::Curve;
 use super::tie::TieAtLimit;
-use super::verdict::Deciding;
 
 /// The outcome of one side.
 #[derive(Clone, Debug, Serialize)]
 pub struct SideVerdict {
-    /// Where the hinge of a strip is in the check that governs, of h \[-\]; with it are the numbers of the
-    /// side.
-    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
-    pub hinge: Option<f64>,
-    /// α0 [C8.7.1.1] \[-\].
-    pub alpha0: f64,
-    /// e* [C8.7.1.5] \[-\].
-    pub e_star: f64,
-    /// M* = e* Σ(P + Q)/g \[kg\].
-    #[serde(rename = "M_star")]
-    pub mass: f64,
-    /// `a_0` = α0 g/e*, without FC \[m/s²\].
-    pub a0: f64,
-    /// `d_0` \[m\].
-    pub d0: f64,
-    /// T0 of the elastic branch; 0 where the wall is rigid \[s\].
-    #[serde(rename = "T0")]
-    pub t0: f64,
-    /// `d_y`, the end of the elastic branch \[m\].
-    pub dy: f64,
-    /// `a_y`, without FC \[m/s²\].
-    pub ay: f64,
-    /// d/u \[-\].
-    pub d_per_u: f64,
+    /// The curve with the hinge of the check that governs, and its numbers.
+    #[serde(flatten)]
+    pub curve: Curve,
+    /// The checks.
+    #[serde(flatten)]
+    pub checks: Checks,
     /// What the hinge of the least α0 gives, and the least favourable one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_alpha0: Option<LeastAlpha0>,
-    /// Set-backs of the hinges; 0 without a compressive strength.
-    pub set_back: SetBack,
     /// The wall at its activation, with the tie where it counts there.
     pub activation: AtActivationNumbers,
     /// The tie, on a side that it holds.
@@ -52,69 +31,25 @@ pub struct SideVerdict {
     /// `ζ_E` with half and twice a₁ or E.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<Sensitivity>,
-    /// SLD, activation.
-    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
-    pub sld: Option<ActivationCheck>,
-    /// SLV with q.
-    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
-    pub slv_q: Option<ActivationCheck>,
-    /// SLV by displacement.
-    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
-    pub slv: Option<DisplacementCheck>,
-    /// SLC by displacement.
-    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
-    pub slc: Option<DisplacementCheck>,
-    /// `F_act`, the force that α0 takes \[N\].
+    /// The curves with the hinges of checks that have their own.
     #[serde(skip)]
-    pub acting_force: f64,
-    /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
-    #[serde(skip)]
-    pub pushed_weight: f64,
-    /// F0'/F0 of hinges that are set back \[-\].
-    #[serde(skip)]
-    pub a3: f64,
-    /// Where the tie breaks, if it does.
-    #[serde(skip)]
-    pub tie_break: Option<TieBreak>,
-    /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
-    #[serde(skip)]
-    pub corners: Vec<(f64, f64)>,
-    /// The numbers of the side at the hinges of checks that have their own.
-    #[serde(skip)]
-    pub others: Vec<SideVerdict>,
+    pub others: Vec<Curve>,
 }
 
 impl SideVerdict {
-    /// The numbers of the side at a hinge.
-    pub(super) fn at(&self, hinge: Option<f64>) -> &Self {
-        self.others.iter().find(|other| other.hinge == hinge).unwrap_or(self)
+    /// The curve with a hinge that a check has.
+    pub(super) fn at(&self, hinge: Option<f64>) -> &Curve {
+        self.others.iter().find(|other| other.hinge == hinge).unwrap_or(&self.curve)
     }
 
     /// The check of a limit state by displacement.
     pub(super) fn displacement(&self, state: LimitState) -> Option<DisplacementCheck> {
-        [None, self.slv, self.slc][state as usize]
+        [None, self.checks.slv, self.checks.slc][state as usize]
     }
 
     /// The checks by displacement that are made.
     pub(super) fn by_displacement(&self) -> impl Iterator<Item = (LimitState, DisplacementCheck)> {
         LimitState::ALL.into_iter().filter_map(|state| Some((state, self.displacement(state)?)))
-    }
-
-    pub(super) fn checks(&self) -> Checks {
-        let Self { sld, slv_q, slv, slc, .. } = *self;
-        Checks { sld, slv_q, slv, slc }
-    }
-}
-
-impl Checks {
-    /// Where the hinge is in a check, of h \[-\].
-    pub(super) fn hinge(&self, check: Deciding) -> Option<f64> {
-        match check {
-            Deciding::Sld => self.sld?.hinge,
-            Deciding::SlvWithQ => self.slv_q?.hinge,
-            Deciding::Slv => self.slv?.hinge,
-            Deciding::Slc => self.slc?.hinge,
-        }
     }
 }
 
@@ -167,12 +102,6 @@ pub struct TieNumbers {
     pub breaks: Option<f64>,
     /// What the curve loses there, over its largest a \[-\].
     pub loss: Option<f64>,
-    /// `N_y` \[N\].
-    #[serde(skip)]
-    pub strength: Option<f64>,
-    /// How many anchors hold the width, of a tie that is given by its bar \[-\].
-    #[serde(skip)]
-    pub anchors: Option<f64>,
 }
 
 /// `ζ_E` of a side without its tie.
@@ -294,7 +223,4 @@ pub struct DisplacementCheck {
     /// The tie there and at the demand.
     #[serde(flatten)]
     pub tie: Option<TieAtLimit>,
-    /// `d_0` \[m\].
-    #[serde(skip)]
-    pub d0: f64,
 }

@@ -9,7 +9,6 @@ use super::checks::{Checks, at_activation};
 use super::curve::Curve;
 use super::hinge::{self, Search};
 use super::side_verdict::{LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
-use super::statement::Statement;
 use super::states::Source;
 use super::table::{Activation, Hinge};
 use super::verdict::{Deciding, Side};
@@ -63,11 +62,11 @@ fn by_rule(
                 slc: slc.and_then(|checks| checks.slc),
             };
             let (governs, _) = checks.governing(case.statement);
-            let curve = found.into_iter().nth(governs as usize).flatten().map(|(curve, _)| curve);
-            match curve {
-                Some(curve) => Ok((curve, checks)),
-                None => Ok((case.at(sign, Some(case.least_alpha0(sign)?), true)?.0, checks)),
-            }
+            let curve = match found.into_iter().nth(governs as usize).flatten() {
+                Some((curve, _)) => curve,
+                None => case.at(sign, Some(case.least_alpha0(sign)?), true)?.0,
+            };
+            Ok((curve, checks))
         }
     }
 }
@@ -83,71 +82,21 @@ pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<Strin
         slv: checks.slv.map(|check| check.zeta),
         slc: checks.slc.map(|check| check.zeta),
     });
-    let mut verdict = SideVerdict {
-        least_alpha0,
-        untied,
-        sensitivity: sensitivity(case, sign),
-        sld: checks.sld,
-        slv_q: checks.slv_q,
-        slv: checks.slv,
-        slc: checks.slc,
-        ..numbers(&curve, case.statement)?
-    };
-    verdict.others = others(case, sign, &verdict)?;
-    Ok((verdict, warnings))
-}
-
-/// The numbers of a side that its curve has, without checks.
-fn numbers(curve: &Curve, statement: &Statement) -> Result<SideVerdict, CheckError> {
     let tie = curve.tie().map(|tie| TieNumbers {
         engaged: tie.onset(),
         yields: tie.strength_displacement(),
         breaks: tie.fracture_displacement(),
         loss: curve.tie_break().map(|broken| broken.loss),
-        strength: tie.strength,
-        anchors: curve.anchors,
     });
-    Ok(SideVerdict {
-        hinge: curve.hinge,
-        alpha0: curve.alpha0,
-        e_star: 1.0,
-        mass: curve.mass,
-        a0: curve.a0(),
-        d0: curve.d0(),
-        t0: curve.elastic.period,
-        dy: curve.elastic.displacement,
-        ay: curve.elastic.acceleration,
-        d_per_u: curve.stretch,
-        least_alpha0: None,
-        set_back: curve.set_back,
-        activation: at_activation(curve, statement)?,
-        tie,
-        untied: None,
-        sensitivity: Vec::new(),
-        sld: None,
-        slv_q: None,
-        slv: None,
-        slc: None,
-        acting_force: curve.acting,
-        pushed_weight: curve.pushed_weight,
-        a3: curve.a3,
-        tie_break: curve.tie_break(),
-        corners: curve.corners(),
-        others: Vec::new(),
-    })
-}
-
-/// The numbers of a side at the hinges of checks that have their own.
-fn others(case: &Case<'_>, sign: f64, side: &SideVerdict) -> Result<Vec<SideVerdict>, CheckError> {
-    let mut found: Vec<SideVerdict> = Vec::new();
-    for hinge in Deciding::ALL.into_iter().filter_map(|check| side.checks().hinge(check)) {
-        if side.hinge == Some(hinge) || found.iter().any(|other| other.hinge == Some(hinge)) {
-            continue;
+    let activation = at_activation(&curve, case.statement)?;
+    let mut others: Vec<Curve> = Vec::new();
+    for hinge in Deciding::ALL.into_iter().filter_map(|check| checks.hinge(check)) {
+        if curve.hinge != Some(hinge) && others.iter().all(|other| other.hinge != Some(hinge)) {
+            others.push(Curve::new(case, sign, Some(hinge), true)?);
         }
-        let (curve, _) = case.of_these(sign, (Some(hinge), true), [false; 4])?;
-        found.push(numbers(&curve, case.statement)?);
     }
-    Ok(found)
+    let sensitivity = sensitivity(case, sign);
+    Ok((SideVerdict { curve, checks, least_alpha0, activation, tie, untied, sensitivity, others }, warnings))
 }
 
 /// What the hinge of the least α0 gives; warns where another rule gives another verdict.
@@ -220,14 +169,11 @@ fn beside(
 fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, warnings: &mut Vec<String>) {
     let side = case.name(Side::of(sign));
     let [from, to] = case.statement.hinge_range;
-    let is_end = |x: f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
-    if rule != Hinge::Given {
-        let at = hinge.unwrap_or(f64::NAN);
-        if is_end(at) {
-            warnings.push(format!(
-                "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]"
-            ));
-        }
+    let is_end = |x: &f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
+    if let Some(at) = hinge.filter(is_end).filter(|_| rule != Hinge::Given) {
+        warnings.push(format!(
+            "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]"
+        ));
     }
     let Parameters { height, thickness, .. } = case.parameters;
     let at = hinge.unwrap_or(0.5);
@@ -251,19 +197,17 @@ fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
     };
     let one = |factor: f64| {
         let value = factor * value;
-        let found = by_rule(&case.with(factor), sign, case.rule, hinge::COARSE);
-        let zetas = [f64::NAN; 4];
-        let impossible =
-            Sensitivity { parameter, value, zeta: None, passed: None, slv: None, slc: None, zetas };
-        let Ok((_, checks)) = found else { return impossible };
-        let (_, zeta) = checks.governing(statement);
+        // without a check where the wall with this value has none
+        let checks = by_rule(&case.with(factor), sign, case.rule, hinge::COARSE).ok().map(|found| found.1);
+        let zeta = checks.map(|checks| checks.governing(statement).1);
         Sensitivity {
-            zeta: Some(zeta).filter(|zeta| zeta.is_finite()),
-            passed: Some(zeta >= 1.0),
-            slv: checks.slv.map(|check| check.zeta),
-            slc: checks.slc.map(|check| check.zeta),
-            zetas: checks.zetas(),
-            ..impossible
+            parameter,
+            value,
+            zeta: zeta.filter(|zeta| zeta.is_finite()),
+            passed: zeta.map(|zeta| zeta >= 1.0),
+            slv: checks.and_then(|checks| Some(checks.slv?.zeta)),
+            slc: checks.and_then(|checks| Some(checks.slc?.zeta)),
+            zetas: checks.map_or([f64::NAN; 4], |checks| checks.zetas()),
         }
     };
     VARIED.map(one).to_vec()

@@ -1,7 +1,7 @@
 //! What the table `[check]` states of a limit state, of its ground and of the building.
 
 use crate::error::CheckError;
-use crate::site::misplaced;
+use crate::site::check_points;
 
 use super::LimitState;
 use super::floor::{FloorSpectrum, Mode};
@@ -105,10 +105,8 @@ fn source(
         }
         (None, Some(points), Some(damping)) if given.f0.or(given.tc).is_none() => {
             let points: Vec<_> = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
-            if points.len() < 2 || misplaced(&points).is_some() {
-                let message = "expected points [T, Sa] in s and g: T from 0 on that rises, Sa above 0";
-                return Err(refused(state, "spectrum", message));
-            }
+            let place = |index| format!("point {} of the spectrum", index + 1);
+            check_points(&points, place).map_err(|message| refused(state, "spectrum", &message))?;
             Ok(Source::Points(points, damping))
         }
         (None, None, None)

@@ -61,15 +61,11 @@ pub struct TieAtLimit {
     /// Its state there.
     #[serde(rename = "tie_state_at_demand")]
     pub state_at_demand: TieState,
-    /// How many anchors have these forces, of a tie that is given by its bar \[-\].
-    #[serde(skip)]
-    pub anchors: Option<f64>,
 }
 
 impl TieAtLimit {
-    pub(super) fn new(tie: &Tie, [u, demand]: [f64; 2], anchors: Option<f64>) -> Self {
+    pub(super) fn new(tie: &Tie, [u, demand]: [f64; 2]) -> Self {
         Self {
-            anchors,
             force: force(tie, u),
             state: TieState::at(tie, u),
             force_at_demand: force(tie, demand),

@@ -155,13 +155,6 @@ impl SideVerdicts {
         self.of(side).or(self.positive.as_ref()).or(self.negative.as_ref())
     }
 
-    pub(super) fn of_mut(&mut self, side: Side) -> &mut Option<SideVerdict> {
-        match side {
-            Side::Positive => &mut self.positive,
-            Side::Negative => &mut self.negative,
-        }
-    }
-
     /// The sides there are.
     pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
         let sides = [(Side::Positive, &self.positive), (Side::Negative, &self.negative)];

@@ -178,7 +178,7 @@ pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Deman
     let mut warnings = Vec::new();
     for (given, demand) in statement.demanded(demands) {
         let Some(floor) = demand.floor() else { continue };
-        let (xi, t0) = (LimitState::Sld.damping(), side.t0);
+        let (xi, t0) = (LimitState::Sld.damping(), side.curve.t0);
         let (above, ground) = (floor.acceleration(t0, xi), floor.ground().acceleration(t0, xi));
         if t0 > 0.0 && t0 < floor.first_period() && above < ground {
             let [above, ground] = apart([above, ground], 5);
@@ -249,15 +249,15 @@ pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Strin
     let mut warnings = Vec::new();
     for (name, side) in sides.iter() {
         for (index, varied) in side.sensitivity.iter().enumerate() {
-            let (own, zetas) = (side.checks().zetas(), varied.zetas);
+            let (own, zetas) = (side.checks.zetas(), varied.zetas);
             let is_turned = |at: &usize| {
                 statement.decides(Deciding::ALL[*at]) && (own[*at] >= 1.0) != (zetas[*at] >= 1.0)
             };
-            let passed = side.checks().governing(statement).1 >= 1.0;
+            let passed = side.checks.governing(statement).1 >= 1.0;
             let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!passed)) else {
                 continue;
             };
-            let before = sides.iter().all(|(_, side)| side.checks().governing(statement).1 >= 1.0);
+            let before = sides.iter().all(|(_, side)| side.checks.governing(statement).1 >= 1.0);
             let after = sides.iter().all(|(_, side)| side.sensitivity[index].passed == Some(true));
             warnings.push(format!(
                 "{}: {} turns the verdict{}: with {} {} goes from {:.3} to {:.3}, {}",

@@ -6,7 +6,7 @@ use ground_motion::{GroundMotion, Maxima, Spectrum};
 use run::sample::sample_median;
 
 use crate::error::CheckError;
-use crate::site::{interpolated, misplaced};
+use crate::site::{check_points, interpolated};
 
 /// The demand of a check.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,23 +23,12 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError`] of the first whose period does not rise from 0 on, or whose `S_a` is not above 0;
-    /// `place` names a point by its index.
+    /// [`CheckError`] of fewer than two, and of the first whose period does not rise from 0 on, or whose
+    /// `S_a` is not above 0; `place` names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
-        match misplaced(&points) {
-            None if !points.is_empty() => Ok(Self(Of::Points(points))),
-            found => {
-                let at = found.map_or_else(
-                    || "found no points".to_owned(),
-                    |index| {
-                        let (period, acceleration) = points[index];
-                        format!("found T = {period} s and Sa = {acceleration} m/s² at {}", place(index))
-                    },
-                );
-                let message = format!("expected T from 0 on that rises, and Sa above 0; {at}");
-                Err(CheckError::value(&["spectrum"], message))
-            }
-        }
+        let refused = |message| CheckError::value(&["spectrum"], message);
+        check_points(&points, place).map_err(refused)?;
+        Ok(Self(Of::Points(points)))
     }
 
     /// Makes the demand of what acts on a wall: the median spectrum of motions with a damping ratio.
@@ -59,14 +48,9 @@ impl Demand {
     /// [`CheckError`] for a period that the demand does not have.
     pub fn at(&self, period: f64) -> Result<f64, CheckError> {
         match &self.0 {
-            Of::Points(points) => interpolated(points, period).ok_or_else(|| {
-                let [from, to] = [points.first(), points.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
-                let message = format!(
-                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that \
-                     period"
-                );
-                CheckError::value(&["spectrum"], message)
-            }),
+            Of::Points(points) => {
+                interpolated(points, period).map_err(|message| CheckError::value(&["spectrum"], message))
+            }
             Of::Records(spectrum, motions) => {
                 let at = |motion| spectrum.acceleration(motion, period);
                 let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;

@@ -130,10 +130,18 @@ fn parapet_at_activation() {
         for (ratio, expected) in [(None, ground), (Some(1.0), roof)] {
             let verdict = example(PARAPET, activation, ratio, "");
             let side = positive(&verdict);
-            let sld = side.sld.unwrap();
-            near_each([side.alpha0, side.mass, side.d0, side.a0], [0.1, 2880.0, 0.2, 0.981], "the curve");
-            near_each([side.t0, side.dy, side.ay, sld.capacity], branch, "the elastic branch");
-            let with_q = side.slv_q.unwrap().ratio;
+            let sld = side.checks.sld.unwrap();
+            near_each(
+                [side.curve.alpha0, side.curve.mass, side.curve.d0, side.curve.a0],
+                [0.1, 2880.0, 0.2, 0.981],
+                "the curve",
+            );
+            near_each(
+                [side.curve.t0, side.curve.dy, side.curve.ay, sld.capacity],
+                branch,
+                "the elastic branch",
+            );
+            let with_q = side.checks.slv_q.unwrap().ratio;
             near_each([sld.demand, sld.ratio, sld.ag, with_q], expected, "SLD, and SLV with q");
         }
     }
@@ -163,8 +171,8 @@ fn parapet_by_displacement() {
         for (ratio, expected) in [(None, ground), (Some(1.0), roof)] {
             let verdict = example(PARAPET, activation, ratio, "");
             for side in [positive(&verdict), verdict.sides.negative.as_ref().unwrap()] {
-                near_each(numbers(&side.slv.unwrap()), all(slv, expected[0]), "SLV");
-                near_each(numbers(&side.slc.unwrap()), all(slc, expected[1]), "SLC");
+                near_each(numbers(&side.checks.slv.unwrap()), all(slv, expected[0]), "SLV");
+                near_each(numbers(&side.checks.slc.unwrap()), all(slc, expected[1]), "SLC");
             }
             assert!(!verdict.passed);
             near(verdict.governs.zeta, expected[0][3], "what governs");
@@ -185,13 +193,13 @@ fn strip_wall() {
         // 7.5/9, with more digits than the table has
         let verdict = example(wall, activation, Some(7.5 / 9.0), "");
         let side = positive(&verdict);
-        let curve = [side.alpha0, side.mass, side.a0, side.d0];
+        let curve = [side.curve.alpha0, side.curve.mass, side.curve.a0, side.curve.d0];
         near_each(curve, [0.710877, 1350.0, 6.9737, 0.106199], "the curve");
-        near_each([side.t0, side.dy, side.ay], branch, "the elastic branch");
-        let found = side.sld.unwrap();
+        near_each([side.curve.t0, side.curve.dy, side.curve.ay], branch, "the elastic branch");
+        let found = side.checks.sld.unwrap();
         near_each([found.capacity, found.demand, found.ratio, found.ag], sld, "SLD");
-        near(side.slv_q.unwrap().ratio, with_q, "SLV with q");
-        let slv = side.slv.unwrap();
+        near(side.checks.slv_q.unwrap().ratio, with_q, "SLV with q");
+        let slv = side.checks.slv.unwrap();
         assert_eq!(slv.raised, activation == "rigid");
         near(slv.ratio, 1.02249, "SLV before the floor");
         let ag = if slv.raised { 0.166337 } else { 0.153374 };
@@ -199,7 +207,7 @@ fn strip_wall() {
         near_each(numbers(&slv), expected, "SLV");
         let ag = 1.31793 * 0.15;
         let expected = [0.0637196, 2.06628, 0.860629, 2.57697, 0.0483483, 0.0302383, 1.31793, ag];
-        near_each(numbers(&side.slc.unwrap()), expected, "SLC");
+        near_each(numbers(&side.checks.slc.unwrap()), expected, "SLC");
         assert!(verdict.passed);
         near(verdict.governs.zeta, zeta, "what governs");
     }
@@ -216,12 +224,12 @@ fn tied_parapet() {
     ] {
         let verdict = example(&format!("{PARAPET}{tie}"), "law", ratio, "");
         let side = positive(&verdict);
-        let found = side.slv.unwrap();
-        assert!(found.limited_by_tie && !side.slc.unwrap().limited_by_tie);
+        let found = side.checks.slv.unwrap();
+        assert!(found.limited_by_tie && !side.checks.slc.unwrap().limited_by_tie);
         let [s, first, second, zeta, ag] = slv;
         near_each(numbers(&found), [0.0366667, 2.52246, 0.636331, s, first, second, zeta, ag], "SLV");
-        near(side.slc.unwrap().zeta, slc, "SLC");
-        near(side.sld.unwrap().capacity, 0.704867, "SLD");
+        near(side.checks.slc.unwrap().zeta, slc, "SLC");
+        near(side.checks.sld.unwrap().capacity, 0.704867, "SLD");
     }
 }
 
@@ -241,9 +249,20 @@ fn loaded_parapet() {
         let wall = format!("{PARAPET}overburden = 5e3\noverburden_eccentricity = 0.05\n");
         let verdict = example(&wall, "rigid", None, &format!("overburden_mass = {r}"));
         let side = positive(&verdict);
-        let (sld, slv) = (side.sld.unwrap(), side.slv.unwrap());
+        let (sld, slv) = (side.checks.sld.unwrap(), side.checks.slv.unwrap());
         let [d, a, period, _, demand, _, zeta, _] = numbers(&slv);
-        let found = [side.alpha0, side.mass, side.a0, side.d0, sld.ratio, d, a, period, demand, zeta];
+        let found = [
+            side.curve.alpha0,
+            side.curve.mass,
+            side.curve.a0,
+            side.curve.d0,
+            sld.ratio,
+            d,
+            a,
+            period,
+            demand,
+            zeta,
+        ];
         near_each(found, expected, &format!("r = {r}"));
     }
 }

@@ -197,7 +197,7 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
     let share = |run: &check::circolare::DynamicRun, limits: [f64; 2]| {
         (run.d[0] / limits[0]).max(run.d[1] / limits[1])
     };
-    let limit = outcome.sides.positive.as_ref().unwrap().slv.as_ref().unwrap().d;
+    let limit = outcome.sides.positive.as_ref().unwrap().checks.slv.as_ref().unwrap().d;
     let worst = state.runs.iter().map(|run| share(run, [limit, 0.2])).fold(0.0, f64::max);
     near(state.judged.ratio, 1.0 / worst, "the largest share of a threshold");
     assert!(state.judged.ratio < 1.0);

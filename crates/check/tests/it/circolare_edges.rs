@@ -66,7 +66,7 @@ fn local_instability_limits_slc() {
         let outcome =
             wall(tie, &format!("SLC = {{ ag = 0.15, F0 = 2.45, TC = 0.32, displacement = {displacement} }}"));
         let side = positive(&outcome);
-        let found = displaced(side.slc);
+        let found = displaced(side.checks.slc);
         (found.d, found.tie.unwrap())
     };
     // d = u, and the lever of the tie is 1: it begins to pull at u = 0.05 m and breaks at 0.075 m
@@ -89,7 +89,7 @@ fn a_tie_that_takes_less_than_half_does_not_limit_slv() {
         let tie = format!("[tie]\ntie_height = 4\ntie_stiffness = 1e6\ntie_strength = {strength}\n");
         let outcome = wall(&tie, &format!("SLV = {SITE}"));
         let side = positive(&outcome);
-        (side.tie.unwrap().loss.unwrap(), displaced(side.slv).limited_by_tie)
+        (side.tie.unwrap().loss.unwrap(), displaced(side.checks.slv).limited_by_tie)
     };
     // F0 = 2825 N; u_r of a tie at the top is N/(2 K), small beside u_0 = 0.2 m: the loss is 2 N/(2 N + F0)
     for (strength, loss, limits) in [(1.2e3, 0.46, false), (1.6e3, 0.53, true)] {
@@ -110,10 +110,10 @@ fn an_eccentricity_that_follows_the_hinge_is_that_of_both_sides() {
         checked(&follows.replace("soil =", &format!("rocking = {rocking:?}\nsoil ="))).unwrap()
     };
     let (follows, other) = (side("one_sided_positive"), side("one_sided_negative"));
-    let (one, fixed) = (positive(&follows).alpha0, checked(&text).unwrap());
-    assert!(follows.sides.negative.is_none() && negative(&other).alpha0 == one);
-    assert_eq!(one, positive(&fixed).alpha0);
-    assert!(negative(&fixed).alpha0 < 0.7 * one);
+    let (one, fixed) = (positive(&follows).curve.alpha0, checked(&text).unwrap());
+    assert!(follows.sides.negative.is_none() && negative(&other).curve.alpha0 == one);
+    assert_eq!(one, positive(&fixed).curve.alpha0);
+    assert!(negative(&fixed).curve.alpha0 < 0.7 * one);
 }
 
 /// A given hinge is compared with the others also where the verdict is the same.
@@ -139,7 +139,7 @@ fn a_range_of_periods_does_not_turn_round() {
                  SLV = { ag = 0.2, spectrum = [[0, 1], [0.0597, 1], [0.0602, 90], [0.0607, 1], [9, 0.1]], \
                  spectrum_damping = 0.08 }\n";
     let outcome = checked(&format!("{wall}{table}")).unwrap();
-    let slv = displaced(positive(&outcome).slv);
+    let slv = displaced(positive(&outcome).checks.slv);
     near(slv.period, 0.0595661, "T_SLV");
     near(slv.demand, 9.81 * (slv.period / std::f64::consts::TAU).powi(2), "1 g there");
 }
@@ -150,8 +150,8 @@ fn one_anchor_has_the_force_of_its_spacing() {
     let bar = "tie.bar = { diameter = 0.016, length = 6, yield_stress = 235e6, ultimate_strain = 0.02, \
                spacing = 3 }";
     let outcome = checked(&facade("", bar)).unwrap();
-    let tie = positive(&outcome).tie.unwrap();
-    let one = tie.strength.unwrap() / tie.anchors.unwrap();
+    let curve = &positive(&outcome).curve;
+    let one = curve.tie().unwrap().strength.unwrap() / curve.anchors.unwrap();
     // π φ²/4 f_y
     near(one, std::f64::consts::PI * 0.016 * 0.016 / 4.0 * 235e6, "one anchor");
 }
@@ -168,7 +168,7 @@ fn a_strip_feels_its_floors_by_its_hinge() {
              records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
              SLD = {{ ag = 0.1, building_damping = 0.05 }}\nSLV = {{ ag = 0.2, building_damping = 0.05 }}\n"
         );
-        positive(&checked(&text).unwrap()).sld.unwrap().demand
+        positive(&checked(&text).unwrap()).checks.sld.unwrap().demand
     };
     let [low, high] = [0.3, 0.7].map(demand);
     // the weights of the floors are (1 ∓ …)/2 of bottom and top, whose motions differ by a half and more

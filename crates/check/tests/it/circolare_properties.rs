@@ -64,9 +64,9 @@ proptest! {
         let mirrored = checked(&case.text(1.0, -1.0, 1.0)).unwrap();
         // the eccentricity of a strip wall is that of both sides alike, by mode
         let [one, other] = [&verdict.sides.positive, &mirrored.sides.negative].map(|s| s.as_ref().unwrap());
-        near(one.d0, other.d0, "d_0 of the mirrored wall");
-        near(one.slv.unwrap().zeta, other.slv.unwrap().zeta, "SLV of the mirrored wall");
-        near(one.sld.unwrap().ratio, other.sld.unwrap().ratio, "SLD of the mirrored wall");
+        near(one.curve.d0, other.curve.d0, "d_0 of the mirrored wall");
+        near(one.checks.slv.unwrap().zeta, other.checks.slv.unwrap().zeta, "SLV of the mirrored wall");
+        near(one.checks.sld.unwrap().ratio, other.checks.sld.unwrap().ratio, "SLD of the mirrored wall");
     }
 
     /// Capacity over demand falls as 1/a_g while T_D stays beyond the periods: rock, short periods.
@@ -74,11 +74,11 @@ proptest! {
     fn shaking(case in case(), factor in 0.5..3.0) {
         let [weak, strong] = [1.0, factor].map(|factor| checked(&case.text(1.0, 1.0, factor)).unwrap());
         let [weak, strong] = [&weak, &strong].map(|v| v.sides.positive.as_ref().unwrap());
-        near(strong.sld.unwrap().ratio * factor, weak.sld.unwrap().ratio, "SLD");
-        near(strong.slv_q.unwrap().ratio * factor, weak.slv_q.unwrap().ratio, "SLV with q");
-        if weak.slc.unwrap().period < 1.6 {
-            near(strong.slv.unwrap().ratio * factor, weak.slv.unwrap().ratio, "SLV");
-            near(strong.slc.unwrap().ratio * factor, weak.slc.unwrap().ratio, "SLC");
+        near(strong.checks.sld.unwrap().ratio * factor, weak.checks.sld.unwrap().ratio, "SLD");
+        near(strong.checks.slv_q.unwrap().ratio * factor, weak.checks.slv_q.unwrap().ratio, "SLV with q");
+        if weak.checks.slc.unwrap().period < 1.6 {
+            near(strong.checks.slv.unwrap().ratio * factor, weak.checks.slv.unwrap().ratio, "SLV");
+            near(strong.checks.slc.unwrap().ratio * factor, weak.checks.slc.unwrap().ratio, "SLC");
         }
     }
 
@@ -112,6 +112,6 @@ fn a_stiff_building_is_the_ground() {
     let building = format!("building = {{ modes = [{{ period = 1e-6, participation = {participation} }}] }}");
     let stiff = checked(&text(&building, ", building_damping = 0.05")).unwrap();
     let [ground, stiff] = [&ground, &stiff].map(|verdict| verdict.sides.positive.as_ref().unwrap());
-    near(stiff.sld.unwrap().demand, ground.sld.unwrap().demand, "a_Z");
-    near(stiff.slv.unwrap().demand, ground.slv.unwrap().demand, "S_d");
+    near(stiff.checks.sld.unwrap().demand, ground.checks.sld.unwrap().demand, "a_Z");
+    near(stiff.checks.slv.unwrap().demand, ground.checks.slv.unwrap().demand, "S_d");
 }

@@ -136,7 +136,7 @@ fn demands_that_do_not_serve_are_refused() {
     let as_they_are = "or ag, with records and record_scale = \"none\"";
     for (table, message) in [
         (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),
-        (spectrum(to_two, 0.1), "SLC needs the spectrum up to T = 3.1"),
+        (spectrum(to_two, 0.1), "SLC: the spectrum goes from 0 to 2 s and has no T = 3.1"),
         (spectrum("[[1, 0.2], [2, 0.01]]", 0.1), "T from 0 on that rises"),
         (in_building, "leave [check.building] out"),
         (records.replace(SITE, "{ ag = 0.15 }"), as_they_are),

@@ -66,10 +66,10 @@ pub(crate) fn near_all(found: &[f64], expected: &[f64], what: &str) {
 /// `ζ_E` of SLD, SLV with q, SLV and SLC, and their hinges.
 fn zetas(side: &SideVerdict) -> ([f64; 4], [f64; 4]) {
     let none = f64::NAN;
-    let activation =
-        [side.sld, side.slv_q].map(|check| check.map_or([none; 2], |c| [c.ratio, c.hinge.unwrap_or(none)]));
-    let displaced =
-        [side.slv, side.slc].map(|check| check.map_or([none; 2], |c| [c.zeta, c.hinge.unwrap_or(none)]));
+    let activation = [side.checks.sld, side.checks.slv_q]
+        .map(|check| check.map_or([none; 2], |c| [c.ratio, c.hinge.unwrap_or(none)]));
+    let displaced = [side.checks.slv, side.checks.slc]
+        .map(|check| check.map_or([none; 2], |c| [c.zeta, c.hinge.unwrap_or(none)]));
     let [a, b] = activation;
     let [c, d] = displaced;
     ([a[0], b[0], c[0], d[0]], [a[1], b[1], c[1], d[1]])
@@ -149,7 +149,7 @@ fn hinges_that_are_searched() {
             assert!((hinges[index] - x[index]).abs() < HINGE, "{hinges:?} for {x:?}");
         }
         if !ratio.is_nan() {
-            near(side.slv.unwrap().ratio, ratio, "SLV by displacement");
+            near(side.checks.slv.unwrap().ratio, ratio, "SLV by displacement");
         }
         let found = side.least_alpha0.unwrap();
         near(found.alpha0, least[0], "least alpha0");
@@ -169,13 +169,13 @@ fn what_the_hinge_and_a1_change() {
     assert_eq!([varied[0].passed, varied[1].passed], [Some(false); 2]);
     for (x, slv) in [(0.4, 1.26468), (0.5, 1.06278), (0.6, 0.979657), (0.65, 0.975823), (0.7, 1.00065)] {
         let outcome = checked(&strip(0.03, &format!("hinge_ratio = {x}"), law)).unwrap();
-        near(negative(&outcome).slv.unwrap().zeta, slv, "a given hinge");
+        near(negative(&outcome).checks.slv.unwrap().zeta, slv, "a given hinge");
     }
     // the least α0 is the default of a strip without hinge_ratio
     let outcome = checked(&strip(0.03, "", law)).unwrap();
     let side = negative(&outcome);
     near_all(&zetas(side).0, &[2.45573, 2.60430, 0.978529, 1.02206], "least alpha0");
-    near(side.slv.unwrap().ratio, 0.774090, "SLV by displacement");
+    near(side.checks.slv.unwrap().ratio, 0.774090, "SLV by displacement");
     for hinge in zetas(side).1 {
         assert!((hinge - 0.660745).abs() < HINGE, "{hinge}");
     }
@@ -203,13 +203,13 @@ fn hinges_that_are_set_back() {
         (positive(&outcome), 1.89081, 0.140148, 0.105823, 1.05210, 0.859428, 1.14595),
         (negative(&outcome), 1.61235, 0.119508, 0.107433, 0.886574, 0.732858, 0.977179),
     ] {
-        let t = side.set_back;
+        let t = side.curve.set_back;
         near_all(&[t.base, t.middle, t.top], &[0.0401643, 0.0341998, 0.0282353], "set-backs");
-        near_all(&[side.alpha0, side.d0, side.t0], &[alpha0, d0, t0], "the curve");
-        let found = displaced(side.slv);
+        near_all(&[side.curve.alpha0, side.curve.d0, side.curve.t0], &[alpha0, d0, t0], "the curve");
+        let found = displaced(side.checks.slv);
         assert!(found.raised);
         near_all(&[found.period, found.zeta, found.ratio], &[0.410335, slv, ratio], "SLV");
-        near(displaced(side.slc).zeta, slc, "SLC");
+        near(displaced(side.checks.slc).zeta, slc, "SLC");
     }
     let site = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
     let outcome = checked(&format!(
@@ -222,11 +222,18 @@ fn hinges_that_are_set_back() {
         (positive(&outcome), 0.153092, [0.841674, 0.128854, 0.106676, 0.596545, 1.37137, 0.732291]),
         (negative(&outcome), 0.188487, [0.871405, 0.164248, 0.135979, 0.760409, 1.37137, 0.933444]),
     ] {
-        near(side.alpha0 / side.a3, edges, "alpha0 with the hinges at the edges");
-        let slv = displaced(side.slv);
-        let found = [side.a3, side.alpha0, side.d0, side.sld.unwrap().ratio, slv.period, slv.zeta];
+        near(side.curve.alpha0 / side.curve.a3, edges, "alpha0 with the hinges at the edges");
+        let slv = displaced(side.checks.slv);
+        let found = [
+            side.curve.a3,
+            side.curve.alpha0,
+            side.curve.d0,
+            side.checks.sld.unwrap().ratio,
+            slv.period,
+            slv.zeta,
+        ];
         near_all(&found, &expected, "parapet");
-        near(side.set_back.base, 0.0283840, "t");
+        near(side.curve.set_back.base, 0.0283840, "t");
     }
 }
 
@@ -241,17 +248,17 @@ fn set_back_hinges_are_a_law_with_a3() {
         )
     };
     let set_back = checked(&text("", "masonry_strength = 2e6")).unwrap();
-    let a3 = positive(&set_back).a3;
+    let a3 = positive(&set_back).curve.a3;
     let law = format!("a3 = {a3}\nsoftening = \"parallel\"\n");
     let given = checked(&text(&law, "compression_considered = true")).unwrap();
     let [one, other] = [&set_back, &given].map(positive);
     // some roundings
     for (found, expected) in [
-        (one.alpha0, other.alpha0),
-        (one.d0, other.d0),
-        (one.t0, other.t0),
-        (one.sld.unwrap().ratio, other.sld.unwrap().ratio),
-        (one.slv.unwrap().zeta, other.slv.unwrap().zeta),
+        (one.curve.alpha0, other.curve.alpha0),
+        (one.curve.d0, other.curve.d0),
+        (one.curve.t0, other.curve.t0),
+        (one.checks.sld.unwrap().ratio, other.checks.sld.unwrap().ratio),
+        (one.checks.slv.unwrap().zeta, other.checks.slv.unwrap().zeta),
     ] {
         assert!(a3 < 1.0 && (found - expected).abs() <= 1e-14 * expected, "{found} for {expected}");
     }

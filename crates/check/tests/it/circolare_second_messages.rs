@@ -100,7 +100,7 @@ fn ties_that_do_not_act_at_the_activation() {
     let outcome = checked(&facade(stiff, "")).unwrap();
     let side = positive(&outcome);
     // u_y = N_y h/(2 K y), so that this K has u_y = 0.1 u_0
-    let limit = 10e3 * 7.0 / (2.0 * 6.8) / (0.1 * side.d0 / side.d_per_u);
+    let limit = 10e3 * 7.0 / (2.0 * 6.8) / (0.1 * side.curve.d0 / side.curve.d_per_u);
     let soft = format!("tie_stiffness = {}\ntie_strength = 10e3", limit * (1.0 - 1e-7));
     let told = refuses(&facade(&soft, YIELD), "its strength at u_y = ");
     let number = |name: &str| told.split_once(name).unwrap().1.split(' ').next().unwrap();

@@ -20,23 +20,31 @@ fn ties_at_the_activation() {
     ] {
         let outcome = checked(&facade(tie, more)).unwrap();
         let side = positive(&outcome);
-        let checks = [side.sld.unwrap(), side.slv_q.unwrap()];
+        let checks = [side.checks.sld.unwrap(), side.checks.slv_q.unwrap()];
         near_all(&checks.map(|check| check.ratio), &[sld, slv_q], "activation");
         near_all(&checks.map(|check| check.required.unwrap()), &required, "required strength");
         near(side.activation.alpha0, alpha0, "alpha0");
         near(checks[1].demand, 2.95266, "a_g S");
         let other = negative(&outcome);
-        near_all(&[other.sld.unwrap().ratio, other.slv_q.unwrap().ratio], &[0.349585, 0.323213], "untied");
-        assert!(other.sld.unwrap().required.is_none() && other.tie.is_none());
+        near_all(
+            &[other.checks.sld.unwrap().ratio, other.checks.slv_q.unwrap().ratio],
+            &[0.349585, 0.323213],
+            "untied",
+        );
+        assert!(other.checks.sld.unwrap().required.is_none() && other.tie.is_none());
     }
     let printed = checked(&facade(tie, "height_demand = \"printed\"")).unwrap();
-    let slv_q = positive(&printed).slv_q.unwrap();
+    let slv_q = positive(&printed).checks.slv_q.unwrap();
     near_all(&[slv_q.demand, slv_q.required.unwrap()], &[2.76489, 6074.95], "a_Z as printed");
 
     let outcome = checked(&parapet("tie_stiffness = 2.4e6\ntie_strength = 2e3", yields)).unwrap();
     let side = positive(&outcome);
-    let (at, sld, slv_q) = (side.activation, side.sld.unwrap(), side.slv_q.unwrap());
-    near_all(&[at.alpha0, at.acceleration, at.t0, side.t0], &[0.774366, 7.47391, 0.0610314, 0.356487], "P");
+    let (at, sld, slv_q) = (side.activation, side.checks.sld.unwrap(), side.checks.slv_q.unwrap());
+    near_all(
+        &[at.alpha0, at.acceleration, at.t0, side.curve.t0],
+        &[0.774366, 7.47391, 0.0610314, 0.356487],
+        "P",
+    );
     near_all(&[sld.capacity, sld.demand, sld.ratio], &[5.53623, 3.18752, 1.73685], "SLD of P");
     near_all(
         &[slv_q.ratio, sld.required.unwrap(), slv_q.required.unwrap()],
@@ -56,7 +64,7 @@ fn ties_that_yield() {
         let tie = format!("tie_stiffness = 5e6\ntie_strength = 10e3\ntie_ultimate = {e_p}");
         let outcome = checked(&facade(&tie, "")).unwrap();
         let side = positive(&outcome);
-        let (found, last) = (displaced(side.slv), displaced(side.slc));
+        let (found, last) = (displaced(side.checks.slv), displaced(side.checks.slc));
         near(side.tie.unwrap().breaks.unwrap(), u_r, "u_r");
         near_all(&[found.d, found.a, found.period, found.demand, found.zeta], &slv, "SLV");
         near_all(&[last.period, last.zeta], &slc, "SLC");
@@ -80,7 +88,11 @@ fn ties_that_yield() {
         ))
         .unwrap();
         let side = positive(&outcome);
-        near_all(&[displaced(side.slv).zeta, displaced(side.slc).zeta], &[slv, slc], "first edition (c)");
+        near_all(
+            &[displaced(side.checks.slv).zeta, displaced(side.checks.slc).zeta],
+            &[slv, slc],
+            "first edition (c)",
+        );
     }
     let bar = |anchor: &str| {
         let bar = format!(
@@ -91,20 +103,26 @@ fn ties_that_yield() {
     };
     let outcome = bar("");
     let side = positive(&outcome);
-    near_all(&[side.sld.unwrap().ratio, side.slv_q.unwrap().ratio], &[2.13421, 1.97321], "bar at activation");
-    let (slv, slc) = (displaced(side.slv), displaced(side.slc));
+    near_all(
+        &[side.checks.sld.unwrap().ratio, side.checks.slv_q.unwrap().ratio],
+        &[2.13421, 1.97321],
+        "bar at activation",
+    );
+    let (slv, slc) = (displaced(side.checks.slv), displaced(side.checks.slc));
     // u_y = N_y/K h/(2 y), u_r − u_y = e_p h/(2 y)
     let (tie, lever) = (side.tie.unwrap(), 2.0 * 6.8 / 7.0);
     let [yields, breaks] = [tie.yields, tie.breaks].map(Option::unwrap);
-    let stiffness = tie.strength.unwrap() / (lever * yields);
-    let numbers = [stiffness, tie.strength.unwrap(), lever * (breaks - yields)];
+    let strength = side.curve.tie().unwrap().strength.unwrap();
+    let stiffness = strength / (lever * yields);
+    let numbers = [stiffness, strength, lever * (breaks - yields)];
     near_all(&numbers, &[2.34572e6, 15749.9, 0.113286], "K, N_y and e_p of the bar");
     near_all(&[side.tie.unwrap().breaks.unwrap(), slv.d, slv.zeta], &[0.0617647, 0.0713609, 1.15475], "bar");
     near_all(&[slc.ratio, slc.zeta], &[0.556940, 0.664546], "bar, SLC");
     let outcome = bar(", anchor_capacity = 30e3");
     let side = positive(&outcome);
-    let (slv, tie) = (displaced(side.slv), side.tie.unwrap());
-    near_all(&[slv.ratio, slv.zeta, tie.strength.unwrap()], &[0.418495, 0.584854, 10e3], "a weak anchor");
+    let (slv, tie) = (displaced(side.checks.slv), side.tie.unwrap());
+    let strength = side.curve.tie().unwrap().strength.unwrap();
+    near_all(&[slv.ratio, slv.zeta, strength], &[0.418495, 0.584854, 10e3], "a weak anchor");
     assert_eq!(tie.yields, tie.breaks, "it does not stretch");
 }
 
@@ -119,7 +137,7 @@ fn ties_on_the_elastic_branch() {
         let tie = format!("tie_stiffness = {k}\ntie_strength = {strength}");
         let outcome = checked(&parapet(&tie, "")).unwrap();
         let side = positive(&outcome);
-        let slv = displaced(side.slv);
+        let slv = displaced(side.checks.slv);
         let loss = side.tie.unwrap().loss.unwrap();
         let found = [loss, slv.d, slv.a, slv.period, slv.demand, slv.ratio];
         for (index, (found, expected)) in found.into_iter().zip(expected).enumerate() {
@@ -204,14 +222,24 @@ fn a_beam_is_the_law_of_its_period() {
         let of_law = checked(&text).unwrap();
         let law = positive(&of_law);
         // [C8.7.1.7]: E = ρ (κ h²/(b T0))²
-        let modulus = 1800.0 * (6.2 * 1.2 * 1.2 / (0.3 * law.t0)).powi(2);
+        let modulus = 1800.0 * (6.2 * 1.2 * 1.2 / (0.3 * law.curve.t0)).powi(2);
         let beam = format!("before_activation = \"beam\"\nyoung_modulus = {modulus:e}");
         let of_beam = checked(&text.replace("before_activation = \"law\"", &beam)).unwrap();
         let beam = positive(&of_beam);
         let numbers = |side: &SideVerdict| {
-            let slv = displaced(side.slv);
+            let slv = displaced(side.checks.slv);
             let loss = side.tie.unwrap().loss.unwrap();
-            [side.t0, side.dy, side.ay, loss, slv.d, slv.a, slv.demand, slv.zeta, displaced(side.slc).zeta]
+            [
+                side.curve.t0,
+                side.curve.dy,
+                side.curve.ay,
+                loss,
+                slv.d,
+                slv.a,
+                slv.demand,
+                slv.zeta,
+                displaced(side.checks.slc).zeta,
+            ]
         };
         for (beam, law) in numbers(beam).into_iter().zip(numbers(law)) {
             // some roundings
@@ -233,7 +261,7 @@ fn a_slack_tie_does_not_shorten_the_period_of_the_demand() {
                      [0.2, 0.2], [0.2001, 90], [0.3, 90], [0.3001, 0.2], [9, 0.1]], \
                      spectrum_damping = 0.1 }\n";
         let outcome = checked(&format!("{wall}{table}")).unwrap();
-        let (t0, slc) = (positive(&outcome).t0, displaced(positive(&outcome).slc));
+        let (t0, slc) = (positive(&outcome).curve.t0, displaced(positive(&outcome).checks.slc));
         (t0, slc.demand, slc.acceleration * (slc.period / std::f64::consts::TAU).powi(2))
     };
     let [(t0, tight, _), (same, slack, at_the_end)] = [0.0, 1e-6].map(of);

@@ -7,7 +7,9 @@ use rocking_wall::scene::Scene;
 use super::studies::{SIX_DIGITS, within};
 use crate::{Comparison, EvidenceError};
 use check::CheckFile;
-use check::circolare::{GroundSpectrum, Hazard, Outcome, SideVerdict, Soil, Statement, damping_factor};
+use check::circolare::{
+    Checks, GroundSpectrum, Hazard, Outcome, SideVerdict, Soil, Statement, damping_factor,
+};
 
 /// The site of the examples, and walls: a parapet, the same with a tie, a strip wall under the roof.
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
@@ -39,10 +41,10 @@ fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Outcome, EvidenceErr
 /// T0, the onset `a_y`, and ζ of SLD, SLV and SLC of the side u > 0.
 fn results(side: Option<&SideVerdict>) -> [f64; 5] {
     side.map_or([f64::NAN; 5], |side| {
-        let (sld, slv, slc) = (side.sld.as_ref(), side.slv.as_ref(), side.slc.as_ref());
+        let Checks { sld, slv, slc, .. } = side.checks;
         let ratios = [sld.map(|check| check.ratio), slv.map(|check| check.zeta), slc.map(|check| check.zeta)];
         let [sld, slv, slc] = ratios.map(|ratio| ratio.unwrap_or(f64::NAN));
-        [side.t0, side.ay, sld, slv, slc]
+        [side.curve.t0, side.curve.ay, sld, slv, slc]
     })
 }
 

@@ -1,7 +1,7 @@
 //! Model Exchange: time, states, derivatives and events.
 
 use super::Instance;
-use crate::access::Access;
+use crate::access;
 use crate::limits;
 use crate::model::{Failure, Interface, ModelExchange, Update};
 use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
@@ -83,7 +83,7 @@ impl<M: ModelExchange> Instance<M> {
         let index = reference.checked_sub(FIRST_INDICATOR_REFERENCE).map(|index| index as usize);
         let mut indicators = vec![0.0; M::EVENT_INDICATORS];
         let index = index.filter(|&index| index < indicators.len());
-        let index = index.ok_or_else(|| self.unknown(Access::Get, reference))?;
+        let index = index.ok_or_else(|| access::unknown::<M>(reference))?;
         self.event_indicators(&mut indicators)?;
         Ok(indicators[index])
     }

@@ -1,7 +1,7 @@
 //! Communication steps.
 
 use super::{Instance, IntermediateUpdate};
-use crate::access::{self, Access};
+use crate::access;
 use crate::call::{Call, Phase};
 use crate::limits;
 use crate::log::{Category, Status};
@@ -56,7 +56,7 @@ impl<M: Model> Instance<M> {
     pub(super) fn set_at_end(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let Some((step, _)) = self.pending else { return Ok(()) };
         for (&reference, &value) in references.iter().zip(values) {
-            let variable: M::Real = self.find(Access::Set, reference)?;
+            let variable: M::Real = access::find::<M, _>(reference)?;
             access::check_derivable_input(variable.variable())?;
             limits::check_real(variable.variable(), value)?;
             let rate = (value - self.now.model.real(variable)) / step.duration;

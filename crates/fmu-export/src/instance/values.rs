@@ -1,7 +1,7 @@
 //! Getting and setting values and derivatives.
 
 use super::Instance;
-use crate::access::{self, Access};
+use crate::access;
 use crate::call::{Call, Phase};
 use crate::limits;
 use crate::model::{Failure, Model};
@@ -13,7 +13,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, value) in references.iter().zip(values) {
-            *value = self.number(reference)?.ok_or_else(|| self.unknown(Access::Get, reference))?;
+            *value = self.number(reference)?.ok_or_else(|| access::unknown::<M>(reference))?;
         }
         Ok(())
     }
@@ -52,7 +52,7 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, value) in references.iter().zip(values) {
-            let id = self.find_served(Access::Get, reference, serves)?;
+            let id = Self::find_served(reference, serves)?;
             *value = self.now.model.integer(id).into();
         }
         Ok(())
@@ -65,7 +65,7 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, value) in references.iter().zip(values) {
-            *value = self.now.model.boolean(self.find(Access::Get, reference)?).into();
+            *value = self.now.model.boolean(access::find::<M, _>(reference)?).into();
         }
         Ok(())
     }
@@ -75,7 +75,7 @@ impl<M: Model> Instance<M> {
         self.calculate()?;
         self.texts.clear();
         for &reference in references {
-            let text = self.now.model.text(self.find(Access::Get, reference)?);
+            let text = self.now.model.text(access::find::<M, _>(reference)?);
             self.texts.push(c_string(text));
         }
         Ok(self.texts.iter().map(CString::as_c_str))
@@ -90,7 +90,7 @@ impl<M: Model> Instance<M> {
             if self.has_number(reference, value) {
                 continue;
             }
-            let id: M::Real = self.find(Access::Set, reference)?;
+            let id: M::Real = access::find::<M, _>(reference)?;
             let variable = id.variable();
             if phase.is_before_the_start() || !self.purpose.states.contains(&id) {
                 self.check_settable(variable, |model| model.real(id) == value)?;
@@ -124,7 +124,7 @@ impl<M: Model> Instance<M> {
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
         for (&reference, &value) in references.iter().zip(values) {
-            let id = self.find_served(Access::Set, reference, serves)?;
+            let id = Self::find_served(reference, serves)?;
             self.check_settable(id.variable(), |model| i64::from(model.integer(id)) == value.into())?;
             limits::check_integer(id.variable(), value.into())?;
         }
@@ -143,7 +143,7 @@ impl<M: Model> Instance<M> {
         values: &[T],
     ) -> Result<(), Failure> {
         for (&reference, value) in references.iter().zip(values) {
-            let id: M::Boolean = self.find(Access::Set, reference)?;
+            let id: M::Boolean = access::find::<M, _>(reference)?;
             self.check_settable(id.variable(), |model| model.boolean(id) == (*value != false.into()))?;
         }
         self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()));
@@ -152,36 +152,17 @@ impl<M: Model> Instance<M> {
 
     pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
         for (&reference, value) in references.iter().zip(values) {
-            let id: M::Text = self.find(Access::Set, reference)?;
+            let id: M::Text = access::find::<M, _>(reference)?;
             self.check_settable(id.variable(), |model| model.text(id) == *value)?;
         }
         self.set(references, values, |model, variable, value| model.set_text(variable, value));
         Ok(())
     }
 
-    /// Returns the variable of one type with this value reference.
-    pub(super) fn find<V: VariableId>(&self, access: Access, reference: u32) -> Result<V, Failure> {
-        access.find::<M, V>(self.purpose.version, reference)
-    }
-
     /// Returns the Integer or Enumeration with this value reference, if it is of a kind that is served.
-    fn find_served(
-        &self,
-        access: Access,
-        reference: u32,
-        serves: fn(&Kind) -> bool,
-    ) -> Result<M::Integer, Failure> {
-        let found: M::Integer = self.find(access, reference)?;
-        if serves(&found.variable().kind) { Ok(found) } else { Err(self.unknown(access, reference)) }
-    }
-
-    pub(super) fn unknown(&self, access: Access, reference: u32) -> Failure {
-        access.unknown::<M>(self.purpose.version, reference)
-    }
-
-    /// Returns an error if there are any references: no variable has the type.
-    pub(crate) fn none_served(&self, access: Access, references: &[u32]) -> Result<(), Failure> {
-        references.first().map_or(Ok(()), |&reference| Err(self.unknown(access, reference)))
+    fn find_served(reference: u32, serves: fn(&Kind) -> bool) -> Result<M::Integer, Failure> {
+        let found: M::Integer = access::find::<M, _>(reference)?;
+        if serves(&found.variable().kind) { Ok(found) } else { Err(access::unknown::<M>(reference)) }
     }
 
     /// Checks that `variable` may be set now. An input or a parameter may always be set to the value that it
@@ -227,13 +208,13 @@ impl<M: Model> Instance<M> {
         values: &[f64],
     ) -> Result<(), Failure> {
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            let variable = self.find::<M::Real>(Access::Derive, reference)?.variable();
+            let variable = access::find::<M, M::Real>(reference)?.variable();
             access::check_derivable_input(variable)?;
             access::check_order(variable, order)?;
             finite_slope(variable, value)?;
         }
         for (&reference, &value) in references.iter().zip(values) {
-            let variable: M::Real = self.find(Access::Derive, reference)?;
+            let variable: M::Real = access::find::<M, _>(reference)?;
             if !self.now.model.set_input_derivative(variable, value) {
                 return Err(Failure(format!("{} takes no derivative", variable.variable().name)));
             }
@@ -248,7 +229,7 @@ impl<M: Model> Instance<M> {
         values: &mut [f64],
     ) -> Result<(), Failure> {
         for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
-            let variable: M::Real = self.find(Access::Derive, reference)?;
+            let variable: M::Real = access::find::<M, _>(reference)?;
             access::check_order(variable.variable(), order)?;
             let found = self.now.model.output_derivative(variable);
             let variable = variable.variable();
@@ -270,10 +251,10 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&wanted, value) in wanted.iter().zip(values) {
-            let wanted: M::Real = self.find(Access::Derive, wanted)?;
+            let wanted: M::Real = access::find::<M, _>(wanted)?;
             let mut sum = 0.0;
             for (&seeded, &seed) in seeded.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
-                let seeded: M::Real = self.find(Access::Derive, seeded)?;
+                let seeded: M::Real = access::find::<M, _>(seeded)?;
                 if !seed.is_finite() {
                     let name = seeded.variable().name;
                     return Err(Failure(format!("the seed {seed:?} of {name} is not a finite number")));

@@ -34,9 +34,9 @@ fn other_input_derivatives_are_refused() {
         (force, i32::MIN, 1.0, "only order 1"),
         (force, 1, f64::NAN, "derivative NaN of force"),
         (force, 1, f64::INFINITY, "derivative inf of force"),
-        (Real::Push.reference(), 1, 1.0, "push is not continuous"),
-        (Real::Stiffness.reference(), 1, 1.0, "stiffness is not an input"),
-        (Real::X.reference(), 1, 1.0, "x is not an input"),
+        (Real::Push.reference(), 1, 1.0, "push takes no derivative"),
+        (Real::Stiffness.reference(), 1, 1.0, "stiffness takes no derivative"),
+        (Real::X.reference(), 1, 1.0, "x takes no derivative"),
         (Real::Bias.reference(), 1, 1.0, "bias takes no derivative"),
         (Integer::Fault.reference(), 1, 1.0, "reference 22"),
     ] {

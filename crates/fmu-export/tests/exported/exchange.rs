@@ -200,7 +200,11 @@ fn a_state_may_be_set_like_an_input_once_it_runs() {
     assert_eq!(importer.set(Real::X, -0.5), ERROR);
     let importer = Exchange::in_continuous_time_mode();
     assert_eq!(importer.set(Real::Trim, 0.5), ERROR);
-    importer.expect_error(&["trim is tunable", "in Continuous-Time Mode", "in Event Mode"]);
+    importer.expect_error(&[
+        "trim (Parameter, Tunable) cannot be set",
+        "in Continuous-Time Mode",
+        "in Event Mode",
+    ]);
 }
 
 #[test]

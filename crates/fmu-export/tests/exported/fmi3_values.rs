@@ -163,7 +163,7 @@ fn discrete_inputs_are_set_in_event_mode_where_it_is_used() {
         assert_eq!(fmi3SetFloat64(c, &Real::Push.reference(), 1, &2.0, 1), ERROR);
     }
     assert_eq!(flags, [false; 5]);
-    importer.expect_error(&["push is not continuous", "in step mode", "Event Mode"]);
+    importer.expect_error(&["push (Input, Discrete)", "in step mode", "Event Mode"]);
 }
 
 #[test]

@@ -140,10 +140,10 @@ fn only_inputs_and_parameters_are_set_and_those_in_their_phase() {
     }
     let importer = Importer::in_step_mode();
     assert_eq!(importer.set(Real::Stiffness, 1.0), ERROR);
-    importer.expect_error(&["stiffness is a fixed parameter", "in step mode"]);
+    importer.expect_error(&["stiffness (Parameter, Fixed)", "in step mode"]);
     let importer = Importer::new();
     assert_eq!(importer.set_integer(Integer::Count, 1), ERROR);
-    importer.expect_error(&["count cannot be set"]);
+    importer.expect_error(&["count (", ") cannot be set"]);
     assert_eq!(Importer::in_step_mode().set_boolean(Boolean::Clamped, 1), ERROR);
     assert_eq!(Importer::new().set_boolean(Boolean::Moving, 1), ERROR);
     let (importer, label) = (Importer::in_step_mode(), Text::Label.reference());

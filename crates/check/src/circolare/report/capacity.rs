@@ -11,8 +11,8 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
 
 use super::spectrum::gives;
-use super::{body_of, by_side, calculation, eccentricity};
-use crate::circolare::curve::has_plateau;
+use super::{by_side, calculation, eccentricity};
+use crate::circolare::curve::{Curve, has_plateau};
 use crate::circolare::verdict::Deciding;
 use crate::report::markup::{Calculation, formula, millimetres, shown as n, table};
 
@@ -20,7 +20,7 @@ pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut text =
         by_side(case, |side, verdict| numbers(case, side, verdict) + &at_hinges(case, side, verdict));
     for (name, _, side) in case.sides() {
-        if side.slv.is_some() || side.slc.is_some() {
+        if side.checks.slv.is_some() || side.checks.slc.is_some() {
             text += &figure(case, name, side)?.html();
             if let Some(d) = cut(side) {
                 text += &detail(case, name, side, d)?.html();
@@ -38,7 +38,7 @@ pub(in crate::circolare) fn figure(
 ) -> Result<Figure, CheckError> {
     let mut of_others = String::new();
     for (state, check) in side.by_displacement() {
-        if let Some(hinge) = check.hinge.filter(|hinge| Some(*hinge) != side.hinge) {
+        if let Some(hinge) = check.hinge.filter(|hinge| Some(*hinge) != side.curve.hinge) {
             // the curve is that of the hinge that governs
             let [d, at] = [format!("d_{state}"), "h_1/h".to_owned()].map(|text| formula(&text));
             let _ = write!(of_others, " <span>{d} is of the hinge {at} = {}.</span>", n(hinge));
@@ -59,8 +59,10 @@ const HIDDEN: f64 = 0.3;
 /// `None` where the whole curve shows it \[m\].
 fn cut(side: &SideVerdict) -> Option<f64> {
     let tie = side.tie?;
-    let d = 2.0 * side.d_per_u * tie.breaks.filter(|breaks| side.d_per_u * breaks < side.d0).or(tie.yields)?;
-    (d > 0.0 && d < HIDDEN * side.d0).then_some(d)
+    let d = 2.0
+        * side.curve.d_per_u
+        * tie.breaks.filter(|breaks| side.curve.d_per_u * breaks < side.curve.d0).or(tie.yields)?;
+    (d > 0.0 && d < HIDDEN * side.curve.d0).then_some(d)
 }
 
 /// The beginning of the curve, up to d = `cut`.
@@ -77,12 +79,13 @@ fn detail(case: &Checked<'_>, name: &str, side: &SideVerdict, cut: f64) -> Resul
 /// The numbers of one side, from the force to the curve.
 fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
     let body = case.wall.body();
-    let SideVerdict { alpha0, mass, a0, d0, d_per_u, .. } = *verdict;
+    let curve = &verdict.curve;
+    let Curve { alpha0, e_star, mass, a0, d0, d_per_u, .. } = *curve;
     let specific = 1e-3 * case.parameters.density * case.parameters.gravity;
-    let mut lines = calculation(case, side, verdict);
+    let mut lines = calculation(case, side, curve);
     lines.line(["Specific weight", ""], "γ = ρ g {10⁻³}", (specific, "kN/m³"));
     lines.line(["Weight", ""], "W = γ h b l", (1e-3 * body.weight, "kN"));
-    force(case, side, verdict, &mut lines);
+    force(case, side, curve, &mut lines);
     let [multiplier, mass_of, ratio] = match body.mechanism {
         Mechanism::Parapet if body.overburden > 0.0 => {
             ["α0 = F_act/(W + 2 r O)", "M* = e* (W + r O)/g", "d/u = (W + 2 r O)/(W + r O)"]
@@ -91,24 +94,24 @@ fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
         Mechanism::VerticalSpanning => ["α0 = F_act/W", "M* = e* W/g", "d/u = 1/2 · W/W"],
     };
     lines.line(["Multiplier of activation, without FC", "[C8.7.1.1]"], multiplier, (alpha0, ""));
-    lines.line(["One resultant on each body", "[C8.7.1.5]"], "e*", (verdict.e_star, ""));
+    lines.line(["One resultant on each body", "[C8.7.1.5]"], "e*", (e_star, ""));
     lines.line(["Participating mass", ""], mass_of, (1e-3 * mass, "t"));
     lines.line(["Acceleration of activation, without FC", ""], "a_0 = α0 g/e*", (a0, "m/s²"));
     lines.line(["Displacement of the code over that of the model", "[C8.7.1.4]"], ratio, (d_per_u, ""));
-    zero(case, verdict, &mut lines);
+    zero(curve, &mut lines);
     let words = if verdict.tie.is_some() {
         "Zero of the curve of the wall without a tie"
     } else {
         "Zero of the curve"
     };
     lines.line([words, "C8.7.1.2.1.6"], "d_0 = (d/u) u_0", (1e3 * d0, "mm"));
-    elastic(case, verdict, &mut lines);
+    elastic(case, curve, &mut lines);
     lines.table()
 }
 
 /// Adds `k_0` and `u_0` of the line that falls to its zero, unless a law of another form has them.
-fn zero(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
-    let body = body_of(case, verdict);
+fn zero(curve: &Curve, lines: &mut Calculation) {
+    let body = curve.body();
     let (w, o) = (body.weight, body.overburden);
     let (k, formula) = if body.mechanism == Mechanism::Parapet {
         (2.0 * (w + 2.0 * o) / body.height, "k_0 = 2 (W + 2 O)/h")
@@ -116,8 +119,8 @@ fn zero(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
         let [h1, h2] = [body.hinge_height, body.height - body.hinge_height];
         (2.0 * (w + o) / h1 + 2.0 * o / h2, "k_0 = 2 (W + O)/h_1 + 2 O/h_2")
     };
-    let u_0 = verdict.d0 / verdict.d_per_u;
-    if gives(verdict.acting_force / k, u_0) {
+    let u_0 = curve.d0 / curve.d_per_u;
+    if gives(curve.acting_force / k, u_0) {
         lines.line(["Slope of the line that falls to its zero", ""], formula, (1e-3 * k, "kN/m"));
         lines.line(["Zero of the line", ""], "u_0 = F_act/k_0 {10³}", (1e3 * u_0, "mm"));
     }
@@ -128,7 +131,7 @@ fn at_hinges(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
     if side.others.is_empty() {
         return String::new();
     }
-    let checks = side.checks();
+    let checks = side.checks;
     let made = Deciding::ALL.into_iter().filter_map(|check| Some((check.name(), checks.hinge(check)?)));
     let at = |(check, hinge)| (check, calculation(case, of, side.at(Some(hinge))));
     let (heads, made): (Vec<&str>, Vec<Calculation>) = made.map(at).unzip();
@@ -158,9 +161,9 @@ fn at_hinges(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
 }
 
 /// Adds F0 of Eq. (1) with the hinges at the edges, where the side has them, and `F_act`.
-fn force(case: &Checked<'_>, side: Side, verdict: &SideVerdict, lines: &mut Calculation) {
-    let acting = (1e-3 * verdict.acting_force, "kN");
-    let body = body_of(case, verdict);
+fn force(case: &Checked<'_>, side: Side, curve: &Curve, lines: &mut Calculation) {
+    let acting = (1e-3 * curve.acting_force, "kN");
+    let body = curve.body();
     if has_plateau(&case.parameters) {
         lines.line(["Largest force of the law", ""], "F_act", acting);
         return;
@@ -175,14 +178,14 @@ fn force(case: &Checked<'_>, side: Side, verdict: &SideVerdict, lines: &mut Calc
     };
     let words = ["Force at u = 0 of the line that falls to its zero", ""];
     let strength = body.strength.of(side.sign());
-    if gives(verdict.acting_force, strength) {
+    if gives(curve.acting_force, strength) {
         lines.line(words, &format!("F_act = F0 = {formula}"), acting);
         return;
     }
     let of_edges = ["Force at u = 0 with the hinges at the edges", ""];
     lines.line(of_edges, &format!("F0 = {formula}"), (1e-3 * strength, "kN"));
     // the overburden passes no nearer to the edge than the set-back of the top
-    let is_cut = eccentricity(case, side) > 0.5 * case.parameters.thickness - verdict.set_back.top;
+    let is_cut = eccentricity(case, side) > 0.5 * case.parameters.thickness - curve.set_back.top;
     let formula = match (case.statement.masonry, body.mechanism) {
         (None, _) => "F_act",
         (Some(_), Mechanism::Parapet) => "F_act = F0 − (2/h) (W + O) t_b {10⁻³}",
@@ -198,9 +201,9 @@ fn force(case: &Checked<'_>, side: Side, verdict: &SideVerdict, lines: &mut Calc
 }
 
 /// Adds T0, `d_y` and `a_y`.
-fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
+fn elastic(case: &Checked<'_>, curve: &Curve, lines: &mut Calculation) {
     let parameters = &case.parameters;
-    let SideVerdict { t0, dy, ay, a0, d0, d_per_u, .. } = *verdict;
+    let Curve { t0, dy, ay, a0, d0, d_per_u, .. } = *curve;
     let end = (1e3 * dy, "mm");
     match case.statement.table.before_activation {
         None | Some(Activation::Rigid) => {

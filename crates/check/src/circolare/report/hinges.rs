@@ -34,9 +34,9 @@ fn rules(case: &Checked<'_>, side: &SideVerdict) -> String {
         ],
     ];
     if rule == Hinge::Given {
-        let zeta = side.checks().governing(case.statement).1;
+        let zeta = side.checks.governing(case.statement).1;
         let zeta = some(Some(zeta).filter(|zeta| zeta.is_finite()));
-        rows.push([words("Hinge as given", "given"), some(side.hinge), zeta, taken(rule)]);
+        rows.push([words("Hinge as given", "given"), some(side.curve.hinge), zeta, taken(rule)]);
     }
     let (at, zeta) = (formula("h_1/h"), formula("ζ_E"));
     let mut text = table(&["rule of the hinge", &at, &format!("least {zeta} that decides"), "taken"], &rows);
@@ -45,7 +45,7 @@ fn rules(case: &Checked<'_>, side: &SideVerdict) -> String {
     lines.line(words, "min α0", (found.alpha0, ""));
     text += &lines.table();
     if rule == Hinge::Worst {
-        let checks = side.checks();
+        let checks = side.checks;
         let made = Deciding::ALL.into_iter().zip(checks.zetas()).filter(|(_, zeta)| zeta.is_finite());
         let row =
             |(check, zeta): (Deciding, f64)| [check.name().to_owned(), some(checks.hinge(check)), n(zeta)];
@@ -62,7 +62,7 @@ fn set_back(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
         return String::new();
     };
     let (gamma, block) = (given.masonry_gamma.unwrap_or(1.0), given.stress_block.unwrap_or(STRESS_BLOCK));
-    let mut lines = calculation(case, of, side);
+    let mut lines = calculation(case, of, &side.curve);
     lines.know(&[("f_m", 1e-6 * strength), ("γ", gamma), ("κ", block)]);
     let (words, formula) = if given.masonry_over_fc.unwrap_or(true) {
         ("Design strength of the masonry, with FC", "f_d = f_m/(γ FC)")
@@ -71,16 +71,16 @@ fn set_back(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
     };
     lines.line([words, "C8.7.1.2.1 d)"], formula, (1e-6 * bears / block, "MPa"));
     let places = [
-        ("Set-back of the hinge at the base", "t_b = (W + O)/(2 κ f_d l)", side.set_back.base),
-        ("Set-back of the intermediate hinge", "t_m = (W_2 + O)/(2 κ f_d l)", side.set_back.middle),
-        ("Set-back of the hinge at the top", "t_t = O/(2 κ f_d l)", side.set_back.top),
+        ("Set-back of the hinge at the base", "t_b = (W + O)/(2 κ f_d l)", side.curve.set_back.base),
+        ("Set-back of the intermediate hinge", "t_m = (W_2 + O)/(2 κ f_d l)", side.curve.set_back.middle),
+        ("Set-back of the hinge at the top", "t_t = O/(2 κ f_d l)", side.curve.set_back.top),
     ];
     let is_strip = case.parameters.mechanism == Mechanism::VerticalSpanning;
     // kN over MPa and m are mm
     for (words, formula, depth) in places.into_iter().take(if is_strip { 3 } else { 1 }) {
         lines.line([words, "NTC 7.8.2.2.3"], formula, (1e3 * depth, "mm"));
     }
-    let share = side.set_back.base.max(side.set_back.middle) / case.parameters.thickness;
+    let share = side.curve.set_back.base.max(side.curve.set_back.middle) / case.parameters.thickness;
     lines.line(["Largest set-back over the thickness", ""], "t/b", (share, ""));
     lines.table()
 }

@@ -1,5 +1,6 @@
 //! Every static check with its clause, equations, the numbers put in and the result.
 
+use crate::circolare::curve::Curve;
 use crate::circolare::statement::Displacements;
 use crate::circolare::{
     ActivationCheck, Checked, Deciding, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
@@ -34,12 +35,14 @@ fn one(case: &Checked<'_>, check: Deciding) -> String {
     let xi = case.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
     let mut text = String::new();
     for (name, of, side) in case.sides() {
-        let lines = || calculation(case, of, side);
+        let lines = || calculation(case, of, &side.curve);
         let activated = |check, q| activation(lines(), side, (given, demand, xi), (check, q));
         let displaced = |check| displacement(case, lines(), side, (given, demand), check);
         let calculation = match check {
-            Deciding::Sld => side.sld.map(|check| activated(check, 1.0)),
-            Deciding::SlvWithQ => side.slv_q.map(|check| activated(check, case.statement.behaviour_factor)),
+            Deciding::Sld => side.checks.sld.map(|check| activated(check, 1.0)),
+            Deciding::SlvWithQ => {
+                side.checks.slv_q.map(|check| activated(check, case.statement.behaviour_factor))
+            }
             Deciding::Slv | Deciding::Slc => side.displacement(given.state).map(displaced),
         };
         let Some(calculation) = calculation else { continue };
@@ -96,7 +99,7 @@ fn activation(
 
 /// Says where the hinge of a check is that is not that of its side: its numbers are of that hinge.
 fn own_hinge(lines: &mut Calculation, side: &SideVerdict, hinge: Option<f64>) {
-    if let Some(hinge) = hinge.filter(|_| hinge != side.hinge) {
+    if let Some(hinge) = hinge.filter(|_| hinge != side.curve.hinge) {
         lines.line_of(["Hinge of this check, with its own curve", ""], ["h_1/h", ""], (hinge, ""));
     }
 }
@@ -120,9 +123,10 @@ fn displacement(
     let state = given.state;
     let source = if state == LimitState::Slc { "[C8.7.1.11]" } else { "[C8.7.1.10]" };
     let Displacements { fraction: share, period_factor: factor } = case.statement.rules(state);
-    let of_curve = share * check.d0;
-    let u = 1e3 * check.d / side.d_per_u;
-    lines.know(&[("d", 1e3 * check.d), ("u_r", u), ("u", u), ("d_0", 1e3 * check.d0)]);
+    let own = side.at(check.hinge);
+    let of_curve = share * own.d0;
+    let u = 1e3 * check.d / side.curve.d_per_u;
+    lines.know(&[("d", 1e3 * check.d), ("u_r", u), ("u", u), ("d_0", 1e3 * own.d0)]);
     let (words, capacity) = if check.limited_by_tie {
         ("Capacity, where the tie breaks", "(d/u) u_r".to_owned())
     } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
@@ -131,7 +135,7 @@ fn displacement(
         ("Capacity", format!("{share:.2} d_0"))
     };
     lines.line([words, "C8.7.1.2.1.6"], &format!("d_{state} = {capacity}"), (1e3 * check.d, "mm"));
-    let of_curve = on_curve(case, &mut lines, side.at(check.hinge), &check);
+    let of_curve = on_curve(case, &mut lines, own, &check);
     let words = ["The curve there, with FC", "[C8.7.1.3]"];
     lines.line(words, &format!("a(d_{state}){of_curve}"), (check.a, "m/s²"));
     lines.know(&[("a", check.a)]);
@@ -164,18 +168,18 @@ fn displacement(
 fn on_curve(
     case: &Checked<'_>,
     lines: &mut Calculation,
-    side: &SideVerdict,
+    curve: &Curve,
     check: &DisplacementCheck,
 ) -> &'static str {
     let factor = case.statement.confidence_factor;
-    let own = side.a0 * (1.0 - check.d / side.d0);
-    lines.know(&[("a_0", side.a0), ("d_0", 1e3 * side.d0)]);
+    let own = curve.a0 * (1.0 - check.d / curve.d0);
+    lines.know(&[("a_0", curve.a0), ("d_0", 1e3 * curve.d0)]);
     if gives(own / factor, check.a) {
         return " = a_0 (1 − d/d_0)/FC";
     }
     let Parameters { tie_height, height, gravity, .. } = case.parameters;
     let force = check.tie.map_or(0.0, |tie| tie.force);
-    let pull = 2.0 * tie_height / height * force * gravity / side.pushed_weight;
+    let pull = 2.0 * tie_height / height * force * gravity / curve.pushed_weight;
     lines.know(&[("N", 1e-3 * force)]);
     let is_tied = gives((own + pull) / factor, check.a);
     if is_tied { " = [a_0 (1 − d/d_0) + (2 y/h) N g/((W + 2 r O) e*)]/FC" } else { "" }

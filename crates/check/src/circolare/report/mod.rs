@@ -13,8 +13,9 @@ pub(super) mod symbols;
 mod ties;
 
 use rocking_wall::variables::EccentricityMode;
-use rocking_wall::wall::{Body, Parameters, Statics};
+use rocking_wall::wall::Parameters;
 
+use super::curve::Curve;
 use super::side_verdict::SideVerdict;
 use super::table::{Activation, Hinge};
 use super::verdict::{Checked, Side};
@@ -37,10 +38,10 @@ fn by_side(case: &Checked<'_>, say: impl Fn(Side, &SideVerdict) -> String) -> St
 
 /// A calculation that knows the wall, and the numbers of a side with its hinge: forces in kN, displacements
 /// in mm.
-fn calculation(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> Calculation {
-    let (parameters, body) = (&case.parameters, body_of(case, verdict));
+fn calculation(case: &Checked<'_>, side: Side, curve: &Curve) -> Calculation {
+    let (parameters, body) = (&case.parameters, curve.body());
     let (w, o, h1) = (1e-3 * body.weight, 1e-3 * body.overburden, body.hinge_height);
-    let pushed = 1e-3 * verdict.pushed_weight;
+    let pushed = 1e-3 * curve.pushed_weight;
     let above = w * (1.0 - h1 / body.height) + o;
     let mut lines = Calculation::default();
     lines.know(&[
@@ -62,21 +63,21 @@ fn calculation(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> Calcula
         ("[(W + 2 r O) e*]", pushed),
         ("(W + 2 r O) e*", pushed),
         ("F0", 1e-3 * body.strength.of(side.sign())),
-        ("F_act", 1e-3 * verdict.acting_force),
-        ("e*", verdict.e_star),
-        ("α0", verdict.alpha0),
-        ("a_0", verdict.a0),
-        ("a_y", verdict.ay),
-        ("d_y", 1e3 * verdict.dy),
-        ("(d/u)", verdict.d_per_u),
-        ("d_0", 1e3 * verdict.d0),
-        ("u_0", 1e3 * verdict.d0 / verdict.d_per_u),
-        ("k_0", 1e-3 * verdict.acting_force * verdict.d_per_u / verdict.d0),
-        ("T0", verdict.t0),
-        ("h_1/h", verdict.hinge.unwrap_or(f64::NAN)),
-        ("t_b", 1e3 * verdict.set_back.base),
-        ("t_m", 1e3 * verdict.set_back.middle),
-        ("t_t", 1e3 * verdict.set_back.top),
+        ("F_act", 1e-3 * curve.acting_force),
+        ("e*", curve.e_star),
+        ("α0", curve.alpha0),
+        ("a_0", curve.a0),
+        ("a_y", curve.ay),
+        ("d_y", 1e3 * curve.dy),
+        ("(d/u)", curve.d_per_u),
+        ("d_0", 1e3 * curve.d0),
+        ("u_0", 1e3 * curve.d0 / curve.d_per_u),
+        ("k_0", 1e-3 * curve.acting_force * curve.d_per_u / curve.d0),
+        ("T0", curve.t0),
+        ("h_1/h", curve.hinge.unwrap_or(f64::NAN)),
+        ("t_b", 1e3 * curve.set_back.base),
+        ("t_m", 1e3 * curve.set_back.middle),
+        ("t_t", 1e3 * curve.set_back.top),
         ("FC", case.statement.confidence_factor),
         ("q", case.statement.behaviour_factor),
         ("K", 1e-3 * parameters.tie_stiffness),
@@ -93,13 +94,6 @@ fn eccentricity(case: &Checked<'_>, side: Side) -> f64 {
     let Parameters { eccentricity_mode, overburden_eccentricity, .. } = case.parameters;
     let follows = eccentricity_mode == EccentricityMode::FollowsPivot;
     if follows { overburden_eccentricity } else { side.sign() * overburden_eccentricity + 0.0 }
-}
-
-/// The body of the wall, with the hinge of a strip where the side has it.
-fn body_of(case: &Checked<'_>, side: &SideVerdict) -> Body {
-    let hinge_ratio = side.hinge.unwrap_or(case.parameters.hinge_ratio);
-    let parameters = Parameters { hinge_ratio, ..case.parameters.clone() };
-    Statics::new(&parameters).map_or_else(|_| case.wall.body().clone(), |statics| statics.body().clone())
 }
 
 /// The groups of parameters that the static check uses, and those that only runs use.

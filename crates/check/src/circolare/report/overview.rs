@@ -18,12 +18,12 @@ pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<(String, String)> {
     let tie = case.wall.tie().map(|tie| tie.strength.map_or_else(|| "elastic".to_owned(), kilonewtons));
     cell("tie, N_y [kN]".into(), tie.unwrap_or_else(|| "–".to_owned()));
     let Some(side) = case.governing() else { return cells };
-    cell(formula("h_1/h"), some(side.hinge));
-    cell("α0".into(), n(side.alpha0));
-    cell("a_0 [m/s²]".into(), n(side.a0));
-    cell("d_0 [mm]".into(), millimetres(side.d0));
-    cell("T_SLV [s]".into(), some(side.slv.map(|check| check.period)));
-    cell("S_d SLV [mm]".into(), or_dash(side.slv.map(|check| check.demand), millimetres));
+    cell(formula("h_1/h"), some(side.curve.hinge));
+    cell("α0".into(), n(side.curve.alpha0));
+    cell("a_0 [m/s²]".into(), n(side.curve.a0));
+    cell("d_0 [mm]".into(), millimetres(side.curve.d0));
+    cell("T_SLV [s]".into(), some(side.checks.slv.map(|check| check.period)));
+    cell("S_d SLV [mm]".into(), or_dash(side.checks.slv.map(|check| check.demand), millimetres));
     let raised = side.by_displacement().filter(|(_, check)| check.raised);
     let raised: Vec<_> = raised.map(|(state, _)| state.key()).collect();
     cell("raised".into(), if raised.is_empty() { "–".to_owned() } else { raised.join(", ") });

@@ -15,7 +15,9 @@ fn is_at_height(case: &Checked<'_>) -> bool {
 /// Returns whether there is a check of accelerations of a side whose T0 fulfils a condition.
 fn is_activated(case: &Checked<'_>, such: fn(f64) -> bool) -> bool {
     let sides = case.outcome.sides.iter();
-    sides.map(|(_, side)| side).any(|side| (side.sld.is_some() || side.slv_q.is_some()) && such(side.t0))
+    sides
+        .map(|(_, side)| side)
+        .any(|side| (side.checks.sld.is_some() || side.checks.slv_q.is_some()) && such(side.curve.t0))
 }
 
 fn is_by_code(case: &Checked<'_>) -> bool {
@@ -58,7 +60,9 @@ const READINGS: [Reading; 13] = [
          floor of SLD that of SLD.",
     ),
     (
-        |case| case.outcome.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some()),
+        |case| {
+            case.outcome.sides.iter().any(|(_, side)| side.checks.sld.is_some() && side.checks.slc.is_some())
+        },
         "The rule that the acceleration of activation at SLD is the least one is printed for SLV. It is \
          taken for SLC, too.",
     ),

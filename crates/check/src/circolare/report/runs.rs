@@ -35,7 +35,7 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
         let Some(check) = verdict.displacement(name) else { continue };
         thresholds.push(check.d);
         let words = format!("Threshold and zero of the curve, {}", escaped(side));
-        let [d, d_0] = [check.d, verdict.d0].map(millimetres);
+        let [d, d_0] = [check.d, verdict.curve.d0].map(millimetres);
         lines.say(&words, &format!("d_{name} = <b>{d}</b> mm, d_0 = <b>{d_0}</b> mm"));
     }
     for side in [Side::Positive, Side::Negative] {

@@ -169,7 +169,7 @@ fn combined(case: &Checked<'_>) -> &'static str {
 fn periods(case: &Checked<'_>) -> [Option<f64>; 3] {
     let Some(side) = case.governing() else { return [None; 3] };
     let displaced = |check: Option<DisplacementCheck>| check.map(|check| check.period);
-    [side.sld.map(|_| side.t0), displaced(side.slv), displaced(side.slc)]
+    [side.checks.sld.map(|_| side.curve.t0), displaced(side.checks.slv), displaced(side.checks.slc)]
 }
 
 /// Where the axis of periods ends \[s\].

@@ -63,7 +63,7 @@ fn bar(case: &Checked<'_>) -> String {
 
 /// Where the tie pulls, yields and breaks, what it does at the activation, and what its rupture takes.
 fn displacements(case: &Checked<'_>, of: Side, side: &SideVerdict, tie: TieNumbers) -> String {
-    let mut lines = calculation(case, of, side);
+    let mut lines = calculation(case, of, &side.curve);
     for (words, formula, u) in [
         ("The tie begins to pull at", "u_g = g_0 h/(2 y)", Some(tie.engaged).filter(|u| *u > 0.0)),
         ("The tie reaches its strength at", "u_y = (N_y/K {10³} + g_0) h/(2 y)", tie.yields),
@@ -76,8 +76,8 @@ fn displacements(case: &Checked<'_>, of: Side, side: &SideVerdict, tie: TieNumbe
     if side.activation.force > 0.0 {
         activation(case, side, &mut lines);
     }
-    if let Some(broken) = &side.tie_break {
-        rupture(side, broken, &mut lines);
+    if let Some(broken) = side.curve.tie_break() {
+        rupture(side, &broken, &mut lines);
     }
     lines.table()
 }
@@ -86,16 +86,16 @@ fn displacements(case: &Checked<'_>, of: Side, side: &SideVerdict, tie: TieNumbe
 fn activation(case: &Checked<'_>, side: &SideVerdict, lines: &mut Calculation) {
     let Parameters { tie_height, height, gravity, tie_stiffness, .. } = case.parameters;
     let lever = 2.0 * tie_height / height;
-    let stiffness = lever * lever * tie_stiffness * gravity / (side.pushed_weight * side.d_per_u);
+    let stiffness = lever * lever * tie_stiffness * gravity / (side.curve.pushed_weight * side.curve.d_per_u);
     let at = side.activation;
     let words = ["Multiplier of activation with the tie at its strength, without FC", "[C8.7.1.1]"];
     lines.line(words, "α0 = [F_act + (2 y/h) N_y]/(W + 2 r O)", (at.alpha0, ""));
     let words = ["Acceleration of activation with the tie at its strength, without FC", ""];
     let formula = format!("a = {} + (2 y/h) N_y g/[(W + 2 r O) e*]", own(side));
     lines.line(words, &formula, (at.acceleration, "m/s²"));
-    if side.t0 > 0.0 {
+    if side.curve.t0 > 0.0 {
         let tied = "(2 y/h)² K g/((W + 2 r O) e* d/u)";
-        lines.know(&[("4π²/T0²", (TAU / side.t0).powi(2)), (tied, stiffness)]);
+        lines.know(&[("4π²/T0²", (TAU / side.curve.t0).powi(2)), (tied, stiffness)]);
         let words = ["Period of wall and tie", "[C8.7.1.6]"];
         lines.line(words, &format!("T_0t = 2π/√[4π²/T0² + {tied}]"), (at.t0, "s"));
     }
@@ -103,7 +103,7 @@ fn activation(case: &Checked<'_>, side: &SideVerdict, lines: &mut Calculation) {
 
 /// The acceleration of activation without the tie.
 fn own(side: &SideVerdict) -> &'static str {
-    if side.t0 > 0.0 { "a_y" } else { "a_0" }
+    if side.curve.t0 > 0.0 { "a_y" } else { "a_0" }
 }
 
 /// What the curve loses where the tie breaks.
@@ -112,7 +112,7 @@ fn rupture(side: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
     let put = format!("({} − {})/{}", n(before), n(after), n(largest));
     let words = "What the curve, with FC, loses there for good, over its largest a";
     lines.line_of([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
-    let early = side.slv.is_some_and(|check| check.limited_by_tie);
+    let early = side.checks.slv.is_some_and(|check| check.limited_by_tie);
     let decides = if early {
         format!("more than {LARGEST_LOSS}, before 0.40 d_0: d_SLV is there")
     } else {
@@ -165,15 +165,16 @@ fn forces(case: &Checked<'_>, side: &SideVerdict) -> String {
 
 /// The strength that brings `ζ_E` of the checks at the activation to 1, and `ζ_E` without the tie.
 fn required(case: &Checked<'_>, of: Side, side: &SideVerdict) -> String {
-    let mut lines = calculation(case, of, side);
+    let mut lines = calculation(case, of, &side.curve);
     let mut rows = Vec::new();
     let with_q = if case.statement.behaviour_factor == 1.0 { "S_a" } else { "S_a/q" };
-    for (name, check, demand) in [("SLD", side.sld, "S_a"), ("SLV with q", side.slv_q, with_q)] {
+    for (name, check, demand) in [("SLD", side.checks.sld, "S_a"), ("SLV with q", side.checks.slv_q, with_q)]
+    {
         let Some((check, force)) = check.and_then(|check| Some((check, check.required?))) else { continue };
         let words = format!("Required force for ζ_E = 1, {name}");
         let formula = format!("N = max[0; (FC {demand} − {}) (W + 2 r O) e*/(g 2 y/h)]", own(side));
         // a tie that does not count here changes the period, and with it the demand
-        if side.activation.force > 0.0 || side.t0 == 0.0 {
+        if side.activation.force > 0.0 || side.curve.t0 == 0.0 {
             lines.know(&[("S_a", check.demand)]);
             lines.line([&words, ""], &formula, (1e-3 * force, "kN"));
         } else {

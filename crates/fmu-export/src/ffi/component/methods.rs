@@ -178,15 +178,13 @@ pub(super) use values;
 macro_rules! unused_types {
     ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident;)*) => { $(
         fn $get(&self, references: Vec<u32>) -> Result<Vec<$type>, Status> {
-            self.0.ask(Call::$get_call, |instance| {
-                instance.none_served(crate::access::Access::Get, &references).map(|()| Vec::new())
-            })
+            let none = |_: &mut _| crate::access::none_served::<M>(&references).map(|()| Vec::new());
+            self.0.ask(Call::$get_call, none)
         }
 
         fn $set(&self, references: Vec<u32>, values: Vec<$type>) -> Status {
-            self.0.set(Call::$set_call, &references, &values, |instance| {
-                instance.none_served(crate::access::Access::Set, &references)
-            })
+            let none = |_: &mut _| crate::access::none_served::<M>(&references);
+            self.0.set(Call::$set_call, &references, &values, none)
         }
     )* };
 }

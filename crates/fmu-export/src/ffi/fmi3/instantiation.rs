@@ -4,8 +4,7 @@ use super::types::{
     ClockUpdateCallback, Instance, InstanceEnvironment, IntermediateUpdate, IntermediateUpdateCallback,
     LogMessageCallback, PreemptionCallback,
 };
-use crate::access::{self, Access};
-use crate::call::Version;
+use crate::access;
 use crate::ffi::arguments::{array, bytes, required_text, text};
 use crate::ffi::common::{make, sink};
 use crate::ffi::types::{Text, ValueReference};
@@ -78,7 +77,7 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
             array("requiredIntermediateVariables", intermediate_variables, intermediate_variable_count)
         }?;
         let served = |&reference: &ValueReference| {
-            let variable: M::Real = Access::Derive.find::<M, _>(Version::Fmi3, reference)?;
+            let variable: M::Real = access::find::<M, _>(reference)?;
             access::check_derivable_input(variable.variable())
         };
         if let Some(failure) = intermediate.iter().find_map(|reference| served(reference).err()) {

@@ -7,7 +7,7 @@
 //! assert_eq!((size_of::<Boolean>(), size_of::<LogMessageCallback>()), (1, size_of::<usize>()));
 //! ```
 
-use crate::access::Access;
+use crate::access;
 use crate::call::Call;
 use crate::ffi::arguments::array;
 use crate::ffi::guard;
@@ -36,11 +36,10 @@ pub unsafe fn refuse<M: Model>(
     count: usize,
 ) -> Status {
     let Some(call) = Call::of_fmi3(function) else { return ERROR };
-    let access = if function.starts_with("fmi3Get") { Access::Get } else { Access::Set };
     // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
     let instance = unsafe { guard::instance::<M>(component) };
-    guard::run(instance, call, |instance| {
+    guard::run(instance, call, |_| {
         // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-        instance.none_served(access, unsafe { array("valueReferences", references, count) }?)
+        access::none_served::<M>(unsafe { array("valueReferences", references, count) }?)
     })
 }
