@@ -24,8 +24,8 @@ use super::schema::Described;
 /// ```
 ///
 /// # Errors
-/// [`SceneError::Line`] where the text is not such a document, or a value is outside its limits: key, line and
-/// what is expected.
+/// [`SceneError::Line`] where the text is not such a document, or a value is outside its limits: key, line
+/// and what is expected.
 pub fn parse_toml<T: DeserializeOwned + Described>(place: &Place<'_>) -> Result<T, SceneError> {
     let document = parse_document(place)?;
     let whole = Spanned::new(0..place.text().len(), DeValue::Table(document.clone()));

@@ -32,8 +32,8 @@ tables! {
         /// e \[-\]; fitted where it is not given.
         #[key(exclusiveMinimum = 0, maximum = 1)]
         pub restitution: Option<f64>,
-        /// Time \[s\], and displacement over thickness of a peak \[-\], from a file of their own; 0 at a passage
-        /// of the vertical.
+        /// Time \[s\], and displacement over thickness of a peak \[-\], from a file of their own; 0 at a
+        /// passage of the vertical.
         #[serde(skip)]
         pub points: Vec<[f64; 2]>,
     }
