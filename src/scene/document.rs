@@ -32,13 +32,13 @@ tables! {
         pub inputs: Option<Vec<Spanned<String>>>,
         /// End of the run \[s\]; by default the motion's duration and tail, or 30 s.
         #[key(exclusiveMinimum = 0, maximum = LONGEST_RUN)]
-        pub stop_time: Option<Spanned<f64>>,
+        pub stop_time: Option<f64>,
         /// Step of the output \[s\]; by default the motion's own, or 0.01 s.
         #[key(exclusiveMinimum = 0, maximum = LONGEST_OUTPUT_STEP)]
-        pub output_step: Option<Spanned<f64>>,
+        pub output_step: Option<f64>,
         /// Limit states as fractions of `u_ins`, whose first crossings a run reports.
         #[key(items = fraction(), maxItems = MOST_THRESHOLDS, default = DEFAULT_THRESHOLDS.to_vec())]
-        pub thresholds: Option<Spanned<Vec<f64>>>,
+        pub thresholds: Option<Vec<f64>>,
         /// Shape, mass and loads.
         #[serde(default)]
         pub geometry: Group,

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-
 use crate::simulation::RunError;
 use crate::wall::ParameterError;
 use ground_motion::GroundMotionError;
@@ -91,29 +89,4 @@ impl<'a> Place<'a> {
         let key = key.map(|(key, _)| key.trim().to_owned());
         SceneError::Line { file: self.name.to_owned(), line, key, message: message.into() }
     }
-
-    /// Returns the duration \[s\] given, which must be above 0 and at most `limit`; `natural` where none
-    /// is.
-    ///
-    /// # Errors
-    /// [`SceneError::Line`] for a number outside the limits.
-    pub fn within(
-        &self,
-        key: &str,
-        given: Option<&Spanned<f64>>,
-        natural: f64,
-        limit: f64,
-    ) -> Result<f64, SceneError> {
-        let Some(given) = given else { return Ok(natural) };
-        let checked = check_duration(key, *given.get_ref(), limit);
-        checked.map(|()| *given.get_ref()).map_err(|error| self.error(given.span(), error.to_string()))
-    }
-}
-
-/// Checks a duration \[s\], which must be above 0.
-pub(super) fn check_duration(name: &str, value: f64, limit: f64) -> Result<(), SceneError> {
-    if value > 0.0 && value <= limit {
-        return Ok(());
-    }
-    Err(SceneError::Value { message: format!("{name} = {value} s must be above 0 and at most {limit:e} s") })
 }

@@ -7,6 +7,7 @@
 
 mod document;
 mod error;
+mod limits;
 mod motion;
 mod nearest;
 mod parameter;
@@ -26,14 +27,14 @@ use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
-pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, check_tail, fingerprint};
+pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text, set_names};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::read_text;
-use error::check_duration;
 pub use error::{Place, SceneError};
+pub use limits::{Fault, check_value};
 pub use nearest::suggestion;
 use parameter::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits, number};
@@ -44,7 +45,7 @@ pub use schema::{
 #[doc(hidden)]
 pub use schema::{Field, describe_table};
 pub use storeys::read_floors;
-pub use toml_text::{parse_document, parse_toml, refusal};
+pub use toml_text::{parse_document, parse_toml, read_value};
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]
@@ -94,24 +95,6 @@ impl Default for Scene {
 pub const DEFAULT_THRESHOLDS: [f64; 4] = [0.1, 0.4, 0.6, 1.0];
 /// Most limit states.
 pub const MOST_THRESHOLDS: u32 = 100;
-
-/// Checks limit states: each must be a fraction of `u_ins`, above 0 and at most 1. Their order does not
-/// matter.
-///
-/// # Errors
-/// [`SceneError::Value`] naming the value and the limit.
-pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
-    let message = match fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
-        Some(fraction) => {
-            format!("thresholds: {fraction} is not a fraction of u_ins; give numbers above 0 and at most 1")
-        }
-        None if fractions.len() > MOST_THRESHOLDS as usize => {
-            format!("thresholds: {} fractions of u_ins; give at most {MOST_THRESHOLDS}", fractions.len())
-        }
-        None => return Ok(()),
-    };
-    Err(SceneError::Value { message })
-}
 
 /// Output step of a scene without motion \[s\].
 const DEFAULT_OUTPUT_STEP: f64 = 0.01;
@@ -170,14 +153,10 @@ impl Scene {
             apply_group(&mut scene.parameters, group, entries, place)?;
         }
         if let Some(given) = &document.thresholds {
-            check_thresholds(given.get_ref())
-                .map_err(|error| place.error(given.span(), error.to_string()))?;
-            scene.thresholds.clone_from(given.get_ref());
+            scene.thresholds.clone_from(given);
         }
-        let Document { stop_time, output_step, .. } = document;
-        scene.stop_time = place.within("stop_time", stop_time.as_ref(), scene.stop_time, LONGEST_RUN)?;
-        scene.output_step =
-            place.within("output_step", output_step.as_ref(), scene.output_step, LONGEST_OUTPUT_STEP)?;
+        scene.stop_time = document.stop_time.unwrap_or(scene.stop_time);
+        scene.output_step = document.output_step.unwrap_or(scene.output_step);
         Ok(scene)
     }
 
@@ -189,25 +168,34 @@ impl Scene {
         parameter::set_from_text(&mut self.parameters, name, text)
     }
 
-    /// Sets how long the scene runs and the step of its output \[s\], those that are given; the names are
-    /// those of an error.
+    /// Sets how long the scene runs, the step of its output \[s\] and its limit states, those that are given.
     ///
     /// # Errors
     /// [`SceneError::Value`] naming the value and its limit.
     ///
     /// ```
     /// # use rocking_wall::scene::Scene;
-    /// let times = [("stop_time", Some(0.0)), ("output_step", None)];
-    /// let error = Scene::default().set_times(times).unwrap_err();
-    /// assert_eq!(error.to_string(), "stop_time = 0 s must be above 0 and at most 1e7 s");
+    /// let error = Scene::default().set_output(Some(0.0), None, None).unwrap_err();
+    /// assert!(error.to_string().starts_with("stop_time = 0 must be above 0 and at most 10000000: End"));
     /// ```
-    pub fn set_times(&mut self, given: [(&str, Option<f64>); 2]) -> Result<(), SceneError> {
-        let times = [(&mut self.stop_time, LONGEST_RUN), (&mut self.output_step, LONGEST_OUTPUT_STEP)];
-        for ((name, given), (time, limit)) in given.into_iter().zip(times) {
+    pub fn set_output(
+        &mut self,
+        stop_time: Option<f64>,
+        output_step: Option<f64>,
+        thresholds: Option<Vec<f64>>,
+    ) -> Result<(), SceneError> {
+        for (key, given, own) in [
+            ("stop_time", stop_time, &mut self.stop_time),
+            ("output_step", output_step, &mut self.output_step),
+        ] {
             if let Some(given) = given {
-                check_duration(name, given, limit)?;
-                *time = given;
+                check_value::<Document>(key, given)?;
+                *own = given;
             }
+        }
+        if let Some(given) = thresholds {
+            check_value::<Document>("thresholds", given.clone())?;
+            self.thresholds = given;
         }
         Ok(())
     }

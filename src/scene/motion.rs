@@ -166,25 +166,8 @@ enum Problem {
     Motion(#[from] GroundMotionError),
 }
 
-/// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
-///
-/// # Errors
-/// [`SceneError::Value`].
-///
-/// ```
-/// let error = rocking_wall::scene::check_tail(-1.0).unwrap_err();
-/// assert_eq!(error.to_string(), "tail = -1 s must be from 0 to 1e6 s");
-/// ```
-pub fn check_tail(tail: f64) -> Result<(), SceneError> {
-    if (0.0..=LONGEST_TAIL).contains(&tail) {
-        return Ok(());
-    }
-    Err(SceneError::Value { message: format!("tail = {tail} s must be from 0 to {LONGEST_TAIL:e} s") })
-}
-
 fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded, Problem> {
     let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
-    check_tail(tail).map_err(|error| Problem::Table(error.to_string()))?;
     let mut notes = Vec::new();
     let bottom = scale(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
     let top = spec.top.as_ref().map(|top| {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fmu_export::{Causality, Kind, Variable, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::{Spanned, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
@@ -219,22 +219,7 @@ pub fn number(value: &Value) -> Option<f64> {
 /// # Errors
 /// A message with name, value and limit.
 pub fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
-    let Kind::Real { min, max, .. } = variable.kind else { return Ok(()) };
-    // the model description writes "1" for what has no unit
-    let unit = variable.unit.filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
-    let name = variable.name;
-    if !number.is_finite() {
-        return Err(format!("{name} = {number} must be a finite number"));
-    }
-    match (min, max) {
-        (Some(min), _) if number < min => {
-            Err(format!("{name} = {number}{unit} is below its limit {min}{unit}"))
-        }
-        (_, Some(max)) if number > max => {
-            Err(format!("{name} = {number}{unit} is above its limit {max}{unit}"))
-        }
-        _ => Ok(()),
-    }
+    check_real(variable, number).map_err(|failure| failure.0)
 }
 
 fn read_points(value: &Value) -> Option<Vec<[f64; 2]>> {

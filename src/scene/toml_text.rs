@@ -5,11 +5,13 @@ use std::ops::Range;
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::error::{Place, SceneError};
+use super::limits::{Fault, fault};
 use super::nearest::suggestion;
 use super::parameter::unknown_key;
+use super::schema::Described;
 
 /// Reads a TOML text: a scene, a study, a building, a table of them.
 ///
@@ -22,12 +24,32 @@ use super::parameter::unknown_key;
 /// ```
 ///
 /// # Errors
-/// [`SceneError::Line`] where the text is not such a document: key, line and what is expected.
-pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
-    toml::from_str(place.text()).map_err(|error| match parse_document(place) {
-        Ok(document) => place.error(error.span().unwrap_or(0..0), refusal(place, &document, &error).1),
-        Err(error) => error,
-    })
+/// [`SceneError::Line`] where the text is not such a document, or a value is outside its limits: key, line
+/// and what is expected.
+pub fn parse_toml<T: DeserializeOwned + Described>(place: &Place<'_>) -> Result<T, SceneError> {
+    let document = parse_document(place)?;
+    let whole = Spanned::new(0..place.text().len(), DeValue::Table(document.clone()));
+    read_value(place, &document, &whole).map_err(|fault| place.error(fault.span, fault.message))
+}
+
+/// Reads a value of a document, such as a table in it.
+///
+/// # Errors
+/// [`Fault`] of the first key that is not known, of a value of another kind, or outside its limits.
+pub fn read_value<T: DeserializeOwned + Described>(
+    place: &Place<'_>,
+    document: &DeTable<'_>,
+    value: &Spanned<DeValue<'_>>,
+) -> Result<T, Fault> {
+    let refused = |error: toml::de::Error| {
+        let span = error.span().unwrap_or(value.span());
+        let message = Found::at(document, place.text(), &span).explained(error.message());
+        let mut keys = Vec::new();
+        in_value(value.get_ref(), &span, &mut keys);
+        Fault { keys, span, message }
+    };
+    let read = T::deserialize(ValueDeserializer::from(value.clone())).map_err(refused)?;
+    fault::<T>(value).map_or(Ok(read), Err)
 }
 
 /// Parses a TOML text whose tables are read one by one.
@@ -59,13 +81,6 @@ pub(super) const NUMBER: &str = "a number with a decimal point, without a unit a
 /// Shortens a text for a message.
 fn shown(text: &str) -> String {
     text.trim().chars().take(60).collect()
-}
-
-/// Returns the keys that lead to what a reader refused in a document, and the reason in plain words.
-pub fn refusal(place: &Place<'_>, document: &DeTable<'_>, error: &toml::de::Error) -> (Vec<String>, String) {
-    let found = Found::at(document, place.text(), &error.span().unwrap_or(0..0));
-    let message = found.explained(error.message());
-    (found.keys, message)
 }
 
 /// What stands where a value cannot be used.

@@ -240,7 +240,7 @@ fn bad_ties_are_refused_with_the_remedy() {
     );
     let mut scene = Scene::default();
     let message = scene.set("tie_stiffness", "-1").unwrap_err().to_string();
-    assert!(message.contains("tie_stiffness = -1 N/m is below its limit 0 N/m"), "{message}");
+    assert!(message.contains("tie_stiffness = -1.0 N/m is below its minimum, 0.0 N/m"), "{message}");
     let message = scene.set("tie_side", "left").unwrap_err().to_string();
     assert!(message.contains("positive, negative, both"), "{message}");
 }

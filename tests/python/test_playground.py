@@ -263,7 +263,7 @@ def test_a_link_holds_the_check(browser, page):
 def test_wrong_input_is_told_beside_its_field(browser, page):
     before = visit(browser, page)
     put(browser, "height", "-3")
-    assert text_of(browser, "fault_height") == "height = -3 m is below its limit 0.001 m"
+    assert text_of(browser, "fault_height") == "height = -3.0 m is below its minimum, 0.001 m"
     assert text_of(browser, "headline") == "This wall cannot be computed"
     put(browser, "height", "tall")
     assert text_of(browser, "fault_height") == 'height = "tall" is not a number'

@@ -57,9 +57,9 @@ def test_files(tmp_path):
 def test_runs(record):
     wall = rw.Wall(height=3, thickness=0.25)
     for arguments, words in [
-        ({"tail": -1.0}, "tail = -1 s must be from 0 to"),
-        ({"stop_time": 0.0}, "stop_time = 0 s must be above 0"),
-        ({"thresholds": [2.0]}, "2 is not a fraction of u_ins"),
+        ({"tail": -1.0}, "tail = -1 must be at least 0 and at most"),
+        ({"stop_time": 0.0}, "stop_time = 0 must be above 0"),
+        ({"thresholds": [2.0]}, "thresholds = 2 must be above 0 and at most 1"),
         ({"scale": float("nan")}, "scale = nan must be a finite number"),
     ]:
         with pytest.raises(ValueError, match=words):

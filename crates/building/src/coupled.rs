@@ -8,7 +8,7 @@ use fmu_export::{Step, VariableId};
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
-use rocking_wall::scene::{SceneError, check_tail};
+use rocking_wall::scene::{MotionTable, SceneError, check_value};
 use rocking_wall::variables::RealVariable as WallVariable;
 
 use crate::error::BuildingError;
@@ -40,7 +40,7 @@ impl Settings {
     /// # Errors
     /// [`BuildingError::Document`] for a tail or a tolerance out of range.
     pub fn new(ground: &GroundMotion, tail: f64, tolerance: f64) -> Result<Self, BuildingError> {
-        check_tail(tail)?;
+        check_value::<MotionTable>("tail", tail)?;
         if !(1e-6..=1.0).contains(&tolerance) {
             let message = format!("tolerance = {tolerance} must be from 1e-6 to 1");
             return Err(SceneError::Value { message }.into());

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
 use rocking_wall::scene::{
-    self, Group, LONGEST_RUN, Place, SceneError, Schema, check_limits, file_schema, number, object,
-    parse_toml, read_text, text, with,
+    self, Group, LONGEST_RUN, Place, SceneError, Schema, file_schema, number, object, parse_toml, read_text,
+    text, with,
 };
 use rocking_wall::tables;
 use toml::{Spanned, Value};
@@ -102,7 +102,7 @@ tables! {
         title: Option<String>,
         /// End of the default experiment \[s\].
         #[key(exclusiveMinimum = 0, maximum = LONGEST_RUN, default = DEFAULT_STOP_TIME)]
-        stop_time: Option<Spanned<f64>>,
+        stop_time: Option<f64>,
         /// Communication step of the SSP \[s\]; by default the one that held inputs need for 1 %.
         #[key(exclusiveMinimum = 0)]
         step: Option<Spanned<f64>>,
@@ -176,8 +176,12 @@ impl Building {
 
     fn from_document(document: Document, place: &Place<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
-        let stop_time = place.within("stop_time", stop_time.as_ref(), DEFAULT_STOP_TIME, LONGEST_RUN)?;
-        let step = step.map(|step| place.within("step", Some(&step), stop_time, stop_time)).transpose()?;
+        let stop_time = stop_time.unwrap_or(DEFAULT_STOP_TIME);
+        if let Some(step) = step.as_ref().filter(|step| *step.get_ref() > stop_time) {
+            let message = format!("step = {} must be at most stop_time = {stop_time} s", step.get_ref());
+            return Err(place.error(step.span(), message));
+        }
+        let step = step.map(Spanned::into_inner);
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
             let reason = format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members");
             return Err(SceneError::File { file: place.name().to_owned(), reason });
@@ -272,7 +276,6 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
     let (text, start) = match (variable.kind, value) {
         (Kind::Real { .. }, value) => {
             let number = number(value).ok_or_else(|| format!("{name} must be a number"))?;
-            check_limits(variable, number)?;
             let text = format!("{number:?}");
             (text.clone(), text)
         }

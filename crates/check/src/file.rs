@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
-    Described, Place, SceneError, Schema, parse_document, read_text, refusal, suggestion,
+    Described, Fault, Place, SceneError, Schema, parse_document, read_text, read_value, suggestion,
 };
 use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
 use run::walls::assumed;
@@ -15,7 +15,6 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use crate::CODES;
 use crate::code::Code;
 use crate::error::CheckError;
-use crate::limits::fault;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
 use crate::site::Records;
@@ -267,17 +266,8 @@ impl<'a> CheckFile<'a> {
     /// number outside the limits that its schema states.
     pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
-        let unread = |error| {
-            let (mut keys, message) = refusal(&self.place, &self.document, &error);
-            keys.drain(..keys.len().min(1));
-            CheckError::Value { keys, message }
-        };
-        let table = T::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
-        let values = toml::Value::deserialize(ValueDeserializer::from(check.clone())).map_err(unread)?;
-        match fault::<T>(&values) {
-            Some((keys, message)) => Err(CheckError::Value { keys, message }),
-            None => Ok(table),
-        }
+        read_value(&self.place, &self.document, check)
+            .map_err(|Fault { keys, message, .. }| CheckError::Value { keys, message })
     }
 
     /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U`
@@ -295,15 +285,10 @@ impl<'a> CheckFile<'a> {
         let Some(given) = self.document.get("report").filter(|_| !is_study) else {
             return Ok(ReportTable::of_site(&site));
         };
-        let mut table =
-            ReportTable::deserialize(ValueDeserializer::from(given.clone())).map_err(|error| {
-                let (_, message) = refusal(&self.place, &self.document, &error);
-                self.place.error(error.span().unwrap_or(given.span()), message)
-            })?;
-        let values = toml::Value::deserialize(ValueDeserializer::from(given.clone())).ok();
-        let faulty = values.and_then(|values| fault::<ReportTable>(&values)).map_or(Ok(()), Err);
-        faulty.and_then(|()| table.complete(&site)).map_err(|(keys, message)| {
-            let value = keys.first().and_then(|key| given.get_ref().get(key.as_str()));
+        let mut table: ReportTable = read_value(&self.place, &self.document, given)
+            .map_err(|fault| self.place.error(fault.span, fault.message))?;
+        table.complete(&site).map_err(|(key, message)| {
+            let value = given.get_ref().get(key);
             self.place.error(value.map_or(given.span(), Spanned::span), format!("[report] {message}"))
         })?;
         Ok(table)

@@ -8,7 +8,6 @@ mod code;
 mod error;
 mod file;
 mod find;
-mod limits;
 mod report;
 mod site;
 mod verdict;

@@ -114,6 +114,7 @@ mod variable;
 
 pub use guid::fnv1a_128;
 pub use input::Input;
+pub use limits::check_real;
 pub use log::{Category, Filter, Log, Sink, Status};
 pub use model::{Environment, Experiment, Failure, Interface, Model, ModelExchange, Step, Update};
 pub use state::StateCodec;

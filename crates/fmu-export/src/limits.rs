@@ -14,7 +14,10 @@ fn not_finite(variable: &Variable, value: f64) -> Failure {
 }
 
 /// Checks that `value` is finite and within the limits of `variable`.
-pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
+///
+/// # Errors
+/// [`Failure`] with the name, the value and the limit.
+pub fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
     finite(variable, value)?;
     match variable.kind {
         Kind::Real { min: Some(min), .. } if value < min => {

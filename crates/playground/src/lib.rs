@@ -11,7 +11,7 @@
 //! let request = r#"{"run": {"parameters": {"height": "3"}, "motion": {"kind": "none"}, "width": 600}}"#;
 //! assert!(session.answer(request).contains("\"headline\":"));
 //! let request = r#"{"run": {"parameters": {"height": "-3"}, "motion": {"kind": "none"}, "width": 600}}"#;
-//! assert!(session.answer(request).contains("height = -3 m is below its limit"));
+//! assert!(session.answer(request).contains("height = -3.0 m is below its minimum"));
 //! ```
 //!
 //! Each module uses only modules above it in this table:

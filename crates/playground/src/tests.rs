@@ -93,7 +93,7 @@ fn the_scene_of_a_record_computes_the_same() {
 fn a_message_stands_beside_its_field() {
     let none = json!({ "kind": "none" });
     let synthetic = json!({ "kind": "synthetic", "seed": "1", "pga": "2" });
-    assert!(fault(&json!({ "height": "-3" }), &none, "height").contains("below its limit"));
+    assert!(fault(&json!({ "height": "-3" }), &none, "height").contains("below its minimum"));
     assert!(fault(&json!({ "height": "tall" }), &none, "height").contains("expected a number"));
     assert!(fault(&json!({ "a1": "0.9", "a3": "0.5" }), &synthetic, "a1").contains("smaller than a3"));
     let pulled = json!({ "overburden": "1e5", "overburden_eccentricity": "0.5" });

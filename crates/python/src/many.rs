@@ -7,7 +7,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
-use rocking_wall::scene::check_tail;
+use rocking_wall::scene::{MotionTable, check_value};
 use rocking_wall::solver::Motion as Solved;
 use run::parallel;
 use run::shaking::{Shaken, Shaking, felt, together};
@@ -74,7 +74,7 @@ pub(crate) fn simulate_many<'py>(
     tail: f64,
     threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<[Numbers<'py>; 3]> {
-    check_tail(tail).map_err(of_scene)?;
+    check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
     let (factors, threads) = (samples(factors)?, threads_of(threads)?.get());
     let walls = walls.iter().map(|wall| Prepared::new(wall.get())).collect::<PyResult<Vec<_>>>()?;
     let mut runs = Vec::with_capacity(factors.len());

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
+    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, check_value,
     parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
@@ -202,7 +202,7 @@ impl Wall {
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut scene = self.scene.clone();
         if let Some(Motion(record)) = record {
-            check_tail(tail).map_err(of_scene)?;
+            check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
             scene.shake(Excitation::new(record, top.map(|Motion(top)| top)), tail, Vec::new());
             scene.parameters.u_start = self.start.unwrap_or(0.0);
         } else if top.is_some() {
@@ -211,11 +211,7 @@ impl Wall {
         if hold {
             scene.excitation = scene.excitation.map(Excitation::held);
         }
-        scene.set_times([("stop_time", stop_time), ("output_step", output_step)]).map_err(of_scene)?;
-        if let Some(thresholds) = thresholds {
-            check_thresholds(&thresholds).map_err(of_scene)?;
-            scene.thresholds = thresholds;
-        }
+        scene.set_output(stop_time, output_step, thresholds).map_err(of_scene)?;
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);

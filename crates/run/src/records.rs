@@ -51,11 +51,11 @@ tables! {
         /// Format of the files, if their content does not tell.
         format: Option<Format>,
         /// Synthetic motions.
-        synthetic: Option<Spanned<SyntheticRecords>>,
+        synthetic: Option<SyntheticRecords>,
     }
 
     /// The project's synthetic motions, of consecutive seeds.
-    #[derive(Clone, Debug)]
+    #[derive(Clone, Copy, Debug)]
     struct SyntheticRecords {
         /// Number of records.
         #[key(minimum = 1, maximum = MOST_RECORDS.cast_signed())]
@@ -84,11 +84,7 @@ pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<Recor
     let files = spec.files.iter().map(|file| (file.get_ref().clone(), place.line(file.span()))).collect();
     let mut synthetic = Vec::new();
     if let Some(recipe) = &spec.synthetic {
-        let SyntheticRecords { count, seed, duration, step } = *recipe.get_ref();
-        if !(1..=MOST_RECORDS).contains(&count) {
-            let message = format!("count = {count} must be from 1 to {MOST_RECORDS}");
-            return Err(place.error(recipe.span(), message));
-        }
+        let SyntheticRecords { count, seed, duration, step } = *recipe;
         let default = SyntheticMotion::default();
         let first = seed.unwrap_or(default.seed);
         synthetic.extend((0..count).map(|k| SyntheticMotion {

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{
-    Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable, apply_group,
-    parameters, parse_document, parse_toml, read_floors, suggestion,
+    Described, Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable,
+    apply_group, object, parameters, parse_document, parse_toml, read_floors, suggestion,
 };
 use rocking_wall::tables;
 use rocking_wall::wall::{Bar, COMPUTED, Parameters, Ratio};
@@ -197,6 +197,15 @@ struct WallsDocument {
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,
     walls: Vec<Spanned<WallTable>>,
+}
+
+impl Described for WallsDocument {
+    fn describe(key: &str, tables: &mut Schema) -> Schema {
+        let storeys = Vec::<StoreyTable>::describe(key, tables);
+        let walls = Vec::<WallTable>::describe(key, tables);
+        let keys = [("storeys", storeys), ("walls", walls)];
+        object(keys.map(|(key, schema)| (key.to_owned(), schema.into())).into_iter().collect())
+    }
 }
 
 /// Reads the walls of a text with walls, storeys and supports; other keys are those of a study or a check.

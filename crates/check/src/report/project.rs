@@ -104,9 +104,9 @@ impl ReportTable {
     ///
     /// # Errors
     /// The key of coordinates that are no place, or of what differs from the site, and why that cannot be.
-    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (Vec<String>, String)> {
+    pub(crate) fn complete(&mut self, site: &SiteOfProject) -> Result<(), (&'static str, String)> {
         if let Some(message) = self.coordinates.and_then(no_place) {
-            return Err((vec!["coordinates".to_owned()], message));
+            return Err(("coordinates", message));
         }
         taken("coordinates", &mut self.coordinates, site.coordinates)?;
         taken("nominal_life", &mut self.nominal_life, site.nominal_life)?;
@@ -153,17 +153,17 @@ impl ReportTable {
 
 /// Takes a value of the site where there is none; refuses two that differ.
 fn taken<T: PartialEq + std::fmt::Debug>(
-    key: &str,
+    key: &'static str,
     own: &mut Option<T>,
     of_site: Option<T>,
-) -> Result<(), (Vec<String>, String)> {
+) -> Result<(), (&'static str, String)> {
     match (own.take(), of_site) {
         (Some(given), Some(of_site)) if given != of_site => {
             let message = format!(
                 "{key} = {given:?} differs from {of_site:?} of [check.site]; leave it out here, or make both \
                  equal"
             );
-            Err((vec![key.to_owned()], message))
+            Err((key, message))
         }
         (given, of_site) => {
             *own = given.or(of_site);

@@ -1,10 +1,10 @@
 //! A wall released from a displacement, against restitution and equivalent damping.
 
 use rocking_wall::solver::{Memo, Motion, State};
+use rocking_wall::tables;
 use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use run::model::{RATIO_MODELS, label};
-use serde::Deserialize;
 
 use super::Difference;
 use crate::EvidenceError;
@@ -21,19 +21,22 @@ const MOST_STEPS: usize = 20_000;
 /// Halvings of a step.
 const HALVINGS: u32 = 50;
 
-/// A free decay.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Decay {
-    /// Time \[s\], and displacement over thickness of a peak \[-\]; 0 at a passage of the vertical.
-    #[serde(skip)]
-    pub points: Vec<[f64; 2]>,
-    /// Time of the peak from which the model is released \[s\].
-    pub start: f64,
-    /// a₁ of the bilinear laws with viscous damping \[-\].
-    pub a1: f64,
-    /// e \[-\]; fitted where it is not given.
-    pub restitution: Option<f64>,
+tables! {
+    /// A free decay.
+    #[derive(Clone, Debug)]
+    pub struct Decay {
+        /// Time of the peak from which the model is released \[s\].
+        pub start: f64,
+        /// a₁ of the bilinear laws with viscous damping \[-\].
+        pub a1: f64,
+        /// e \[-\]; fitted where it is not given.
+        #[key(exclusiveMinimum = 0, maximum = 1)]
+        pub restitution: Option<f64>,
+        /// Time \[s\], and displacement over thickness of a peak \[-\], from a file of their own; 0 at a
+        /// passage of the vertical.
+        #[serde(skip)]
+        pub points: Vec<[f64; 2]>,
+    }
 }
 
 /// A decay beside the model.

@@ -1,8 +1,8 @@
 //! A wall pushed slowly, against the force laws.
 
+use rocking_wall::tables;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Wall};
-use serde::Deserialize;
 
 use super::Difference;
 use crate::EvidenceError;
@@ -10,19 +10,20 @@ use crate::EvidenceError;
 /// Step of the search for a₃ \[-\].
 const A3_STEP: f64 = 0.001;
 
-/// A push at the mid-height of a parapet or at the hinge of a strip.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Push {
-    /// Displacement over thickness, and force over weight \[-\].
-    #[serde(skip)]
-    pub points: Vec<[f64; 2]>,
-    /// a₁ of the trilinear laws \[-\].
-    pub a1: f64,
-    /// d₁ of the trilinear laws \[-\].
-    pub d1: f64,
-    /// Displacement over thickness from which on a₃ is fitted, and differences count \[-\].
-    pub fit_from: f64,
+tables! {
+    /// A push at the mid-height of a parapet or at the hinge of a strip.
+    #[derive(Clone, Debug)]
+    pub struct Push {
+        /// a₁ of the trilinear laws \[-\].
+        pub a1: f64,
+        /// d₁ of the trilinear laws \[-\].
+        pub d1: f64,
+        /// Displacement over thickness from which on a₃ is fitted, and differences count \[-\].
+        pub fit_from: f64,
+        /// Displacement over thickness, and force over weight \[-\], from a file of their own.
+        #[serde(skip)]
+        pub points: Vec<[f64; 2]>,
+    }
 }
 
 /// A push beside the model.

@@ -1,6 +1,5 @@
 //! The table `[hazard]`: annual rates of intensities, and what is asked of a limit state.
 
-use std::ops::Bound;
 use std::path::{Path, PathBuf};
 
 use toml::Spanned;
@@ -11,7 +10,6 @@ use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
 
 use super::levels::to_si;
-use super::within;
 
 /// Largest file of a hazard curve that is read.
 const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -32,10 +30,10 @@ tables! {
         unit: Option<Spanned<String>>,
         /// Years of the probabilities.
         #[key(exclusiveMinimum = 0, default = YEARS)]
-        years: Option<Spanned<f64>>,
+        years: Option<f64>,
         /// Annual rate that each limit state should not exceed \[1/year\].
         #[key(exclusiveMinimum = 0)]
-        target: Option<Spanned<f64>>,
+        target: Option<f64>,
     }
 }
 
@@ -95,7 +93,6 @@ pub(super) fn hazard(
 ) -> Result<HazardEntry, SceneError> {
     let HazardTable { points, file, site, unit, years, target } = table.get_ref();
     let to_si = to_si(measure, unit.as_ref(), place)?;
-    let positive = || (Bound::Excluded(0.0), Bound::Excluded(f64::INFINITY));
     let curve = match (points, file) {
         (Some(points), None) => {
             if let Some(site) = site {
@@ -114,12 +111,5 @@ pub(super) fn hazard(
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
     };
-    Ok(HazardEntry {
-        curve,
-        years: within("years", years.as_ref(), YEARS, positive(), place)?,
-        target: target
-            .as_ref()
-            .map(|target| within("target", Some(target), 0.0, positive(), place))
-            .transpose()?,
-    })
+    Ok(HazardEntry { curve, years: years.unwrap_or(YEARS), target: *target })
 }

@@ -21,9 +21,6 @@ mod model;
 mod report;
 mod uncertain;
 
-use std::fmt::Display;
-use std::ops::{Bound, RangeBounds};
-
 use rocking_wall::scene::{
     DEFAULT_TAIL, Place, SceneError, Schema, StoreyTable, SupportsTable, file_schema, parse_toml, with,
 };
@@ -90,7 +87,7 @@ tables! {
         models: Vec<Spanned<Value>>,
         /// Free vibration after each record \[s\].
         #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_TAIL)]
-        tail: Option<Spanned<f64>>,
+        tail: Option<f64>,
         /// Which runs have collapsed: those that exceed `u_ins`, or those that fall and do not come back.
         #[key(default = "exceeds")]
         collapse_is: Option<Spanned<Collapse>>,
@@ -107,7 +104,7 @@ tables! {
         /// What the results show.
         report: Option<Spanned<ReportTable>>,
         /// What a study of reliability asks.
-        reliability: Option<Spanned<ReliabilityTable>>,
+        reliability: Option<ReliabilityTable>,
         /// Annual rates of intensities.
         hazard: Option<Spanned<HazardTable>>,
         /// Parameters of the walls that are not known: each wall stands for samples of them.
@@ -155,7 +152,6 @@ impl StudyFile {
             }
         }
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
-        let tail = within("tail", document.tail.as_ref(), DEFAULT_TAIL, 0.0..=LONGEST_TAIL, place)?;
         let measure = measure(document.intensity.as_ref(), place)?;
         let levels = levels(&document.levels, &measure, place)?;
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
@@ -166,7 +162,6 @@ impl StudyFile {
                            such as \"hunt\"";
             return Err(place.error(word.span(), message));
         }
-        let target = document.reliability.as_ref().and_then(|table| table.get_ref().probability.as_ref());
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -177,45 +172,16 @@ impl StudyFile {
                 .transpose()?
                 .unwrap_or_default(),
             select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
-            tail,
+            tail: document.tail.unwrap_or(DEFAULT_TAIL),
             collapse: document.collapse_is.map(Spanned::into_inner).unwrap_or_default(),
             polarity: document.polarity.unwrap_or_default(),
             hazard: document.hazard.as_ref().map(|table| hazard(table, &measure, place)).transpose()?,
             uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
             report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
-            target: within(
-                "probability",
-                target,
-                TARGET,
-                (Bound::Excluded(0.0), Bound::Excluded(1.0)),
-                place,
-            )?,
+            target: document.reliability.and_then(|table| table.probability).unwrap_or(TARGET),
             levels,
             models,
             measure,
         })
     }
-}
-
-/// Returns a number that is given, or else the usual one.
-fn within<T: Copy + Display + PartialOrd>(
-    key: &str,
-    given: Option<&Spanned<T>>,
-    usual: T,
-    limits: impl RangeBounds<T>,
-    place: &Place<'_>,
-) -> Result<T, SceneError> {
-    let Some(given) = given else { return Ok(usual) };
-    let value = *given.get_ref();
-    if limits.contains(&value) {
-        return Ok(value);
-    }
-    let words = |bound: Bound<&T>, [included, excluded]: [&str; 2]| match bound {
-        Bound::Included(limit) => format!("{included} {limit}"),
-        Bound::Excluded(limit) => format!("{excluded} {limit}"),
-        Bound::Unbounded => "a number".to_owned(),
-    };
-    let least = words(limits.start_bound(), ["at least", "above"]);
-    let most = words(limits.end_bound(), ["at most", "below"]);
-    Err(place.error(given.span(), format!("{key} = {value} must be {least} and {most}")))
 }

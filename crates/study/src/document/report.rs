@@ -8,7 +8,6 @@ use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
 use crate::uncertain::Samples;
 
-use super::within;
 use report::counted;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
 use rocking_wall::tables;
@@ -78,7 +77,7 @@ tables! {
     pub(super) struct ReportTable {
         /// Limit states as fractions of `u_ins`.
         #[key(items = fraction(), minItems = 1, default = DEFAULT_THRESHOLDS.to_vec())]
-        fractions: Option<Spanned<Vec<f64>>>,
+        fractions: Option<Vec<f64>>,
         /// Model by whose medians the others are divided; by default the first.
         reference: Option<Spanned<String>>,
         /// Dispersions: one for each limit state (own), one for all (common), or one for each with which
@@ -90,13 +89,13 @@ tables! {
         collapse: Option<Spanned<Crossing>>,
         /// Number of resamples of the bootstrap.
         #[key(minimum = 100, maximum = MOST_RESAMPLES, default = RESAMPLES)]
-        resamples: Option<Spanned<u32>>,
+        resamples: Option<u32>,
         /// Seed of the resamples.
         #[key(default = 1)]
         seed: Option<u64>,
         /// Dispersion due to modelling, for the fragilities of risk engines \[-\].
         #[key(minimum = 0, maximum = MOST_UNCERTAINTY, default = 0)]
-        modelling_uncertainty: Option<Spanned<f64>>,
+        modelling_uncertainty: Option<f64>,
         /// Loss as a part of the value of a wall, for each of the fractions (-).
         #[key(minItems = 1)]
         loss_ratios: Option<Spanned<Vec<f64>>>,
@@ -126,7 +125,7 @@ tables! {
     pub(super) struct ReliabilityTable {
         /// Probability of a fall, of a wall that just passes, for which the numbers of the code are sought.
         #[key(exclusiveMinimum = 0, exclusiveMaximum = 1, default = TARGET)]
-        pub(super) probability: Option<Spanned<f64>>,
+        pub(super) probability: Option<f64>,
     }
 }
 
@@ -181,16 +180,7 @@ pub(super) fn report(
 ) -> Result<ReportOptions, SceneError> {
     let usual = ReportTable::default();
     let spec = table.map_or(&usual, Spanned::get_ref);
-    let fractions = spec.fractions.as_ref().map_or(DEFAULT_THRESHOLDS.to_vec(), |own| own.get_ref().clone());
-    if let Some(given) = &spec.fractions {
-        let refused = |message: String| Err(place.error(given.span(), message));
-        if fractions.is_empty() {
-            return refused("fractions is empty; list at least one fraction of u_ins".into());
-        }
-        if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
-            return refused(format!("{fraction} is not a fraction of u_ins above 0 and at most 1"));
-        }
-    }
+    let fractions = spec.fractions.clone().unwrap_or(DEFAULT_THRESHOLDS.to_vec());
     if let Some(given) = &spec.reference
         && !models.iter().any(|model| model.name == *given.get_ref())
     {
@@ -211,21 +201,14 @@ pub(super) fn report(
     if let Some(ratios) = &spec.loss_ratios {
         check_losses(&fractions, ratios.get_ref()).map_err(|fault| place.error(ratios.span(), fault))?;
     }
-    let (resamples, modelling) = (spec.resamples.as_ref(), spec.modelling_uncertainty.as_ref());
     Ok(ReportOptions {
         fractions,
         reference: reference.unwrap_or_else(first),
         beta: spec.beta.as_ref().map_or(Dispersion::Own, |word| *word.get_ref()),
         collapse: spec.collapse.as_ref().map_or(own_crossing, |word| *word.get_ref()),
-        resamples: within("resamples", resamples, RESAMPLES, 100..=MOST_RESAMPLES, place)?,
+        resamples: spec.resamples.unwrap_or(RESAMPLES),
         seed: spec.seed.unwrap_or(1),
-        modelling_uncertainty: within(
-            "modelling_uncertainty",
-            modelling,
-            0.0,
-            0.0..=MOST_UNCERTAINTY,
-            place,
-        )?,
+        modelling_uncertainty: spec.modelling_uncertainty.unwrap_or(0.0),
         classes: read_classes(classes, place)?,
         hazard: None,
         loss_ratios: spec.loss_ratios.as_ref().map(|ratios| ratios.get_ref().clone()),
@@ -258,11 +241,11 @@ fn read_classes(tables: &[Spanned<ClassTable>], place: &Place<'_>) -> Result<Vec
         let repeated = walls.iter().enumerate().find(|(index, wall)| walls[..*index].contains(wall));
         let message = if classes.iter().any(|class| class.name == *name) {
             Some(format!("the class {name:?} is listed twice; give one another name"))
-        } else if let Some((_, wall)) = repeated {
-            Some(format!("class {name:?}: the wall {wall:?} is listed twice; give it one larger weight"))
         } else {
-            let wrong = weights.iter().find(|weight| !(**weight > 0.0 && weight.is_finite()));
-            wrong.map(|weight| format!("class {name:?}: the weight {weight} must be positive and finite"))
+            let wall = repeated.map(|(_, wall)| wall);
+            wall.map(|wall| {
+                format!("class {name:?}: the wall {wall:?} is listed twice; give it one larger weight")
+            })
         };
         if let Some(message) = message {
             return Err(place.error(table.span(), message));

@@ -12,7 +12,6 @@ use run::walls::wall_parameters;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use super::within;
 use crate::uncertain::{Distribution, Shape, Uncertain, range};
 
 /// Samples of a table that states no number.
@@ -27,7 +26,7 @@ tables! {
     pub(super) struct UncertainTable {
         /// Number of samples of each wall.
         #[key(minimum = 2, maximum = MOST_SAMPLES, default = SAMPLES)]
-        samples: Option<Spanned<u32>>,
+        samples: Option<u32>,
         /// Seed of the samples.
         #[key(default = 1)]
         seed: Option<u64>,
@@ -102,7 +101,6 @@ pub(super) fn uncertain(
     place: &Place<'_>,
 ) -> Result<(Uncertain, Vec<String>), SceneError> {
     let UncertainTable { samples, seed, parameters, correlation } = table.get_ref();
-    let count = within("samples", samples.as_ref(), SAMPLES, 2..=MOST_SAMPLES, place)?;
     let Parameters(given) = parameters.get_ref();
     if given.is_empty() {
         let message = "no parameter is uncertain; give one, such as height = { normal = [3.0, 0.1] }";
@@ -140,8 +138,8 @@ pub(super) fn uncertain(
         correlations
             .push(read.map_err(|message| place.error(entry.span(), format!("correlation: {message}")))?);
     }
-    let uncertain =
-        Uncertain { samples: count as usize, seed: seed.unwrap_or(1), parameters: all, correlations };
+    let samples = samples.unwrap_or(SAMPLES) as usize;
+    let uncertain = Uncertain { samples, seed: seed.unwrap_or(1), parameters: all, correlations };
     uncertain.rows().map_err(|reason| place.error(table.span(), format!("[uncertain] {reason}")))?;
     Ok((uncertain, warnings))
 }

@@ -168,7 +168,7 @@ fn what_has_no_effect_is_refused() {
         (&no_strength, ULTIMATE, &[0.0], "no tie_strength, so tie_ultimate has no effect; set it"),
         (&whole, BAR_DIAMETER, &[0.01], "no bar, so bar_diameter has no effect; set it"),
         (&whole, STRENGTH, &[], "there is no value of tie_strength; give at least one"),
-        (&whole, STIFFNESS, &[-1.0], "tie_stiffness = -1 N/m is below its limit 0 N/m"),
+        (&whole, STIFFNESS, &[-1.0], "tie_stiffness = -1.0 N/m is below its minimum, 0.0 N/m"),
         (&whole, HEIGHT, &[3.5], "tie_height = 3.5"),
         (&whole, ULTIMATE, &[-0.5], "tie_ultimate = -0.5"),
     ] {

@@ -150,7 +150,7 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
     for (text, words) in [
         (
             "samples = 1\n[uncertain.parameters]\nheight = { normal = [3, 1] }",
-            "study.toml, line 6: samples = 1 must",
+            "study.toml, line 6: uncertain.samples = 1 must be at least 2",
         ),
         (parameters, "no parameter is uncertain"),
         (

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use report::table::significant;
-use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, TiePart, Wall};
 
@@ -37,12 +36,11 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
     console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
+    scene.set_output(None, None, arguments.thresholds.clone())?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
-    let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
-    check_thresholds(&fractions)?;
-    let capacity = Capacity::new(&wall, &fractions);
+    let capacity = Capacity::new(&wall, &scene.thresholds);
     // first, because its ending may be refused
     console.picture(arguments.plot.as_ref(), || Ok(capacity.plot().picture()))?;
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;

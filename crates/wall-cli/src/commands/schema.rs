@@ -90,7 +90,8 @@ mod tests {
     #[test]
     fn readers_take_the_defaults_of_their_schema() {
         let schema = schema(File::Study);
-        let rest = "levels = { method = \"grid\", values = [1] }\nmodels = []\n[[walls]]\nname = \"a\"\n";
+        let rest =
+            "levels = { method = \"grid\", values = [1] }\nmodels = [\"CR\"]\n[[walls]]\nname = \"a\"\n";
         let groups = schema["$defs"]["WallTable"]["properties"].as_table().unwrap();
         let mut count = 0;
         for (group, table) in groups.iter().filter(|(_, table)| table.get("properties").is_some()) {

@@ -263,7 +263,7 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--set", "xi"], &["NAME=VALUE"]);
     refused(&folder, &["simulate", "--set", "mass=3"], &["mass", "height"]);
     refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
-    refused(&folder, &["simulate", "--set", "xi=-2"], &["xi = -2 is below its limit -1\n"]);
+    refused(&folder, &["simulate", "--set", "xi=-2"], &["xi = -2.0 is below its minimum, -1.0\n"]);
     refused(&folder, &["simulate", "--set", "xi=-0.5"], &["xi = -0.5", "0 or more, or -1 where"]);
     let sources = "restitution_source = \"given\" is not one of ";
     refused(&folder, &["simulate", "--set", "restitution_source=given"], &[sources]);
@@ -284,7 +284,7 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
     refused(&folder, &["verify", "accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
     refused(&folder, &["verify", "accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);
-    refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
+    refused(&folder, &["simulate", "--stop-time", "-1"], &["stop_time = -1 must be above 0"]);
     refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
     let plain = &crate::root().join("scenes/plain_parapet.toml").display().to_string();
     refused(

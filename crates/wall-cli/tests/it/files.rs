@@ -170,9 +170,9 @@ fn messages_are_short() {
     for (arguments, number) in [
         (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
         (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
-        (["simulate", "--stop-time", "1e300"], "--stop-time = 1e300 s"),
-        (["simulate", "--thresholds", "1e22"], "1e22 is not"),
-        (["simulate", "--set", "xi=10.000000000000002"], "limit 10"),
+        (["simulate", "--stop-time", "1e300"], "stop_time = 1e300 must"),
+        (["simulate", "--thresholds", "1e22"], "thresholds = 1e22 must"),
+        (["simulate", "--set", "xi=10.000000000000002"], "maximum, 10"),
     ] {
         refused(&folder, &arguments, &[number]);
     }
@@ -217,7 +217,7 @@ fn a_mistyped_key_gets_the_nearest_name() {
         ("[geomtry]\nheight = 3\n", ["line 1", "did you mean \"geometry\"?"]),
         ("stop_tme = 3\n", ["line 1", "did you mean \"stop_time\"?"]),
         ("[motion]\nrecrod = \"a\"\n", ["line 2", "did you mean \"record\"?"]),
-        ("inputs = [\"a_botom\"]\n", ["line 1", "did you mean \"a_bottom\"?"]),
+        ("inputs = [\"a_botom\"]\n", ["line 1", "is not one of the inputs a_g, a_bottom"]),
     ] {
         fs::write(folder.join("s.toml"), content).unwrap();
         refused(&folder, &["simulate", "s.toml"], &words);

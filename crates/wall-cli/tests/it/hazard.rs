@@ -126,7 +126,7 @@ fn a_hazard_that_cannot_be_is_refused() {
     let study = STUDY.replace("\"code\"", "\"PGA\"");
     for (hazard, words) in [
         ("{}", &["line 7", "hazard needs points, or a file"][..]),
-        ("{ points = [[0.1, 1e-2]] }", &["line 7", "two points or more, found 1"]),
+        ("{ points = [[0.1, 1e-2]] }", &["line 7", "hazard.points needs at least 2 values, found 1"]),
         ("{ points = [[0.2, 1e-2], [0.1, 1e-3]] }", &["point 2", "0.1 must be above 0.2"]),
         ("{ points = [[0.1, 1e-3], [0.2, 1e-2]] }", &["point 2", "0.01 must be below 0.001"]),
         ("{ points = [[0.1, -1], [0.2, 1e-2]] }", &["point 1", "-1 must be positive"]),

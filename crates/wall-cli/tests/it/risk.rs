@@ -248,10 +248,14 @@ fn classes_that_cannot_be_made_are_refused() {
         ),
         ("walls = [\"high\"]", "walls = [\"low\", \"low\"]", &["\"low\" is listed twice", "weight"]),
         ("[3, 1]", "[3, 1, 1]", &["class \"both\"", "3 weights for 2 walls"]),
-        ("[3, 1]", "[3, -1]", &["class \"both\"", "-1 must be positive"]),
+        ("[3, 1]", "[3, -1]", &["classes.weights = -1 must be above 0: Weight of each wall"]),
         ("name = \"both\"", "name = \"alone\"", &["\"alone\" is listed twice"]),
         ("name = \"both\"", "name = \"low\"", &["class \"low\"", "name of a wall"]),
-        ("fractions = [0.4, 0.1, 1]", "fractions = []", &["fractions is empty", "at least one"]),
+        (
+            "fractions = [0.4, 0.1, 1]",
+            "fractions = []",
+            &["report.fractions needs at least 1 values, found 0"],
+        ),
         (
             "resamples = 100",
             "modelling_uncertainty = -1",

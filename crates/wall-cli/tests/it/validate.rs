@@ -62,7 +62,7 @@ fn tests_that_cannot_be_used_are_refused() {
         ("[decay]", "[push]", &["test.toml", "line"][..]),
         ("start = 0.64", "start = 9", &["start = 9", "fewer than two peaks"]),
         ("start = 0.64", "start = 2.1", &["start = 2.1", "fewer than two peaks"]),
-        ("a1 = 0.03", "a1 = -0.1", &["test.toml, line", "a1 = -0.1", "limit"]),
+        ("a1 = 0.03", "a1 = -0.1", &["test.toml, line", "a1 = -0.1", "minimum"]),
         ("start = 0.64", "start = 0.64\nrestitution = 0", &["restitution = 0", "above 0"]),
         ("start = 0.64", "start = 0.64\nrestitution = 1.2", &["restitution = 1.2", "at most 1"]),
         ("brick_wall_11.csv", "beyond.csv", &["|d|/t = 1.1", "u_ins = 1 t"]),

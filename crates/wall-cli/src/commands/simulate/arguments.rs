@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{
-    DEFAULT_TAIL, Floors, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
+    DEFAULT_TAIL, Floors, MotionTable, Scene, StoreyTable, SupportsTable, check_value,
 };
 use rocking_wall::simulation::Excitation;
 
@@ -79,7 +79,7 @@ impl Arguments {
             let of = if scene.floors.is_some() { "ground " } else { "" };
             let peak = format!("peak {of}acceleration {:.4} m/s²", motion.peak());
             let tail = self.tail.unwrap_or(DEFAULT_TAIL);
-            check_tail(tail).context("--tail")?;
+            check_value::<MotionTable>("tail", tail).context("--tail")?;
             scene.shake(Excitation::new(motion, None), tail, vec![note, peak]);
             if self.scene.scene.is_none() {
                 scene.title = "The default parapet, shaken".into();
@@ -97,11 +97,7 @@ impl Arguments {
             scene.excitation = Some(excitation.held());
             scene.motion_notes.push("each sample held until the next".into());
         }
-        scene.set_times([("--stop-time", self.stop_time), ("--output-step", self.output_step)])?;
-        if let Some(thresholds) = &self.thresholds {
-            check_thresholds(thresholds)?;
-            scene.thresholds.clone_from(thresholds);
-        }
+        scene.set_output(self.stop_time, self.output_step, self.thresholds.clone())?;
         Ok(scene)
     }
 }

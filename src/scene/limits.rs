@@ -1,0 +1,122 @@
+//! The limits of the values of a file, as the schema of its tables states them.
+
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::de::{DeValue, ValueDeserializer};
+use toml::{Spanned, Value};
+
+use crate::variables::GROUPS;
+
+use super::error::{Place, SceneError};
+use super::schema::{Described, Schema};
+use super::toml_text::parse_document;
+
+/// What is wrong with a value of a file.
+#[derive(Debug)]
+pub struct Fault {
+    /// The keys that lead to the value, from the table on that is read.
+    pub keys: Vec<String>,
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// The key, the value, and what it must be.
+    pub message: String,
+}
+
+/// Words of a schema that limit a number, or the length of a list, and how to say them.
+const OF_NUMBER: [(&str, &str); 4] = [
+    ("exclusiveMinimum", "above"),
+    ("minimum", "at least"),
+    ("maximum", "at most"),
+    ("exclusiveMaximum", "below"),
+];
+const OF_LIST: [(&str, &str); 2] = [("minItems", "at least"), ("maxItems", "at most")];
+
+/// Checks a number or a list of numbers, given by itself, against the limits of a key of `T`.
+///
+/// # Errors
+/// [`SceneError::Value`] with the key, the value and its limits.
+///
+/// ```
+/// use rocking_wall::scene::{MotionTable, check_value};
+///
+/// let error = check_value::<MotionTable>("tail", -1.0).unwrap_err().to_string();
+/// assert!(error.starts_with("tail = -1 must be at least 0 and at most 1000000: Free vibration"), "{error}");
+/// ```
+pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Result<(), SceneError> {
+    // TOML writes NaN in small letters
+    let text = format!("{key} = {value:?}").to_lowercase();
+    let table = Spanned::new(0..text.len(), DeValue::Table(parse_document(&Place::new(key, &text))?));
+    fault::<T>(&table).map_or(Ok(()), |Fault { message, .. }| Err(SceneError::Value { message }))
+}
+
+/// Finds the first value of a table that is outside the limits of the keys of `T`.
+pub(super) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault> {
+    let mut tables = Schema::new();
+    let schema = T::describe("", &mut tables);
+    in_value(&schema.into(), "", &tables, table, &[])
+}
+
+fn in_value(
+    schema: &Value,
+    about: &str,
+    tables: &Schema,
+    value: &Spanned<DeValue<'_>>,
+    keys: &[String],
+) -> Option<Fault> {
+    let about = schema.get("description").and_then(Value::as_str).unwrap_or(about).trim_end_matches('.');
+    let name = schema.get("$ref").and_then(|path| path.as_str()?.rsplit('/').next());
+    let declared = name.and_then(|name| tables.get(name));
+    let schema = declared.unwrap_or(schema);
+    let fault = |said: String| {
+        let message = format!("{} {said}: {about}", keys.join("."));
+        Some(Fault { keys: keys.to_vec(), span: value.span(), message })
+    };
+    match value.get_ref() {
+        DeValue::Table(table) => table.iter().find_map(|(key, value)| {
+            let key = key.get_ref().as_ref();
+            // who applies a group of parameters checks them by the model description
+            if declared.is_none() && GROUPS.iter().any(|(_, names)| names.contains(&key)) {
+                return None;
+            }
+            let keys = [keys, &[key.to_owned()]].concat();
+            in_value(schema.get("properties")?.get(key)?, about, tables, value, &keys)
+        }),
+        DeValue::Array(list) => {
+            #[allow(clippy::cast_precision_loss, reason = "no list has 2⁵³ items")]
+            let limits = outside(schema, list.len() as f64, &OF_LIST);
+            let items = |items| list.iter().find_map(|item| in_value(items, about, tables, item, keys));
+            match limits {
+                Some(limits) => fault(format!("needs {limits} values, found {}", list.len())),
+                None => schema.get("items").and_then(items),
+            }
+        }
+        DeValue::Integer(_) | DeValue::Float(_) => {
+            let number = f64::deserialize(ValueDeserializer::from(value.clone())).ok()?;
+            let forms = schema.get("anyOf").and_then(Value::as_array).into_iter().flatten();
+            let limits = [schema].into_iter().chain(forms).find_map(|form| outside(form, number, &OF_NUMBER));
+            limits.and_then(|limits| fault(format!("= {number} must be {limits}")))
+        }
+        _ => None,
+    }
+}
+
+/// What a number must be that is outside the limits of a schema.
+fn outside(schema: &Value, given: f64, words: &[(&str, &str)]) -> Option<String> {
+    let stated = words.iter().filter_map(|(word, said)| {
+        let limit = schema.get(word)?;
+        let limit = limit.as_float().or_else(|| Some(f64::from(i32::try_from(limit.as_integer()?).ok()?)))?;
+        let holds = match *word {
+            "exclusiveMinimum" => given > limit,
+            "exclusiveMaximum" => given < limit,
+            "minimum" | "minItems" => given >= limit,
+            _ => given <= limit,
+        };
+        Some((format!("{said} {limit}"), holds))
+    });
+    let (said, holds): (Vec<String>, Vec<bool>) = stated.unzip();
+    if holds.contains(&false) {
+        return Some(said.join(" and "));
+    }
+    (!given.is_finite()).then(|| "finite".to_owned())
+}
