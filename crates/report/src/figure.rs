@@ -49,7 +49,7 @@ impl Plot {
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
             let mut sample = match series.look {
-                Look::Solid => stroke(color, "solid"),
+                Look::Solid | Look::Faint => stroke(color, "solid"),
                 Look::Dashed => stroke(color, "dashed"),
                 Look::Dotted => stroke(color, "dotted"),
                 Look::Marks(_) => String::new(),

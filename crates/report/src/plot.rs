@@ -78,7 +78,7 @@ pub struct Series {
     pub width: f64,
     /// Name in a legend; empty for none, and for a series that belongs to a named one.
     pub name: String,
-    /// For marks: the text shown when each one is pointed at.
+    /// The text shown when a mark or a line is pointed at: none, one for each mark, or one for the line.
     pub titles: Vec<String>,
 }
 
@@ -89,6 +89,8 @@ pub enum Look {
     Solid,
     Dashed,
     Dotted,
+    /// A pale line, one of many; on a page it stands out when pointed at.
+    Faint,
     Marks(Mark),
 }
 
@@ -138,29 +140,38 @@ impl Series {
                 let _ = write!(path, "{step}{x:.2} {y:.2}");
                 step = "L";
             }
-            let dashes = match self.look {
+            let look = match self.look {
                 Look::Dashed => " stroke-dasharray=\"8 4\"",
                 Look::Dotted => " stroke-dasharray=\"2 4\"",
+                Look::Faint => " opacity=\"0.4\" class=\"faint\"",
                 Look::Solid | Look::Marks(_) => "",
             };
             let (color, width) = (self.color, self.width);
-            let _ = write!(
-                svg,
-                "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{dashes}/>"
-            );
+            let look = format!(" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{look}");
+            self.write_path(svg, 0, &path, &look);
             return;
         };
+        let look = match mark {
+            Mark::Dot => format!("stroke-width=\"{}\" stroke-linecap=\"round\" opacity=\"0.5\"", self.width),
+            _ => "stroke-width=\"1.4\"".to_owned(),
+        };
+        let _ = write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" {look}>", self.color);
         let outline = mark.outline(self.width);
-        let _ =
-            write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
-        for (index, [x, y]) in places.iter().enumerate() {
-            let _ = write!(svg, "<path d=\"M{x:.2} {y:.2}{outline}\"");
-            let _ = match self.titles.get(index) {
-                Some(title) => write!(svg, "><title>{}</title></path>", escaped(title)),
-                None => write!(svg, "/>"),
-            };
+        // without titles one path is enough for thousands of marks
+        let at_once = if self.titles.is_empty() { places.len().max(1) } else { 1 };
+        for (index, places) in places.chunks(at_once).enumerate() {
+            let path: String = places.iter().map(|[x, y]| format!("M{x:.2} {y:.2}{outline}")).collect();
+            self.write_path(svg, index, &path, "");
         }
         svg.push_str("</g>");
+    }
+
+    /// Writes a path, with its title if it has one.
+    fn write_path(&self, svg: &mut String, index: usize, path: &str, look: &str) {
+        let _ = match self.titles.get(index) {
+            Some(title) => write!(svg, "<path d=\"{path}\"{look}><title>{}</title></path>", escaped(title)),
+            None => write!(svg, "<path d=\"{path}\"{look}/>"),
+        };
     }
 }
 

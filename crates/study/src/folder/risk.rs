@@ -200,11 +200,10 @@ impl<'a> Risk<'a> {
             let at = |k: u32| end * f64::from(k) / f64::from(POINTS);
             let line = |curve: &Option<Lognormal>| {
                 let point =
-                    |curve: &Lognormal| (1..=POINTS).map(|k| [at(k), curve.probability(at(k))]).collect();
+                    |curve: &Lognormal| (1..=POINTS).map(|k| (at(k), curve.probability(at(k)))).collect();
                 curve.as_ref().map_or_else(Vec::new, point)
             };
-            let lines: Vec<Vec<[f64; 2]>> = curves.iter().map(line).collect();
-            self.shown.add(subject, table, ([0.0, end], &lines));
+            self.shown.add(subject, table, ([0.0, end], curves.iter().map(line).collect()));
         }
         if let Some(rates) = &mut self.rates {
             rates.add(subject)?;
