@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::escaped;
 use crate::palette::{Mark, SERIES, sign, stroke};
-use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series};
+use crate::plot::{Axis, Look, MARGINS, Plot, Series};
 use crate::points::simplified;
 
 /// Size of a figure, and of a picture of it \[px\].
@@ -65,7 +65,7 @@ impl Plot {
 
     /// Draws a figure with its legend at the top right, for a file. It has no title, so that it fits on a
     /// phone.
-    pub fn figure_file(&self) -> Picture {
+    pub fn figure_file(&self) -> String {
         self.traced(SIZES[1]).picture()
     }
 

@@ -223,9 +223,9 @@ impl Plot {
         )
     }
 
-    /// Draws a picture with title and legend, for a file of its own.
-    pub fn picture(&self) -> Picture {
-        Picture::stacked(std::slice::from_ref(self))
+    /// Draws a picture with title and legend, as SVG for a file of its own.
+    pub fn picture(&self) -> String {
+        stacked(std::slice::from_ref(self))
     }
 
     /// Returns the sides of the plot area of the inline SVG, as parts of its width and height: left, right,
@@ -293,44 +293,29 @@ fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
     [low, (high + room).max(low + least)]
 }
 
-/// A drawing for a file of its own.
-pub struct Picture {
-    size: [f64; 2],
-    body: String,
-}
-
-impl Picture {
-    /// Draws plots of one width, one above the other.
-    pub fn stacked(plots: &[Plot]) -> Self {
-        let (mut body, mut size) = (String::new(), [0.0_f64; 2]);
-        for plot in plots {
-            let y = if size[1] > 0.0 { size[1] + SPACING } else { 0.0 };
-            let top = if plot.title.is_empty() { PICTURE[0] } else { 32.0 };
-            let mut frame = plot.frame([0.0, 14.0, top, PICTURE[1]], NUMBERS[1]);
-            frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
-            let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
-            if !plot.title.is_empty() {
-                let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
-                let _ = write!(
-                    body,
-                    "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
-                );
-            }
-            legend(&mut body, &plot.series, frame.area());
-            body.push_str("</g>");
-            size = [size[0].max(plot.size[0]), y + plot.size[1]];
+/// Draws plots of one width, one above the other, as SVG for a file of its own.
+pub fn stacked(plots: &[Plot]) -> String {
+    let (mut body, mut width, mut height) = (String::new(), 0.0_f64, 0.0);
+    for plot in plots {
+        let y = if height > 0.0 { height + SPACING } else { 0.0 };
+        let top = if plot.title.is_empty() { PICTURE[0] } else { 32.0 };
+        let mut frame = plot.frame([0.0, 14.0, top, PICTURE[1]], NUMBERS[1]);
+        frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
+        let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
+        if !plot.title.is_empty() {
+            let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
+            let _ = write!(
+                body,
+                "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
+            );
         }
-        Self { size, body }
+        legend(&mut body, &plot.series, frame.area());
+        body.push_str("</g>");
+        (width, height) = (width.max(plot.size[0]), y + plot.size[1]);
     }
-
-    /// Writes it as SVG.
-    pub fn svg(&self) -> String {
-        let [width, height] = self.size;
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
-            self.body
-        )
-    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{body}</svg>"
+    )
 }
