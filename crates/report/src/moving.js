@@ -1,6 +1,6 @@
 const degrees = 180 / Math.PI;
 const within = sine => Math.asin(Math.max(-1, Math.min(1, sine)));
-// Turns the bodies of a wall to the displacement u, under a top that is displaced by `drift` from its foot, and
+// Turns the bodies of a wall to the displacement u, with its top displaced by `drift` from its foot, and
 // returns where its tie is. A strip's hinge opens on the other face: the corner (-toe, h1) of the lower body
 // carries the upper one. The wall says its height, thickness, hinge, whether rotations are full, and its tie.
 function turnWall(wall, [lower, upper], u, drift = 0) {

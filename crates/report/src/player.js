@@ -1,5 +1,5 @@
-// Starts a page at the frame `open`, or at the time of page.html#t=9.2. `readout` has a name and the text at a
-// frame for each number below the slider.
+// Starts a page at the frame `open`, or at the time of page.html#t=9.2. `readout` has a name and the text at
+// a frame for each number below the slider.
 function startPlayer(times, show, readout, open) {
   const numbers = readout.map(([name, text], index) => {
     const box = at("now").appendChild(document.createElement("div"));

@@ -115,11 +115,7 @@ impl<'a> Losses<'a> {
                 100.0 * CONFIDENCE
             );
             told = format!("{words}\n{}", table.text());
-            let _ = write!(
-                html,
-                "<p class=\"subtitle\">{words}.</p><div class=\"scroll\">{}</div>",
-                table.html()
-            );
+            let _ = write!(html, "<p class=\"subtitle\">{words}.</p>{}", table.html());
         }
         let _ = writeln!(html, "<h3>Mean loss ratio by intensity</h3>{}</section>", shown.plots());
         Ok((paths, told, html))

@@ -112,8 +112,8 @@ impl<'a> Rates<'a> {
         let warning = self.warning().map_or_else(String::new, |warning| format!(" {}.", escaped(&warning)));
         let table = self.shown.table();
         let html = format!(
-            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p><div class=\"scroll\">{}\
-             </div><h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
+            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p>{}\
+             <h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
             escaped(&words),
             table.html(),
             self.shown.plots()

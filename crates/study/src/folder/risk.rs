@@ -287,7 +287,7 @@ impl<'a> Risk<'a> {
         let highest = report.rising().last().map_or(1.0, |place| report.fractions[*place]);
         format!(
             "<section><h2>Classes of walls</h2><p class=\"subtitle\">β² is the sum of the squares of its \
-             parts; intervals are those of the records, {:.0} %.</p><div class=\"scroll\">{}</div>\
+             parts; intervals are those of the records, {:.0} %.</p>{}\
              <h3>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {highest})</h3>{}</section>\n",
             100.0 * CONFIDENCE,
             table.html(),
