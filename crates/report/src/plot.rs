@@ -160,7 +160,10 @@ impl Series {
         // without titles one path is enough for thousands of marks
         let at_once = if self.titles.is_empty() { places.len().max(1) } else { 1 };
         for (index, places) in places.chunks(at_once).enumerate() {
-            let path: String = places.iter().map(|[x, y]| format!("M{x:.2} {y:.2}{outline}")).collect();
+            let mut path = String::new();
+            for [x, y] in places {
+                let _ = write!(path, "M{x:.2} {y:.2}{outline}");
+            }
             self.write_path(svg, index, &path, "");
         }
         svg.push_str("</g>");
