@@ -14,10 +14,11 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "crates/playground/src/page"
 # Marks of the template, and the files that take their place. Texts are escaped.
-PARTS = {"style": "page.css", "fields": "fields.js", "wall": "wall.js", "script": "page.js"}
+PARTS = {"style": "page.css", "fields": "fields.js", "script": "page.js"}
 # What the pages of the program begin with, how they print, and how they move.
 REPORT = ROOT / "crates/report/src"
 HEAD, PAPER, MOVING = REPORT / "page.html", REPORT / "paper.css", REPORT / "moving.js"
+WALL = ROOT / "crates/run/src/page/wall.css"
 TEXTS = {"notices": PAGE / "notices.txt", "mit": ROOT / "LICENSE-MIT", "apache": ROOT / "LICENSE-APACHE"}
 
 
@@ -25,7 +26,7 @@ def main():
     library, page = map(Path, sys.argv[1:])
     parts = {mark: read(PAGE / name) for mark, name in PARTS.items()}
     parts["title"] = "Rocking wall: playground"
-    parts["style"] += read(PAPER)
+    parts["style"] += read(WALL) + read(PAPER)
     parts["moving"] = read(MOVING)
     parts |= {mark: escape(read(path)) for mark, path in TEXTS.items()}
     # no time in the archive: the same library makes the same page with one version of zlib

@@ -1,6 +1,6 @@
 //! The charts of a run.
 
-use report::plot::{Picture, Plot};
+use report::plot::{Plot, stacked};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::wall::Wall;
 use run::figure as plots;
@@ -49,7 +49,7 @@ pub(crate) fn inline(charts: Charts) -> Value {
 
 /// Returns charts as one SVG file.
 pub(crate) fn file(charts: Charts) -> String {
-    Picture::stacked(&charts.into_iter().map(|(_, plot)| plot).collect::<Vec<_>>()).svg()
+    stacked(&charts.into_iter().map(|(_, plot)| plot).collect::<Vec<_>>())
 }
 
 /// The end of the time axes \[s\]: soon after a fall.

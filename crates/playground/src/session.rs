@@ -2,6 +2,7 @@
 
 use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
+use run::page;
 use serde_json::{Value, json};
 
 use crate::charts::{Frames, captions, charts, file, inline};
@@ -83,11 +84,12 @@ impl Session {
             "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
             "charts": inline(charts(wall, &response, inputs.width)),
             "captions": captions(wall, &response),
+            "drawing": page::drawing(scene, wall, &response),
+            "factor": page::factor(wall, &response),
             "wall": {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,
                 "hinge": body.hinge(),
-                "overburden": body.overburden,
                 "u_ins": [body.instability.positive, body.instability.negative],
             },
             "summary": {

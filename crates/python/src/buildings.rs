@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use report::palette::{DARK_GREY, SERIES};
-use report::plot::Picture;
+use report::plot::stacked;
 use run::figure::{cut, histories};
 
 use crate::arrays::Motion;
@@ -144,5 +144,5 @@ fn picture(run: &Coupled) -> String {
     if !walls.is_empty() {
         plots.push(drawn(&walls, "u / u_ins", &[-1.0, 1.0]));
     }
-    Picture::stacked(&plots).svg()
+    stacked(&plots)
 }

@@ -6,6 +6,7 @@ use evidence::verification::{self, verify};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use report::plot::Plot;
 use report::table::Column;
 use rocking_wall::response::Fate;
 use rocking_wall::scene::{DEFAULT_TAIL, to_toml};
@@ -42,7 +43,7 @@ pub(crate) fn check_wall<'py>(
     let checked = py.detach(|| {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
-        let picture = verdict.details.figure()?.plot.picture().svg();
+        let picture = verdict.details.figure()?.plot.picture();
         Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
     });
     let (summary, numbers, rows, picture) = checked.map_err(of_check)?;
@@ -220,7 +221,7 @@ pub(crate) fn tie_of_wall<'py>(
     }
     let is_alike = study.polarities() == Polarities::Alike;
     let table = table(py, tie::table(&study, &rows))?;
-    Ok((outcomes(py, &rows)?, table, tie::figure::picture(&study, &rows).svg(), is_alike, warnings))
+    Ok((outcomes(py, &rows)?, table, tie::figure::picture(&study, &rows), is_alike, warnings))
 }
 
 fn of_tie(error: TieError) -> PyErr {
@@ -292,10 +293,7 @@ pub(crate) fn calibrate_wall<'py>(
     let tables = [calibration::table::fits, calibration::table::coefficients, calibration::table::laws]
         .map(|of| table(py, of(&found)));
     let [fits, coefficients, laws] = tables;
-    Ok((
-        [fits?, coefficients?, laws?],
-        charts(&found).iter().map(|drawn| drawn.figure_file().svg()).collect(),
-    ))
+    Ok(([fits?, coefficients?, laws?], charts(&found).iter().map(Plot::figure_file).collect()))
 }
 
 fn model(name: &str) -> PyResult<DampingModel> {

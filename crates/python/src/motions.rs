@@ -169,5 +169,5 @@ fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
 #[pyfunction]
 pub(crate) fn picture(py: Python<'_>, given: Motion, name: String) -> PyResult<String> {
     let drawn = py.detach(|| Drawn::new(name, &given.0, &Spectrum::default())).map_err(of_motion)?;
-    Ok(figure::picture(&[drawn], ground_motion::spectrum::DAMPING).svg())
+    Ok(figure::picture(&[drawn], ground_motion::spectrum::DAMPING))
 }

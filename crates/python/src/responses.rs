@@ -3,7 +3,7 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::plot::Picture;
+use report::plot::stacked;
 use rocking_wall::response::Response;
 use run::figure;
 
@@ -48,5 +48,5 @@ pub(crate) fn picture_of_response(
     motion.retain(|point| point.0 <= end);
     let end = last(&motion);
     let (motion, history) = (figure::motion(&motion, None, end), figure::history(&ratios, end));
-    Ok(Picture::stacked(&[motion, history]).svg())
+    Ok(stacked(&[motion, history]))
 }

@@ -183,7 +183,7 @@ impl Wall {
         let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        let picture = plot(&[("u > 0", points)], Vec::new()).picture().svg();
+        let picture = plot(&[("u > 0", points)], Vec::new()).picture();
         Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
 

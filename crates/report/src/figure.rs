@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::escaped;
 use crate::palette::{Mark, SERIES, sign, stroke};
-use crate::plot::{Axis, Look, MARGINS, Picture, Plot, Series};
+use crate::plot::{Axis, Look, MARGINS, Plot, Series};
 use crate::points::simplified;
 
 /// Size of a figure, and of a picture of it \[px\].
@@ -49,7 +49,7 @@ impl Plot {
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
             let mut sample = match series.look {
-                Look::Solid => stroke(color, "solid"),
+                Look::Solid | Look::Faint => stroke(color, "solid"),
                 Look::Dashed => stroke(color, "dashed"),
                 Look::Dotted => stroke(color, "dotted"),
                 Look::Marks(_) => String::new(),
@@ -65,7 +65,7 @@ impl Plot {
 
     /// Draws a figure with its legend at the top right, for a file. It has no title, so that it fits on a
     /// phone.
-    pub fn figure_file(&self) -> Picture {
+    pub fn figure_file(&self) -> String {
         self.traced(SIZES[1]).picture()
     }
 

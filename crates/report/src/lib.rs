@@ -11,7 +11,6 @@
 //! | [`mod@table`] | tables: columns, cells, and the forms they are shown in |
 //! | [`mod@plot`] | lines and marks over two axes; with title and legend a figure |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
-//! | [`many_lines`] | thousands of lines in few bytes, with their style |
 //! | [`sheet`] | drawings side by side in a file |
 //! | [`points`] | lines with fewer points that look the same |
 //! | [`palette`] | the colours and marks of all of them |
@@ -23,7 +22,6 @@ mod axes;
 mod figure;
 mod frame;
 pub mod heat_map;
-pub mod many_lines;
 pub mod moving;
 pub mod page;
 pub mod palette;

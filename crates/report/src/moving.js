@@ -1,13 +1,27 @@
 const degrees = 180 / Math.PI;
 const within = sine => Math.asin(Math.max(-1, Math.min(1, sine)));
-// Turns the bodies of a strip. The hinge opens on the other face: the corner (-toe, h1) of the lower body
-// carries the upper one.
-function openHinge(lower, upper, turn, back, toe, h1) {
+// Turns the bodies of a wall to the displacement u, with its top displaced by `drift` from its foot, and
+// returns where its tie is. A strip's hinge opens on the other face: the corner (-toe, h1) of the lower body
+// carries the upper one. The wall says its height, thickness, hinge, whether rotations are full, and its tie.
+function turnWall(wall, [lower, upper], u, drift = 0) {
+  const { height: h, thickness: b, hinge: h1, full, tie } = wall, toe = (u < 0 ? -1 : 1) * b / 2;
+  // The angle of a body whose point at the height `arm` is displaced by u; it lies flat at u = arm. With full
+  // rotations, s is the horizontal distance from the toe: of a strip's hinge (u - b), or of the far corner of
+  // a parapet's top (2 u - b).
+  const angle = (u, arm) => {
+    if (!full) { return within(u / arm); }
+    const d = Math.hypot(h1 === null ? h : arm, b), s = (h1 === null ? 2 : 1) * Math.abs(u) - b;
+    return Math.sign(u) * (within(s / d) + within(b / d));
+  };
+  const turn = h1 === null ? angle(u, h / 2) : angle(u + drift * h1 / h, h1);
   lower.setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
+  if (h1 === null) { return toe - toe * Math.cos(turn) + Math.sin(turn) * (tie?.y ?? 0); }
+  const h2 = h - h1, back = angle(u - drift * h2 / h, h2);
   const x = toe + Math.cos(turn) * (-2 * toe) + Math.sin(turn) * h1;
   const y = Math.sin(turn) * 2 * toe + Math.cos(turn) * h1;
   upper.setAttribute("transform",
     `translate(${x + toe} ${y - h1}) rotate(${back * degrees} ${-toe} ${h1})`);
+  return 0;
 }
 function place(element, x, y) {
   element.style.left = 100 * x + "%";
@@ -44,7 +58,7 @@ const statesOf = (tie, frame) => ofSides(tie, side => tieStates[side.state[frame
 const longerBy = (tie, frame) => ofSides(tie, side => side.p[frame].toFixed(1));
 // Draws the ties of a frame to the wall at x, with displacements enlarged by `factor`: sagging while slack,
 // hanging down once broken. A parabola over the span l that is longer by d sags by the root of 3/8 l d.
-function drawTies(tie, frame, x, thickness, factor) {
+function drawTies({ tie, thickness }, frame, x, factor) {
   document.querySelectorAll(".tie").forEach((line, index) => {
     const { state, free } = tie.sides[index], y = tie.y, edge = Number(line.dataset.edge);
     const middle = (edge + x) / 2, span = Math.abs(x - edge);
@@ -56,4 +70,39 @@ function drawTies(tie, frame, x, thickness, factor) {
     line.setAttribute("d", `M${9 * edge} ${y}H${edge}${to}`);
     line.setAttribute("class", `tie ${tieStates[state[frame]]}`);
   });
+}
+// ---- time
+// Lets slider, button and histories show frames, of which `times` returns the times. Returns whether it
+// plays, and which frame a time has.
+function player(times, show) {
+  const slider = at("time"), button = at("play"), last = () => times().length - 1;
+  let playing = null;
+  const stop = () => { cancelAnimationFrame(playing); playing = null; button.textContent = "Play"; };
+  const play = () => {
+    if (Number(slider.value) >= last()) { show(0); }
+    let time = times()[Number(slider.value)], before = performance.now();
+    const tick = now => {
+      time += Math.max(0, now - before) / 1000 * Number(at("speed")?.value ?? 1);
+      before = now;
+      let frame = Math.min(Number(slider.value), last());
+      while (frame < last() && times()[frame + 1] <= time) { frame += 1; }
+      show(frame);
+      if (frame >= last()) { stop(); } else { playing = requestAnimationFrame(tick); }
+    };
+    button.textContent = "Pause";
+    playing = requestAnimationFrame(tick);
+  };
+  const go = frame => { stop(); show(frame); };
+  const frameAt = time => Math.max(0, times().findLastIndex(t => t <= time));
+  button.addEventListener("click", () => playing === null ? play() : stop());
+  slider.addEventListener("input", () => go(Number(slider.value)));
+  for (const kind of ["pointerdown", "pointermove"]) {
+    document.addEventListener(kind, event => {
+      const plot = event.target.closest?.(".plot:has(.cursor)") ?? null;
+      if (plot !== null && (kind === "pointerdown" || event.buttons !== 0)) {
+        go(frameAt(timeUnder(event, plot)));
+      }
+    });
+  }
+  return { isPlaying: () => playing !== null, frameAt };
 }

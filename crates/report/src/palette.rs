@@ -22,6 +22,8 @@ pub enum Mark {
     Cross,
     Plus,
     Star,
+    /// A dot that others show through: where dots of several series lie on each other, it is darker.
+    Dot,
 }
 
 impl Mark {
@@ -51,6 +53,7 @@ impl Mark {
             ),
             Self::Cross => cross(0.9 * r),
             Self::Plus => plus,
+            Self::Dot => "h0".to_owned(),
             Self::Star => format!("{plus}m{:.1}{:.1}{}", 0.0, -1.2 * r, cross(0.8 * r)),
         }
     }
@@ -95,7 +98,7 @@ pub fn character(mark: Mark) -> &'static str {
         Mark::Plus => "✚",
         Mark::TriangleDown => "▼",
         Mark::Star => "★",
-        Mark::Circle => "●",
+        Mark::Circle | Mark::Dot => "●",
     }
 }
 

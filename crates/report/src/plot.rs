@@ -78,7 +78,7 @@ pub struct Series {
     pub width: f64,
     /// Name in a legend; empty for none, and for a series that belongs to a named one.
     pub name: String,
-    /// For marks: the text shown when each one is pointed at.
+    /// The text shown when a mark or a line is pointed at: none, one for each mark, or one for the line.
     pub titles: Vec<String>,
 }
 
@@ -89,6 +89,8 @@ pub enum Look {
     Solid,
     Dashed,
     Dotted,
+    /// A pale line, one of many; on a page it stands out when pointed at.
+    Faint,
     Marks(Mark),
 }
 
@@ -138,29 +140,41 @@ impl Series {
                 let _ = write!(path, "{step}{x:.2} {y:.2}");
                 step = "L";
             }
-            let dashes = match self.look {
+            let look = match self.look {
                 Look::Dashed => " stroke-dasharray=\"8 4\"",
                 Look::Dotted => " stroke-dasharray=\"2 4\"",
+                Look::Faint => " opacity=\"0.4\" class=\"faint\"",
                 Look::Solid | Look::Marks(_) => "",
             };
             let (color, width) = (self.color, self.width);
-            let _ = write!(
-                svg,
-                "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{dashes}/>"
-            );
+            let look = format!(" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{look}");
+            self.write_path(svg, 0, &path, &look);
             return;
         };
+        let look = match mark {
+            Mark::Dot => format!("stroke-width=\"{}\" stroke-linecap=\"round\" opacity=\"0.5\"", self.width),
+            _ => "stroke-width=\"1.4\"".to_owned(),
+        };
+        let _ = write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" {look}>", self.color);
         let outline = mark.outline(self.width);
-        let _ =
-            write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
-        for (index, [x, y]) in places.iter().enumerate() {
-            let _ = write!(svg, "<path d=\"M{x:.2} {y:.2}{outline}\"");
-            let _ = match self.titles.get(index) {
-                Some(title) => write!(svg, "><title>{}</title></path>", escaped(title)),
-                None => write!(svg, "/>"),
-            };
+        // without titles one path is enough for thousands of marks
+        let at_once = if self.titles.is_empty() { places.len().max(1) } else { 1 };
+        for (index, places) in places.chunks(at_once).enumerate() {
+            let mut path = String::new();
+            for [x, y] in places {
+                let _ = write!(path, "M{x:.2} {y:.2}{outline}");
+            }
+            self.write_path(svg, index, &path, "");
         }
         svg.push_str("</g>");
+    }
+
+    /// Writes a path, with its title if it has one.
+    fn write_path(&self, svg: &mut String, index: usize, path: &str, look: &str) {
+        let _ = match self.titles.get(index) {
+            Some(title) => write!(svg, "<path d=\"{path}\"{look}><title>{}</title></path>", escaped(title)),
+            None => write!(svg, "<path d=\"{path}\"{look}/>"),
+        };
     }
 }
 
@@ -212,9 +226,9 @@ impl Plot {
         )
     }
 
-    /// Draws a picture with title and legend, for a file of its own.
-    pub fn picture(&self) -> Picture {
-        Picture::stacked(std::slice::from_ref(self))
+    /// Draws a picture with title and legend, as SVG for a file of its own.
+    pub fn picture(&self) -> String {
+        stacked(std::slice::from_ref(self))
     }
 
     /// Returns the sides of the plot area of the inline SVG, as parts of its width and height: left, right,
@@ -282,44 +296,29 @@ fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
     [low, (high + room).max(low + least)]
 }
 
-/// A drawing for a file of its own.
-pub struct Picture {
-    size: [f64; 2],
-    body: String,
-}
-
-impl Picture {
-    /// Draws plots of one width, one above the other.
-    pub fn stacked(plots: &[Plot]) -> Self {
-        let (mut body, mut size) = (String::new(), [0.0_f64; 2]);
-        for plot in plots {
-            let y = if size[1] > 0.0 { size[1] + SPACING } else { 0.0 };
-            let top = if plot.title.is_empty() { PICTURE[0] } else { 32.0 };
-            let mut frame = plot.frame([0.0, 14.0, top, PICTURE[1]], NUMBERS[1]);
-            frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
-            let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
-            if !plot.title.is_empty() {
-                let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
-                let _ = write!(
-                    body,
-                    "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
-                );
-            }
-            legend(&mut body, &plot.series, frame.area());
-            body.push_str("</g>");
-            size = [size[0].max(plot.size[0]), y + plot.size[1]];
+/// Draws plots of one width, one above the other, as SVG for a file of its own.
+pub fn stacked(plots: &[Plot]) -> String {
+    let (mut body, mut width, mut height) = (String::new(), 0.0_f64, 0.0);
+    for plot in plots {
+        let y = if height > 0.0 { height + SPACING } else { 0.0 };
+        let top = if plot.title.is_empty() { PICTURE[0] } else { 32.0 };
+        let mut frame = plot.frame([0.0, 14.0, top, PICTURE[1]], NUMBERS[1]);
+        frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
+        let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
+        if !plot.title.is_empty() {
+            let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
+            let _ = write!(
+                body,
+                "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
+            );
         }
-        Self { size, body }
+        legend(&mut body, &plot.series, frame.area());
+        body.push_str("</g>");
+        (width, height) = (width.max(plot.size[0]), y + plot.size[1]);
     }
-
-    /// Writes it as SVG.
-    pub fn svg(&self) -> String {
-        let [width, height] = self.size;
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
-            self.body
-        )
-    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{body}</svg>"
+    )
 }

@@ -11,7 +11,6 @@
 use std::fmt::Write;
 
 use crate::escaped;
-use crate::many_lines::STYLE;
 use crate::palette::{Mark, character};
 
 /// Most drawings in a row.
@@ -37,7 +36,7 @@ pub fn sheet(
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0} {1:.0}\" \
          font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#1c1c1c\" role=\"img\" \
-         aria-label=\"{title}\">\n<style>{STYLE}</style>\n\
+         aria-label=\"{title}\">\n\
          <rect width=\"{0:.0}\" height=\"{1:.0}\" fill=\"#fff\"/>\n\
          <text x=\"{MARGIN}\" y=\"22\" font-size=\"15\" font-weight=\"600\">{title}</text>\n\
          <text x=\"{MARGIN}\" y=\"42\" xml:space=\"preserve\">",

@@ -6,7 +6,7 @@
 //!
 //! let capacity = Capacity::new(&Wall::new(&Parameters::default())?, &[0.4]);
 //! assert!(capacity.table().text().contains("limit_state"));
-//! assert!(capacity.plot().picture().svg().contains("0.4 u_ins, T = "));
+//! assert!(capacity.plot().picture().contains("0.4 u_ins, T = "));
 //! # Ok::<(), rocking_wall::wall::ParameterError>(())
 //! ```
 

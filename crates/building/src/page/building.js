@@ -35,19 +35,9 @@ for (const wall of data.walls) {
   const names = wall.hinge === null ? ["lower"] : ["lower", "upper"];
   wall.group = add(world, "g", {});
   const size = part => part === "upper" ? wall.height - wall.hinge : wall.hinge ?? wall.height;
-  wall.parts = Object.fromEntries(names.map(part => [part, add(wall.group, "rect",
+  wall.parts = names.map(part => add(wall.group, "rect",
     { class: "body", x: -wall.thickness / 2, y: part === "upper" ? wall.hinge : 0,
-      width: wall.thickness, height: size(part) })]));
-}
-function pose(wall, u, drift) {
-  const h = wall.height, toe = (u < 0 ? -1 : 1) * wall.thickness / 2;
-  if (wall.hinge === null) {
-    wall.parts.lower.setAttribute("transform", `rotate(${-within(2 * u / h) * degrees} ${toe} 0)`);
-    return;
-  }
-  const h1 = wall.hinge, h2 = h - h1;
-  const turn = within((u + drift * h1 / h) / h1), back = within((u - drift * h2 / h) / h2);
-  openHinge(wall.parts.lower, wall.parts.upper, turn, back, toe, h1);
+      width: wall.thickness, height: size(part) }));
 }
 const isFalling = (wall, frame) => wall.falls !== null && data.t[frame] >= wall.falls;
 const readout = [["t (s)", (frame) => data.t[frame].toFixed(2)],
@@ -75,7 +65,7 @@ function show(frame) {
     const y = floor === null ? 0 : floor.level + SLAB;
     wall.group.setAttribute("transform", `translate(${x} ${y})`);
     const drift = wall.top === null ? 0 : sway(wall.top) - sway(wall.bottom);
-    pose(wall, (isFalling(wall, frame) ? 1 : rocking) * wall.u[frame], drift);
+    turnWall(wall, wall.parts, (isFalling(wall, frame) ? 1 : rocking) * wall.u[frame], drift);
   }
   moveCursors(data.t[frame], [0, 0]);
 }

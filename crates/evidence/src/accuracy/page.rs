@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use report::page::Page;
 use report::palette::sign;
-use report::plot::{Picture, Plot};
+use report::plot::{Plot, stacked};
 use report::{counted, escaped};
 
 use super::figure::{Point, SOLVERS, TOOLS, plot};
@@ -75,7 +75,7 @@ fn figures(key: impl IntoIterator<Item = (String, String)>, figures: impl Iterat
 
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are
 /// given.
-pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
+pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> String {
     let sized = |title: &String, plot| Plot { title: title.clone(), size: [560.0, 320.0], ..plot };
     let plots: Vec<_> = match peers {
         Some(peers) => {
@@ -83,7 +83,7 @@ pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
         }
         None => studies.iter().map(|study| sized(&study.name, solver_plot(study, true))).collect(),
     };
-    Picture::stacked(&plots)
+    stacked(&plots)
 }
 
 /// The plot of a problem; with the names of the solvers if it is `named`.

@@ -6,7 +6,7 @@ const make = (tag, properties = {}, ...children) => {
 };
 const values = {}, starts = {}, rows = {};
 let computed = {};
-let library, shown = null, timings = [];
+let library, shown = null, timings = [], time;
 
 // ---- the library
 async function unpacked() {
@@ -169,7 +169,7 @@ function schedule() {
 function run() {
   const begin = performance.now();
   const asked = inputs(at("history").clientWidth), { answer, faults } = ask({ run: asked });
-  if (answer) { show({ ...answer, asked: asked.parameters, frames: ask("frames").answer }); }
+  if (answer) { show({ ...answer, frames: ask("frames").answer }); }
   tell(faults ?? {}, answer?.check?.faults ?? {});
   timings.push(performance.now() - begin);
   current = runOf(answer);
@@ -212,8 +212,7 @@ function show(answer) {
   at("facts").replaceChildren(...answer.facts.map(pair =>
     make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
   at("ties").replaceChildren(...answer.captions.map(([id, textContent]) => {
-    const plot = scrubbed(make("div", { className: "plot", id }));
-    return make("figure", {}, make("figcaption", { textContent }), plot);
+    return make("figure", {}, make("figcaption", { textContent }), make("div", { className: "plot", id }));
   }));
   for (const [id, { svg, area, ranges }] of Object.entries(answer.charts)) {
     const height = `top: ${100 * area[2]}%; height: ${100 * (area[3] - area[2])}%`;
@@ -227,11 +226,29 @@ function show(answer) {
   at("scene").textContent = answer.toml;
   const times = answer.frames.t;
   at("time").max = times.length - 1;
-  draw(answer.wall, answer.asked);
+  at("wall").innerHTML = answer.drawing;
+  at("shown").textContent = answer.factor === 1 ? "To scale"
+    : `Wall to scale, displacement enlarged ${answer.factor}\u00a0times`;
   const instant = answer.summary.falls ?? answer.summary.peak_time;
   const frame = times.findIndex(time => time >= instant);
-  pose(playing === null && !isSame ? (frame < 0 ? times.length - 1 : frame)
+  pose(!time.isPlaying() && !isSame ? (frame < 0 ? times.length - 1 : frame)
     : Math.min(Number(at("time").value), times.length - 1));
+}
+// Shows a frame: the wall turns as the history says, and cursors follow.
+function pose(frame) {
+  const { frames, summary, factor } = shown, wall = { ...shown.wall, tie: frames.tie };
+  const u = frames.u[frame], t = frames.t[frame];
+  drawTies(wall, frame, turnWall(wall, [at("lower"), at("upper")], factor * u), factor);
+  const ratio = u / wall.u_ins[u < 0 ? 1 : 0];
+  at("time").value = frame;
+  at("time").setAttribute("aria-valuetext", `${t.toFixed(2)} s`);
+  const fallen = summary.falls !== null && t >= summary.falls;
+  at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
+    : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
+  at("tie_now").textContent = frames.tie === null ? "" : `tie: ${statesOf(frames.tie, frame)}, ` +
+    `${frames.tie.force[frame].toFixed(1)} kN` +
+    (frames.tie.yields ? `, longer by ${longerBy(frames.tie, frame)} mm` : "");
+  moveCursors(t, [ratio, frames.f[frame]]);
 }
 function showCheck(check) {
   const isMade = check !== null && check.faults === undefined;
@@ -334,9 +351,7 @@ function save(kind, name, type) {
 
 function listen() {
   at("controls").addEventListener("submit", event => event.preventDefault());
-  at("play").addEventListener("click", () => playing === null ? play() : stop());
-  at("time").addEventListener("input", () => { stop(); pose(Number(at("time").value)); });
-  for (const id of ["history", "motion"]) { scrubbed(at(id)); }
+  time = player(() => shown.frames.t, pose);
   at("fragility").addEventListener("click", fragility);
   at("copy_scene").addEventListener("click", () => copy(shown?.toml ?? "", "Scene file"));
   for (const language of ["en", "it"]) {

@@ -105,53 +105,60 @@ fn said(response: &Response) -> String {
     }
 }
 
-/// The wall at rest, to scale, y upwards; the script turns its bodies.
-fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
+/// Draws the wall at rest, to scale, y upwards, as `wall.css` styles it; scripts turn its bodies.
+pub fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let (h, b) = (wall.body().height, scene.parameters.thickness);
     let half = if response.summary.overturned { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
     let (top, bottom) = (0.12 * h, 0.1 * h);
     let line = 0.004 * h.max(half);
     // the ground goes on beyond the view box, which the window may widen
     let far = 10.0 * half;
-    let rect = |[x, y]: [f64; 2], [width, height]: [f64; 2], look: &str| {
-        format!("<rect {look} x=\"{x:.4}\" y=\"{y:.4}\" width=\"{width:.4}\" height=\"{height:.4}\"/>")
+    let rect = |class: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]| {
+        format!(
+            "<rect class=\"{class}\" x=\"{x:.4}\" y=\"{y:.4}\" width=\"{width:.4}\" height=\"{height:.4}\"/>"
+        )
     };
-    let body = |id: &str, from: f64, height: f64| {
-        let look = format!("id=\"{id}\" style=\"fill:var(--wall);stroke:var(--edge)\"");
-        rect([-b / 2.0, from], [b, height], &look)
+    let load = if wall.body().overburden > 0.0 {
+        format!(
+            "<path class=\"load\" transform=\"translate(0 {h:.4}) scale({line:.4})\" \
+             d=\"M0 1l-3 6h2v18h2v-18h2z\"/>"
+        )
+    } else {
+        String::new()
+    };
+    let body = |id: &str, from: f64, to: f64| {
+        let load = if to == h { &*load } else { "" };
+        format!("<g id=\"{id}\">{}{load}</g>", rect("body", [-b / 2.0, from], [b, to - from]))
     };
     let bodies = match wall.body().hinge() {
         None => body("lower", 0.0, h),
         Some(h1) => {
-            let look = "style=\"fill:var(--ground);stroke:var(--frame)\"";
-            let support = rect([-0.6 * half, h], [1.2 * half, 0.05 * h], look);
-            support + &body("lower", 0.0, h1) + &body("upper", h1, h - h1)
+            let support = rect("support", [-0.6 * half, h], [1.2 * half, 0.05 * h]);
+            support + &body("lower", 0.0, h1) + &body("upper", h1, h)
         }
     };
     let transverse = wall.free_side().map_or_else(String::new, |side| {
         let from = if side > 0.0 { -far } else { b / 2.0 };
-        rect([from, 0.0], [far - b / 2.0, h], "style=\"fill:var(--ground);stroke:var(--frame)\"")
+        rect("support", [from, 0.0], [far - b / 2.0, h])
     });
     format!(
-        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
-         <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
-         <path d=\"M{:.4} 0H{far:.4}\" style=\"stroke:var(--frame)\"/>\
+        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" preserveAspectRatio=\"xMidYMax\" role=\"img\" \
+         aria-label=\"the wall to scale\"><g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
          <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{transverse}{ties}{bodies}\
          </g></svg>",
         -half,
         -(h + top),
         2.0 * half,
         h + top + bottom,
-        -far,
         h + 0.6 * top,
         0.02 * h,
         ties = tie::lines(wall, half, 2.0 * line),
-        ground = rect([-far, -far], [2.0 * far, far], "style=\"fill:var(--ground)\"")
+        ground = rect("support", [-far, -far], [2.0 * far, far])
     )
 }
 
 /// The largest exaggeration of the drawn rotation that keeps it below its limit.
-fn factor(wall: &Wall, response: &Response) -> f64 {
+pub fn factor(wall: &Wall, response: &Response) -> f64 {
     let arm = wall.body().hinge().map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
     let largest = response.summary.u_max / arm;
     let fits = |factor: &&f64| largest * **factor <= LARGEST_DRAWN && !response.summary.overturned;

@@ -14,7 +14,7 @@ use crate::figure::histories;
 /// Share of `N_y` by which rounding may keep the force of a yielding tie below it.
 const ROUNDING: f64 = 1e-9;
 
-/// What a drawn tie does, by the names of its classes in `wall.js`.
+/// What a drawn tie does, by the names of its classes in `moving.js`.
 #[derive(Clone, Copy)]
 enum TieShown {
     Slack,

@@ -83,7 +83,7 @@ impl<'a> Losses<'a> {
                     function(&xml.measure, &self.ratios, &points)
                 ))?;
             }
-            lines.push(points.iter().map(|point| [point.intensity, point.mean]).collect::<Vec<_>>());
+            lines.push(points.iter().map(|point| (point.intensity, point.mean)).collect::<Vec<_>>());
             let annual = self.annual.as_ref();
             let annual = annual.and_then(|(hazard, _)| annual_loss(hazard, &self.ratios, &of_model.states));
             annuals.extend(annual.map(|annual| (&*model.name, annual)));
@@ -93,9 +93,9 @@ impl<'a> Losses<'a> {
             file.add(&table)?;
         }
         if subject.is_shown(self.manifest) {
-            let ends = lines.iter().flatten().map(|point| point[0]);
+            let ends = lines.iter().flatten().map(|point| point.0);
             let ends = ends.fold([f64::INFINITY, 0.0], |[low, high], x| [low.min(x), high.max(x)]);
-            self.shown.add(subject, table, (ends, &lines));
+            self.shown.add(subject, table, (ends, lines));
         }
         Ok(())
     }
@@ -115,11 +115,7 @@ impl<'a> Losses<'a> {
                 100.0 * CONFIDENCE
             );
             told = format!("{words}\n{}", table.text());
-            let _ = write!(
-                html,
-                "<p class=\"subtitle\">{words}.</p><div class=\"scroll\">{}</div>",
-                table.html()
-            );
+            let _ = write!(html, "<p class=\"subtitle\">{words}.</p>{}", table.html());
         }
         let _ = writeln!(html, "<h3>Mean loss ratio by intensity</h3>{}</section>", shown.plots());
         Ok((paths, told, html))

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
 use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
 use crate::results::WallResults;
-use report::many_lines::STYLE;
 use report::table::{Cell, Column, Digits, Table};
 use report::{counted, escaped, number, template};
 
@@ -14,7 +13,7 @@ use super::legend::{key, spelled_out};
 use super::plots::{Shown, curves, fragility, top};
 use super::tables::{OF_INTENSITY, OF_RATIO, with_ends};
 
-/// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
+/// Most points of single curves on the page, about 14 bytes each. With more, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
 /// Parameters that tell walls apart.
 const SHOWN: [&str; 7] = ["mechanism", "height", "thickness", "hinge_ratio", "overburden", "force_law", "a1"];
@@ -50,7 +49,6 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
         include_str!("page.html"),
         &[
             ("title", &escaped(&manifest.title)),
-            ("style", STYLE),
             ("facts", &facts),
             ("reading", &reading(manifest)),
             ("key", &key(manifest)),

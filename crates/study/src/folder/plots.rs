@@ -3,8 +3,8 @@
 use crate::fragility::{Regression, steps};
 use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
-use report::many_lines::ManyLines;
 use report::palette::Mark;
+use report::plot::{Axis, Look, Plot, Series};
 use run::sample::{fractile, sorted};
 
 use super::contents::Manifest;
@@ -49,45 +49,54 @@ pub(crate) fn top(shown: Shown<'_>, place: usize) -> f64 {
 pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
     let Shown { manifest, results, .. } = shown;
     let unit = manifest.contents.unit;
-    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
+    let mut series = Vec::new();
     for (StateResults { summary, sample, .. }, (color, mark)) in
         results.states(place).iter().zip(looks(manifest))
     {
         let counts = sample.counts();
         if counts.is_empty() && !manifest.contents.is_cloud {
-            let mut points = vec![[0.0, 0.0]];
+            let mut points = vec![(0.0, 0.0)];
             let mut before = 0.0;
             for (intensity, part) in steps(sample.exceedances()) {
-                points.extend([[unit.of(intensity), before], [unit.of(intensity), part]]);
+                points.extend([(unit.of(intensity), before), (unit.of(intensity), part)]);
                 before = part;
             }
-            points.push([2.0 * top, before]);
-            plot.line(&points, "steps", color);
+            points.push((2.0 * top, before));
+            series.push(Series::stroke(color, 1.0, points));
         } else if !counts.is_empty() {
             let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
-                [unit.of(level), f64::from(exceeded) / f64::from(runs.max(1))]
+                (unit.of(level), f64::from(exceeded) / f64::from(runs.max(1)))
             };
-            plot.marks(&counts.iter().map(part).collect::<Vec<_>>(), mark, color);
+            series.push(marks((color, mark), counts.iter().map(part).collect()));
         }
         if let Ok(fit) = summary.fitted {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
             let probability = |x: f64| fit.probability(x * unit.size());
-            let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
+            let curve: Vec<_> = (1..=POINTS).map(|k| (at(k), probability(at(k)))).collect();
             if counts.is_empty() {
-                marked_line(&mut plot, &curve, (color, mark));
+                series.extend(marked_line(curve, (color, mark)));
             } else {
-                plot.line(&curve, "fit", color);
+                series.push(Series::stroke(color, 1.8, curve));
             }
         }
     }
-    plot.svg([&manifest.contents.axis(), "probability"])
+    probabilities((&manifest.contents.axis(), [0.0, top]), "probability", series)
 }
 
-/// Draws a line of a model, with its mark where it first reaches some probabilities.
-pub(crate) fn marked_line(plot: &mut ManyLines, line: &[[f64; 2]], (color, mark): (&str, Mark)) {
-    plot.line(line, "fit", color);
-    let first = |part: f64| line.iter().find(|point| point[1] >= part).copied();
-    plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
+/// Draws probabilities, or shares, over a horizontal axis.
+pub(crate) fn probabilities(x: (&str, [f64; 2]), label: &str, series: Vec<Series>) -> String {
+    Plot::new(SIZE, [Axis::from(x), Axis::over(label, [0.0, 1.0])], series).svg()
+}
+
+/// Returns a line of a model, and its mark where the line first reaches some probabilities.
+pub(crate) fn marked_line(line: Vec<(f64, f64)>, look: (&'static str, Mark)) -> [Series; 2] {
+    let first = |part: f64| line.iter().find(|point| point.1 >= part).copied();
+    let marked = MARKED.into_iter().filter_map(first).collect();
+    [Series::stroke(look.0, 1.8, line), marks(look, marked)]
+}
+
+fn marks((color, mark): (&'static str, Mark), points: Vec<(f64, f64)>) -> Series {
+    Series { look: Look::Marks(mark), ..Series::stroke(color, 3.3, points) }
 }
 
 /// Draws the collapse fragility of a wall for a file, with the wall's name.
@@ -103,51 +112,49 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
     let Shown { manifest, results, .. } = shown;
     let (all, unit) = (results.curves(model), manifest.contents.unit);
     let (color, _) = looks(manifest)[model];
-    let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
+    let mut series = Vec::new();
     for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
         if manifest.contents.grid.is_some() || manifest.contents.is_cloud {
             let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
-            let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), unit.of(run.intensity)]).collect();
-            plot.points(&runs, "runs", color);
+            let runs = curve.runs().iter().map(|run| (demand(run), unit.of(run.intensity))).collect();
+            series.push(Series { look: Look::Marks(Mark::Dot), ..Series::stroke(color, 4.0, runs) });
         } else {
-            plot.named_line(&path(curve, unit), "record", color, &record.name);
+            let line = Series::stroke(color, 0.6, path(curve, unit));
+            series.push(Series { look: Look::Faint, titles: vec![record.name.clone()], ..line });
         }
     }
     if let Some(cloud) = results.clouds().get(model) {
         let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
-        let line = |fit: Regression| (1..=POINTS).map(|k| [fit.demand(at(k) * unit.size()), at(k)]).collect();
-        let line: Vec<_> = cloud.fit().map(line).unwrap_or_default();
-        plot.line(&line, "fractile", color);
+        let line = |fit: Regression| (1..=POINTS).map(|k| (fit.demand(at(k) * unit.size()), at(k))).collect();
+        series.push(Series::stroke(color, 2.6, cloud.fit().map(line).unwrap_or_default()));
     } else {
-        let classes = ["fractile outer", "fractile outer", "fractile"];
-        for (points, class) in fractile_paths(all, unit).iter().zip(classes) {
-            plot.line(points, class, color);
-        }
+        let looks = [(Look::Dashed, 2.0), (Look::Dashed, 2.0), (Look::Solid, 2.6)];
+        let paths = fractile_paths(all, unit).into_iter().zip(looks);
+        series
+            .extend(paths.map(|(path, (look, width))| Series { look, ..Series::stroke(color, width, path) }));
     }
-    plot.svg(["u_max / u_ins", &manifest.contents.axis()])
+    let x = Axis::over("u_max / u_ins", [0.0, DEMAND_END]);
+    Plot::new(SIZE, [x, Axis::over(&manifest.contents.axis(), [0.0, top])], series).svg()
 }
 
 /// Returns the points of a curve up to its collapse, where it becomes flat.
-fn path(curve: &Curve, unit: IntensityUnit) -> Vec<[f64; 2]> {
-    let mut points = vec![[0.0, 0.0]];
+fn path(curve: &Curve, unit: IntensityUnit) -> Vec<(f64, f64)> {
+    let mut points = vec![(0.0, 0.0)];
     for run in curve.runs() {
         if run.overturning.is_some() {
-            let standing = points.last().map_or(0.0, |point| point[0]);
-            points.extend([[standing, unit.of(run.intensity)], [2.0 * DEMAND_END, unit.of(run.intensity)]]);
+            let standing = points.last().map_or(0.0, |point| point.0);
+            points.extend([(standing, unit.of(run.intensity)), (2.0 * DEMAND_END, unit.of(run.intensity))]);
             break;
         }
-        points.push([run.demand, unit.of(run.intensity)]);
+        points.push((run.demand, unit.of(run.intensity)));
     }
     points
 }
 
 /// The 16, 84 and 50 % fractiles of the intensity at which a record first exceeds a demand, over the demand.
 /// They rise with the demand, and go flat at the collapse.
-fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<[f64; 2]>; 3] {
-    let mut paths = [const { Vec::new() }; 3].map(|mut path: Vec<[f64; 2]>| {
-        path.push([0.0, 0.0]);
-        path
-    });
+fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<(f64, f64)>; 3] {
+    let mut paths = [(); 3].map(|()| vec![(0.0, 0.0)]);
     for k in 1..=POINTS {
         let demand = f64::from(k) / f64::from(POINTS);
         let first = |curve: &Curve| curve.exceedance(demand, Crossing::First, false).or_infinity();
@@ -155,9 +162,9 @@ fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<[f64; 2]>; 3] {
         for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
             // unknown above the levels
             let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());
-            path.extend(known.map(|intensity| [demand, unit.of(intensity)]));
+            path.extend(known.map(|intensity| (demand, unit.of(intensity))));
             if k == POINTS {
-                path.extend(known.map(|intensity| [2.0 * DEMAND_END, unit.of(intensity)]));
+                path.extend(known.map(|intensity| (2.0 * DEMAND_END, unit.of(intensity))));
             }
         }
     }
@@ -177,7 +184,7 @@ mod tests {
         let curves =
             demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));
         for path in fractile_paths(&curves, IntensityUnit::Gravity) {
-            assert!(path.is_sorted_by(|a, b| a[0] < b[0] && a[1] <= b[1]) && path.len() > 20, "{path:?}");
+            assert!(path.is_sorted_by(|a, b| a.0 < b.0 && a.1 <= b.1) && path.len() > 20, "{path:?}");
         }
     }
 }

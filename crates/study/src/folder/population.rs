@@ -4,13 +4,12 @@ use std::fmt::Write;
 
 use crate::results::WallResults;
 use report::escaped;
-use report::many_lines::ManyLines;
 use report::table::{Cell, Digits, Table};
 use run::sample::{fractile, sorted};
 
 use super::contents::Manifest;
 use super::legend::looks;
-use super::plots::{POINTS, SIZE, marked_line};
+use super::plots::{POINTS, marked_line, probabilities};
 use super::tables::OF_INTENSITY;
 
 /// Fractiles that the tables list.
@@ -143,14 +142,12 @@ fn known(median: Option<f64>) -> Cell<'static> {
 fn distribution(manifest: &Manifest, values: &[Vec<f64>], label: &str) -> String {
     let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
     let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
-    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
-    for (values, look) in values.iter().zip(looks(manifest)) {
+    let lines = values.iter().zip(looks(manifest)).flat_map(|(values, look)| {
         let point = |k: u32| {
             let part = f64::from(k) / f64::from(POINTS);
-            Some([fractile(values, part).filter(|value| value.is_finite())?, part])
+            Some((fractile(values, part).filter(|value| value.is_finite())?, part))
         };
-        let points: Vec<_> = (1..=POINTS).filter_map(point).collect();
-        marked_line(&mut plot, &points, look);
-    }
-    plot.svg([label, "fraction of the walls"])
+        marked_line((1..=POINTS).filter_map(point).collect(), look)
+    });
+    probabilities((label, [0.0, top]), "fraction of the walls", lines.collect())
 }

@@ -70,8 +70,8 @@ impl<'a> Rates<'a> {
                 let last = rows.iter().rfind(|row| row.model == model);
                 last.map_or_else(Vec::new, |row| cumulated(hazard, contents.unit, &row.rate))
             };
-            let lines: Vec<_> = (0..contents.models.len()).map(of_model).collect();
-            self.shown.add(subject, table, (self.ends(), &lines));
+            let lines = (0..contents.models.len()).map(of_model).collect();
+            self.shown.add(subject, table, (self.ends(), lines));
         }
         Ok(())
     }
@@ -112,8 +112,8 @@ impl<'a> Rates<'a> {
         let warning = self.warning().map_or_else(String::new, |warning| format!(" {}.", escaped(&warning)));
         let table = self.shown.table();
         let html = format!(
-            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p><div class=\"scroll\">{}\
-             </div><h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
+            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p>{}\
+             <h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
             escaped(&words),
             table.html(),
             self.shown.plots()
@@ -197,12 +197,12 @@ pub(super) fn between([low, high]: [f64; 2]) -> String {
 }
 
 /// The part of the rate from intensities up to each point, these in a unit.
-fn cumulated(hazard: &Hazard, unit: IntensityUnit, rate: &Rate) -> Vec<[f64; 2]> {
+fn cumulated(hazard: &Hazard, unit: IntensityUnit, rate: &Rate) -> Vec<(f64, f64)> {
     let mut sum = 0.0;
-    let mut line = vec![[unit.of(hazard.curve.points()[0][0]), 0.0]];
+    let mut line = vec![(unit.of(hazard.curve.points()[0][0]), 0.0)];
     for (share, point) in rate.shares().into_iter().zip(&hazard.curve.points()[1..]) {
         sum += share;
-        line.push([unit.of(point[0]), if sum.is_finite() { sum } else { 0.0 }]);
+        line.push((unit.of(point[0]), if sum.is_finite() { sum } else { 0.0 }));
     }
     line
 }

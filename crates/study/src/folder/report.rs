@@ -157,10 +157,7 @@ impl<'a> Output<'a> {
                 [(manifest.contents.is_cloud, regression, CLOUD), (has_tie, "Ties, up to overturning", TIES)];
             for (_, title, (_, table)) in tables.into_iter().filter(|(is_there, ..)| *is_there) {
                 let table = table(manifest, wall, results).html();
-                let _ = writeln!(
-                    self.sections,
-                    "<section><h3>{title}</h3><div class=\"scroll\">{table}</div></section>"
-                );
+                let _ = writeln!(self.sections, "<section><h3>{title}</h3>{table}</section>");
             }
             self.comparison.add(manifest, results);
             self.panels.extend(panel(manifest, wall, results));

@@ -199,11 +199,10 @@ impl<'a> Risk<'a> {
             let at = |k: u32| end * f64::from(k) / f64::from(POINTS);
             let line = |curve: &Option<Lognormal>| {
                 let point =
-                    |curve: &Lognormal| (1..=POINTS).map(|k| [at(k), curve.probability(at(k))]).collect();
+                    |curve: &Lognormal| (1..=POINTS).map(|k| (at(k), curve.probability(at(k)))).collect();
                 curve.as_ref().map_or_else(Vec::new, point)
             };
-            let lines: Vec<Vec<[f64; 2]>> = curves.iter().map(line).collect();
-            self.shown.add(subject, table, ([0.0, end], &lines));
+            self.shown.add(subject, table, ([0.0, end], curves.iter().map(line).collect()));
         }
         if let Some(rates) = &mut self.rates {
             rates.add(subject)?;
@@ -287,7 +286,7 @@ impl<'a> Risk<'a> {
         let highest = report.rising().last().map_or(1.0, |place| report.fractions[*place]);
         format!(
             "<section><h2>Classes of walls</h2><p class=\"subtitle\">β² is the sum of the squares of its \
-             parts; intervals are those of the records, {:.0} %.</p><div class=\"scroll\">{}</div>\
+             parts; intervals are those of the records, {:.0} %.</p>{}\
              <h3>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {highest})</h3>{}</section>\n",
             100.0 * CONFIDENCE,
             table.html(),

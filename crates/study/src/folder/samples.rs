@@ -150,7 +150,7 @@ impl<'a> Sampled<'a> {
              Spearman’s correlation of each parameter with θ, and a linear regression of ln θ on the \
              logarithms of the parameters; a parameter whose distribution reaches near 0 is taken itself. A \
              standardised coefficient is in standard deviations. Other limit states are in sensitivity.csv.\
-             </p>{}<div class=\"scroll\">{}</div></section>",
+             </p>{}{}</section>",
             self.samples.rows.len(),
             escaped(&self.samples.parameters.join(", ")),
             fractions[last],

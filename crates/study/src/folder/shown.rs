@@ -2,13 +2,12 @@
 
 use std::fmt::Write as _;
 
-use report::many_lines::ManyLines;
 use report::table::Table;
 use report::{counted, escaped};
 
 use super::contents::Manifest;
 use super::legend::looks;
-use super::plots::{SIZE, marked_line};
+use super::plots::{marked_line, probabilities};
 use super::subject::Subject;
 
 /// Most plots of a page.
@@ -33,7 +32,7 @@ impl<'a> Shown<'a> {
         &mut self,
         subject: &Subject<'_>,
         rows: Table,
-        (ends, lines): ([f64; 2], &[Vec<[f64; 2]>]),
+        (ends, lines): ([f64; 2], Vec<Vec<(f64, f64)>>),
     ) {
         let Self { manifest, label, .. } = *self;
         let place = usize::from(subject.class.is_none());
@@ -42,15 +41,12 @@ impl<'a> Shown<'a> {
         if lines.iter().all(Vec::is_empty) {
             return;
         }
-        let mut plot = ManyLines::new(SIZE, ends, [0.0, 1.0]);
-        for (line, look) in lines.iter().zip(looks(manifest)) {
-            marked_line(&mut plot, line, look);
-        }
+        let series = lines.into_iter().zip(looks(manifest)).flat_map(|(line, look)| marked_line(line, look));
         let walls = subject.class.map_or_else(String::new, |walls| format!(", {}", counted(walls, "wall")));
         self.figures[place].push(format!(
             "<figure><figcaption>{}{walls}</figcaption>{}</figure>",
             escaped(subject.name),
-            plot.svg([&manifest.contents.axis(), label])
+            probabilities((&manifest.contents.axis(), ends), label, series.collect())
         ));
     }
 

@@ -30,7 +30,6 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
     let told: Vec<_> = told.lines().map(|line| format!("<li>{}</li>", escaped(line))).collect();
     let told = told.concat();
     let mut page = Page::new(&format!("{}: how safe is a wall that passes?", reliability.title))
-        .styled(STYLE)
         .text(&format!(
             "<p>{}, {}, {}. A wall just passes {} at the ground acceleration a<sub>g,code</sub> = ζ \
              a<sub>g</sub>. There the probability P of an event is read from its fragility over the \
@@ -43,24 +42,24 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
             escaped(code),
             manifest.report.resamples,
         ))
-        .section("All walls", &scrolled(&table::summary(class, &models, target)))
+        .section("All walls", &table::summary(class, &models, target).html())
         .section("The fall, where the check that governs has ζ = 1", &drawings(manifest, class, target));
     if class.members.len() > WORST {
-        page = page.section("The worst walls", &scrolled(&worst(class, &models)));
+        page = page.section("The worst walls", &worst(class, &models).html());
     }
     page = page.section(
         "Numbers of the code that would give the target",
         &format!(
             "<p>One number is changed at a time, so far that the wall just passes where P(fall) is {target}. \
              “walls” counts those for which such a number exists.</p>{}",
-            scrolled(&table::rule_summary(class, &models, target))
+            table::rule_summary(class, &models, target).html()
         ),
     );
     if let Some(records) = records(manifest) {
         page = page.section("Records beside the spectrum of the site", &records);
     }
     if !shown.is_empty() {
-        let all: String = shown.iter().map(scrolled).collect();
+        let all: String = shown.iter().map(Table::html).collect();
         page = page.section("Walls", &all);
     }
     if !class.refused.is_empty() {
@@ -68,20 +67,9 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
             .text("", "wall", |(name, _)| name.clone())
             .text("", "not checked", |(_, reason)| reason.clone())
             .done();
-        page = page.section("Walls without a check", &scrolled(&table));
+        page = page.section("Walls without a check", &table.html());
     }
     page.html()
-}
-
-const STYLE: &str = "main { max-width: 1100px; }
-.scroll { overflow-x: auto; }
-.row { display: flex; flex-wrap: wrap; gap: 16px; }
-.row figure { flex: 1 1 380px; max-width: 520px; margin: 0; }
-.row svg { width: 100%; height: auto; }
-@media print { .row figure { flex-basis: 45%; break-inside: avoid; } }";
-
-fn scrolled(table: &Table) -> String {
-    format!("<div class=\"scroll\">{}</div>", table.html())
 }
 
 /// What is drawn of a fall: its name, its value, and a limit.
@@ -96,7 +84,7 @@ fn drawings(manifest: &Manifest, class: &Class, target: f64) -> String {
         // writing to a String cannot fail
         let _ = write!(html, "{} {} ", sign(color, mark), escaped(&model.name));
     }
-    html.push_str("</p><div class=\"row\">");
+    html.push_str("</p><div class=\"figures\">");
     for (place, name) in QUANTITIES.into_iter().enumerate() {
         let values = class.members.iter().map(|member| member.quantities[place]);
         let first = class.members.first().map(|member| member.quantities[place]);
@@ -184,7 +172,7 @@ fn records(manifest: &Manifest) -> Option<String> {
     let within = if least >= BAND[0] && largest <= BAND[1] { "within" } else { "not within" };
     Some(format!(
         "<p>Each record is scaled to a<sub>g</sub> of the site’s spectrum. Their mean is {least:.2} to \
-         {largest:.2} of it, {within} the {} to {} of NTC 3.2.3.6.</p><div class=\"row\"><figure>{}\
+         {largest:.2} of it, {within} the {} to {} of NTC 3.2.3.6.</p><div class=\"figures\"><figure>{}\
          <figcaption>Records (grey), their mean (blue), S<sub>e</sub>/a<sub>g</sub> (red), and {} and {} of \
          it (dashed)</figcaption></figure></div>{}",
         BAND[0],
@@ -192,6 +180,6 @@ fn records(manifest: &Manifest) -> Option<String> {
         plot.svg(),
         BAND[0],
         BAND[1],
-        scrolled(&table)
+        table.html()
     ))
 }

@@ -3,12 +3,12 @@
 use crate::tie::{Outcome, Row, TieStudy};
 
 use report::palette::{BLUE, GREEN, Mark, RED};
-use report::plot::{Axis, Look, Picture, Plot, Scale, Series};
+use report::plot::{Axis, Look, Plot, Scale, Series, stacked};
 
 /// Draws medians (lines), 84 % fractiles (dashed) and largest values (marks) of force and displacement over
 /// what is varied; where a tie may yield, of its plastic elongation, too. What a logarithmic axis cannot
 /// show, and a tie that stays elastic beside others, is left out.
-pub fn picture(study: &TieStudy, rows: &[Row]) -> Picture {
+pub fn picture(study: &TieStudy, rows: &[Row]) -> String {
     let varied = study.varied();
     let is_shown = |row: &&Row| row.value > 0.0 || (row.value == 0.0 && !varied.is_logarithmic);
     let shown: Vec<&Row> = rows.iter().filter(is_shown).collect();
@@ -38,5 +38,5 @@ pub fn picture(study: &TieStudy, rows: &[Row]) -> Picture {
     if study.yields() {
         panels.push(panel("plastic elongation (mm)", GREEN, |outcome| outcome.elongation, 1e3));
     }
-    Picture::stacked(&panels)
+    stacked(&panels)
 }

@@ -7,7 +7,6 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use ground_motion::{Format, Maxima, Spectrum};
-use report::plot::Picture;
 use run::record_facts::figure::{self, Drawn};
 use run::record_facts::{Facts, Intensities, listing, samples, table};
 use serde_json::json;
@@ -169,7 +168,7 @@ fn show(
 }
 
 /// Draws the histories and the spectra.
-fn picture(channels: &[Facts], of: &Intensities, damping: f64) -> Result<Picture> {
+fn picture(channels: &[Facts], of: &Intensities, damping: f64) -> Result<String> {
     let drawn = |facts: &Facts| -> Result<Drawn> {
         let drawn = Drawn::new(facts.name(), &facts.record.motion, &of.spectrum);
         let mut drawn = drawn.with_context(|| facts.name())?;

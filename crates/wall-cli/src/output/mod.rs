@@ -7,7 +7,6 @@ mod terminal;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use report::plot::Picture;
 
 pub(crate) use terminal::{Console, message};
 
@@ -35,14 +34,14 @@ impl Console<'_> {
     pub(crate) fn picture(
         &self,
         path: Option<&PathBuf>,
-        draw: impl FnOnce() -> Result<Picture>,
+        draw: impl FnOnce() -> Result<String>,
     ) -> Result<()> {
         let Some(path) = path else { return Ok(()) };
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         if ending != "svg" {
             bail!("{}: a plot is SVG; give a file that ends in .svg", path.display());
         }
-        self.write(path, draw()?.svg().as_bytes())
+        self.write(path, draw()?.as_bytes())
     }
 }
 

@@ -350,7 +350,7 @@ fn open_medians_have_their_bound() {
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
     }
     // stripes are points: of runs, and of the fractions that exceed a limit state
-    assert!(page.contains("class=\"runs\"") && page.contains("class=\"mark\""));
-    assert!(!page.contains("class=\"record\"") && !page.contains("class=\"steps\""));
+    assert!(page.contains("stroke-linecap=\"round\"") && page.contains("stroke-width=\"1.4\""));
+    assert!(!page.contains("class=\"faint\"") && !page.contains("stroke-width=\"1\""));
     assert!(page.contains("<td class=\"number\">open &gt;0.200</td>"), "records that never collapsed");
 }
