@@ -93,15 +93,7 @@ fn one(
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
-        let is_long = code.takes_runs();
-        let found = progress::shown(|progress| {
-            find(code, subject, sought, &mut |_, of| {
-                if is_long {
-                    progress.add(of as usize);
-                }
-            })
-        });
-        let found = found.map_err(|error| file.located(error))?;
+        let found = progress::shown(|| find(code, subject, sought))?.map_err(|error| file.located(error))?;
         console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
         if arguments.json {
             return console.json(&found.json());

@@ -91,7 +91,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     };
     let study = TieStudy::new(scene, varied(arguments), motions, arguments.both_polarities || both_signs);
     let study = arguments.scene.named(study)?;
-    let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
+    let rows = study.rows(parallel::threads(arguments.threads).get())?;
     console.picture(arguments.plot.as_ref(), || Ok(picture(&study, &rows)))?;
     let table = table(&study, &rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
