@@ -10,7 +10,7 @@ use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, TiePart, Wall};
 
-use crate::args::SceneArguments;
+use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
 use run::capacity::Capacity;
 
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw the capacity curve with its secants, as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&arguments.scene.set, &mut scene)?;
     console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
@@ -43,8 +43,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
-    // first, because its ending may be refused
-    console.picture(arguments.plot.as_ref(), || Ok(capacity.plot().picture()))?;
+    console.save(arguments.plot.as_ref(), || capacity.plot().picture().svg())?;
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
