@@ -79,7 +79,7 @@ def test_threads(threads, error):
         lambda: rw.Wall().calibrate(threads=threads),
         lambda: study({"method": "grid", "values": [0.1]}).run(threads=threads, progress=False),
     ):
-        with pytest.raises(error, match=f"threads = {threads!r} must be a whole number from 1 on"):
+        with pytest.raises(error, match="threads"):
             run()
 
 

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::{MotionTable, SceneError, check_value};
 use rocking_wall::variables::RealVariable as WallVariable;
+use run::parallel::stop_if_asked;
 
 use crate::error::BuildingError;
 use crate::histories::{FloorHistory, History, WallHistory};
@@ -68,17 +69,11 @@ pub struct Coupled {
 
 impl Coupled {
     /// Runs a building under a motion of the ground, with the step halved until that changes every peak by
-    /// less than the tolerance; stops once `is_wanted` returns `false`.
+    /// less than the tolerance. Work that is [watched](run::parallel::watched) can be stopped.
     ///
     /// # Errors
-    /// [`BuildingError`] where a unit fails, the loop does not close, the step would become too small, or the
-    /// run is no longer wanted.
-    pub fn run(
-        parts: &Parts,
-        ground: &GroundMotion,
-        settings: Settings,
-        is_wanted: &dyn Fn() -> bool,
-    ) -> Result<Self, BuildingError> {
+    /// [`BuildingError`] where a unit fails, the loop does not close, or the step would become too small.
+    pub fn run(parts: &Parts, ground: &GroundMotion, settings: Settings) -> Result<Self, BuildingError> {
         let plan = &parts.plan;
         let mut parts = (ground.step() / LONGEST_STEP).ceil().max(1.0);
         let mut before: Option<Self> = None;
@@ -93,7 +88,7 @@ impl Coupled {
                 );
                 return Err(BuildingError::Run { time: settings.end, reason });
             }
-            let mut run = Loop::new(plan, ground)?.run_to_end(parts, settings.end, is_wanted)?;
+            let mut run = Loop::new(plan, ground)?.run_to_end(parts, settings.end)?;
             if let Some(before) = &before {
                 run.change = run.change_from(before);
                 if run.change <= settings.tolerance {
@@ -146,12 +141,7 @@ impl<'a> Loop<'a> {
     }
 
     /// Runs to the end, with `parts` communication steps for each step of the record.
-    fn run_to_end(
-        mut self,
-        parts: f64,
-        end: f64,
-        is_wanted: &dyn Fn() -> bool,
-    ) -> Result<Coupled, BuildingError> {
+    fn run_to_end(mut self, parts: f64, end: f64) -> Result<Coupled, BuildingError> {
         let step = self.ground.step() / parts;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to MOST_UNIT_STEPS")]
         let [parts, samples] = [parts, (end / self.ground.step()).round()].map(|count| count as usize);
@@ -164,9 +154,7 @@ impl<'a> Loop<'a> {
             walls: vec![WallHistory::default(); self.units.len() - self.plan.floors],
         };
         for sample in 0..=samples {
-            if !is_wanted() {
-                return Err(BuildingError::Stopped);
-            }
+            stop_if_asked();
             let ends =
                 self.ground.samples().get(sample..sample + 2).map_or([0.0; 2], |ends| [ends[0], ends[1]]);
             let rate = (ends[1] - ends[0]) / self.ground.step();

@@ -14,9 +14,6 @@ pub enum BuildingError {
     /// A wall, a storey, or the file of the FMU that they are made of.
     #[error("{part}: {reason}")]
     Part { part: String, reason: String },
-    /// The run was no longer wanted.
-    #[error("the run was stopped")]
-    Stopped,
     /// The run.
     #[error("at t = {time} s: {reason}")]
     Run { time: f64, reason: String },

@@ -14,7 +14,7 @@ use run::figure::{cut, histories};
 
 use crate::arrays::Motion;
 use crate::errors::{failed, of_file, refused};
-use crate::watch::watched;
+use crate::watch::stoppable;
 
 /// A building ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -65,9 +65,7 @@ impl Building {
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let settings = Settings::new(&ground.0, tail, tolerance).map_err(refused)?;
-        let work =
-            |is_wanted: &(dyn Fn() -> bool + Sync)| Coupled::run(&self.parts, &ground.0, settings, is_wanted);
-        let run = watched(py, work, || Ok(()))?.map_err(failed)?;
+        let run = stoppable(py, || Coupled::run(&self.parts, &ground.0, settings))?.map_err(failed)?;
         self.values(py, &run)
     }
 }

@@ -1,19 +1,17 @@
 //! The class `Folder`: a study in a folder, whose parts this process or others compute.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pyo3::exceptions::{PyFileNotFoundError, PyKeyboardInterrupt, PyOSError};
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use study::folder::{ComputeError, FolderError, compute, curve_tables, merge};
+use study::folder::{FolderError, compute, curve_tables, merge};
 use study::reliability::{self, Reliability};
 
 use crate::errors::{failed, of_scene, refused};
 use crate::studies::Study;
 use crate::tables::table;
-use crate::watch::{threads_of, watched};
+use crate::watch::{stoppable, threads_of, watched};
 
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -75,23 +73,13 @@ impl Folder {
         py: Python<'_>,
         study: &Study,
         parts: Vec<usize>,
-        threads: Option<&Bound<'_, PyAny>>,
-        progress: &Bound<'_, PyAny>,
+        threads: Option<i64>,
+        progress: Py<PyAny>,
     ) -> PyResult<()> {
         let threads = threads_of(threads)?.get();
-        let done = AtomicUsize::new(0);
-        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-            compute(&study.loaded.study, &self.folder, &parts, threads, |_, _| {
-                done.fetch_add(1, Ordering::Relaxed);
-                if is_wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            })
-        };
-        let report = || progress.call1((done.load(Ordering::Relaxed),)).map(drop);
-        watched(py, work, report)?.map_err(|error| match error {
-            ComputeError::Run(error) => failed(error),
-            ComputeError::Folder(error) => of_folder(error),
-            ComputeError::Stopped => PyKeyboardInterrupt::new_err(()),
-        })
+        let work = || compute(&study.loaded.study, &self.folder, &parts, threads);
+        let report = |py: Python<'_>, done: usize| progress.call1(py, (done,)).map(drop);
+        watched(py, work, report)?.map(drop).map_err(of_folder)
     }
 
     /// Writes a part.
@@ -100,23 +88,18 @@ impl Folder {
     }
 
     /// Writes the results of a complete folder; returns the summary and warnings.
-    fn finish(&self, py: Python<'_>, threads: Option<&Bound<'_, PyAny>>) -> PyResult<Told> {
+    fn finish(&self, py: Python<'_>, threads: Option<i64>) -> PyResult<Told> {
         let threads = threads_of(threads)?.get();
-        let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
+        let report = stoppable(py, || study::folder::finish(&self.folder, threads))?.map_err(of_folder)?;
         Ok((report.summary, report.warnings))
     }
 
     /// Writes how safe the walls of a complete folder are where they just pass their check; returns as
     /// `finish`.
-    fn reliability(
-        &self,
-        py: Python<'_>,
-        study: &Study,
-        threads: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Told> {
+    fn reliability(&self, py: Python<'_>, study: &Study, threads: Option<i64>) -> PyResult<Told> {
         let question = Reliability::of(&study.loaded).map_err(of_scene)?;
         let threads = threads_of(threads)?.get();
-        let found = py.detach(|| reliability::finish(&self.folder, &question, threads, || ()));
+        let found = stoppable(py, || reliability::finish(&self.folder, &question, threads))?;
         let report = found.map_err(of_folder)?;
         Ok((report.summary, report.warnings))
     }
@@ -135,7 +118,7 @@ fn of_folder(error: FolderError) -> PyErr {
             PyFileNotFoundError::new_err(error.to_string())
         }
         FolderError::File(_) | FolderError::NoStudy { .. } => PyOSError::new_err(error.to_string()),
-        FolderError::Parquet { .. } | FolderError::Part { .. } => failed(error),
+        FolderError::Parquet { .. } | FolderError::Part { .. } | FolderError::Run(_) => failed(error),
         _ => refused(error),
     }
 }

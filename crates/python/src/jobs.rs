@@ -11,16 +11,12 @@ use report::table::Column;
 use rocking_wall::response::Fate;
 use rocking_wall::scene::{DEFAULT_TAIL, to_toml};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::variables::DampingModel;
 use run::polarity::Polarities;
 use study::calibration::figure::charts;
-use study::calibration::{
-    self, Calibration, CalibrationError, Grid, calibrate, calibrated_models, model_named,
-};
+use study::calibration::{self, CalibrationError, Grid, calibrate, calibrated_models, model_named};
 use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
-    MOST_POINTS, PulseForm, QUANTITIES, Quantity, RockingSpectrum, Size, Slenderness, SpectrumError,
-    common_motion, over_pulses, over_walls,
+    PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion, over_pulses, over_walls,
 };
 use study::tie::{self, AtLevel, Outcome, Row, TieError, TieStudy, at_level};
 
@@ -28,7 +24,7 @@ use crate::arrays::{Motion, Numbers, grid, named_records, samples};
 use crate::errors::{failed, of_scene, refused};
 use crate::tables::table;
 use crate::walls::Wall;
-use crate::watch::threads_of;
+use crate::watch::{stoppable, threads_of};
 
 /// Checks a wall by the table `[check]` in a text, with records by their names; returns what its verdict says
 /// and its numbers as JSON, its rows, and its picture.
@@ -105,7 +101,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     record: Option<Motion>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
-    threads: Option<&Bound<'_, PyAny>>,
+    threads: Option<i64>,
 ) -> PyResult<Values<'py>> {
     let mut scene = wall.scene.clone();
     if let Some(Motion(record)) = record {
@@ -115,8 +111,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let size = if sizes.0 { Size::SemiDiagonal } else { Size::Height };
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (parameters, threads) = (&scene.parameters, threads_of(threads)?.get());
-    let quantities = [size.quantity(), slenderness.quantity()];
-    computed(py, quantities, [&sizes.1, &slendernesses.1], threads, |columns, rows| {
+    spectrum(py, [&sizes.1, &slendernesses.1], |columns, rows| {
         over_walls(parameters, &motion, (size, columns), (slenderness, rows), threads)
     })
 }
@@ -129,55 +124,33 @@ pub(crate) fn spectrum_over_pulses<'py>(
     form: &str,
     columns: &Bound<'py, PyAny>,
     rows: &Bound<'py, PyAny>,
-    threads: Option<&Bound<'_, PyAny>>,
+    threads: Option<i64>,
 ) -> PyResult<Values<'py>> {
     let form = PulseForm::from_name(form).map_err(|message| refused(format!("form = {message}")))?;
     let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());
-    computed(py, [QUANTITIES[4], QUANTITIES[5]], [columns, rows], threads, |columns, rows| {
-        over_pulses(parameters, form, columns, rows, threads)
-    })
+    spectrum(py, [columns, rows], |columns, rows| over_pulses(parameters, form, columns, rows, threads))
 }
 
-/// Columns of a spectrum for each thread between two looks at Ctrl-C.
-const COLUMNS_AT_ONCE: usize = 2;
-
-/// Computes a spectrum column by column, along the values of its axes.
-fn computed<'py>(
+/// Computes a spectrum along the values of its axes.
+fn spectrum<'py>(
     py: Python<'py>,
-    quantities: [Quantity; 2],
     axes: [&Bound<'py, PyAny>; 2],
-    threads: usize,
-    over: impl Fn(&[f64], &[f64]) -> Result<RockingSpectrum, SpectrumError> + Sync,
+    over: impl FnOnce(&[f64], &[f64]) -> Result<RockingSpectrum, SpectrumError> + Send,
 ) -> PyResult<Values<'py>> {
     let (columns, rows) = (samples(axes[0])?, samples(axes[1])?);
-    match columns.len() * rows.len() {
-        0 => return Err(refused("a spectrum needs at least one value along each axis")),
-        found if found > MOST_POINTS => return Err(refused(SpectrumError::TooManyPoints { found })),
-        _ => {}
+    if columns.is_empty() || rows.is_empty() {
+        return Err(refused("a spectrum needs at least one value along each axis"));
     }
-    let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
-    for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
-        let found = py.detach(|| over(columns, &rows)).map_err(of_spectrum)?.points;
-        points.iter_mut().zip(found).for_each(|(row, found)| row.extend(found));
-        py.check_signals()?;
-    }
-    let spectrum = RockingSpectrum { quantities, columns, rows, points };
+    let spectrum = stoppable(py, || over(&columns, &rows))?.map_err(|error| match error {
+        SpectrumError::Run { .. } => failed(error),
+        _ => refused(error),
+    })?;
     let (title, table) = ("Rocking spectrum".to_owned(), table(py, spectrum.table())?);
     let shown = Shown { spectrum, title, notes: Vec::new(), axes: String::new(), own: None };
     let [columns, rows] =
         [&shown.spectrum.columns, &shown.spectrum.rows].map(|v| PyArray1::from_slice(py, v));
     Ok((columns, rows, table, svg(&shown)))
 }
-
-fn of_spectrum(error: SpectrumError) -> PyErr {
-    match error {
-        SpectrumError::Run { .. } => failed(error),
-        _ => refused(error),
-    }
-}
-
-/// Runs for each thread between two looks at Ctrl-C.
-const RUNS_AT_ONCE: usize = 4;
 
 /// A limit state, a text with the table `[check]`, and records by their names.
 type OfCheck = (String, String, Vec<(String, Motion)>);
@@ -196,7 +169,7 @@ pub(crate) fn tie_of_wall<'py>(
     level: Option<OfCheck>,
     varied: (String, Option<Bound<'py, PyAny>>),
     both_polarities: bool,
-    threads: Option<&Bound<'_, PyAny>>,
+    threads: Option<i64>,
 ) -> PyResult<TieValues<'py>> {
     let AtLevel { scene, motions, both_signs, warnings, .. } = if let Some((state, text, named)) = level {
         let code = || read(&CheckFile::parse("check", &text)?.with_records(named_records(named)));
@@ -213,22 +186,13 @@ pub(crate) fn tie_of_wall<'py>(
     let study = TieStudy::new(scene, (varied, &given), motions, both_polarities || both_signs);
     let study = study.map_err(refused)?;
     let threads = threads_of(threads)?.get();
-    let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
-    let mut rows = Vec::with_capacity(study.values().len());
-    for values in study.values().chunks(at_once) {
-        rows.extend(py.detach(|| study.rows(values, threads)).map_err(of_tie)?);
-        py.check_signals()?;
-    }
+    let rows = stoppable(py, || study.rows(threads))?.map_err(|error| match error {
+        TieError::Run(error) => of_scene(error),
+        other => refused(other),
+    })?;
     let is_alike = study.polarities() == Polarities::Alike;
     let table = table(py, tie::table(&study, &rows))?;
     Ok((outcomes(py, &rows)?, table, tie::figure::picture(&study, &rows), is_alike, warnings))
-}
-
-fn of_tie(error: TieError) -> PyErr {
-    match error {
-        TieError::Run(error) => of_scene(error),
-        other => refused(other),
-    }
 }
 
 fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
@@ -257,7 +221,7 @@ pub(crate) fn calibrate_wall<'py>(
     a1: Option<Bound<'py, PyAny>>,
     start: &Bound<'py, PyAny>,
     step: f64,
-    threads: Option<&Bound<'_, PyAny>>,
+    threads: Option<i64>,
 ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<String>)> {
     let usual = Grid::default();
     let grid = Grid {
@@ -268,41 +232,26 @@ pub(crate) fn calibrate_wall<'py>(
     };
     let parameters = &wall.scene.parameters;
     let models = match models {
-        Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
+        Some(names) => names
+            .iter()
+            .map(|name| model_named(name))
+            .collect::<Result<_, _>>()
+            .map_err(|error| refused(format!("models: {error}")))?,
         None => calibrated_models(parameters),
     };
     let threads = threads_of(threads)?;
-    let mut found = Vec::with_capacity(models.len());
-    for model in models {
-        grid.check(model).map_err(of_calibration)?;
-        let mut fits = Vec::new();
-        // between two values of a1 this thread looks at Ctrl-C
-        for &a1 in &grid.a1 {
-            let grid = Grid { a1: vec![a1], ..grid.clone() };
-            let part = py.detach(|| calibrate(parameters, model, &grid, threads)).map_err(of_calibration)?;
-            // a law with an a1 of its own has one part
-            let is_own = part.fits.iter().any(|fit| fit.a1 != a1);
-            fits.extend(part.fits);
-            py.check_signals()?;
-            if is_own {
-                break;
-            }
-        }
-        found.push(Calibration::new(model, fits));
-    }
+    let all = || {
+        models
+            .iter()
+            .map(|&model| calibrate(parameters, model, &grid, threads))
+            .collect::<Result<Vec<_>, _>>()
+    };
+    let found = stoppable(py, all)?.map_err(|error| match error {
+        CalibrationError::Run { .. } | CalibrationError::Minimiser(_) => failed(error),
+        _ => refused(error),
+    })?;
     let tables = [calibration::table::fits, calibration::table::coefficients, calibration::table::laws]
         .map(|of| table(py, of(&found)));
     let [fits, coefficients, laws] = tables;
     Ok(([fits?, coefficients?, laws?], charts(&found).iter().map(Plot::figure_file).collect()))
-}
-
-fn model(name: &str) -> PyResult<DampingModel> {
-    model_named(name).map_err(|error| refused(format!("models: {error}")))
-}
-
-fn of_calibration(error: CalibrationError) -> PyErr {
-    match error {
-        CalibrationError::Run { .. } | CalibrationError::Minimiser(_) => failed(error),
-        _ => refused(error),
-    }
 }

@@ -9,7 +9,7 @@
 //! | `errors` | errors of the libraries as exceptions |
 //! | `arrays` | samples from Python, arrays to Python |
 //! | `tables` | tables for Python |
-//! | `watch` | the number of threads, and work on another one while this one looks at Ctrl-C |
+//! | `watch` | the number of threads, work that Ctrl-C stops |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the schemas of scenes and studies, what follows from parameters |
 //! | `responses` | results of a run |

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use numpy::PyArray1;
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
 use rocking_wall::scene::{MotionTable, check_value};
@@ -15,7 +14,7 @@ use run::shaking::{Shaken, Shaking, felt, together};
 use crate::arrays::{Motion, Numbers, samples};
 use crate::errors::{failed, of_scene, refused};
 use crate::walls::Wall;
-use crate::watch::{threads_of, watched};
+use crate::watch::{stoppable, threads_of};
 
 /// Most runs of a thread between two looks at Ctrl-C.
 const RUNS_AT_ONCE: usize = 1024;
@@ -72,7 +71,7 @@ pub(crate) fn simulate_many<'py>(
     record_of: Vec<usize>,
     factors: &Bound<'py, PyAny>,
     tail: f64,
-    threads: Option<&Bound<'py, PyAny>>,
+    threads: Option<i64>,
 ) -> PyResult<[Numbers<'py>; 3]> {
     check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
     let (factors, threads) = (samples(factors)?, threads_of(threads)?.get());
@@ -89,15 +88,8 @@ pub(crate) fn simulate_many<'py>(
     runs.sort_by_key(|run| (run.wall, run.record));
     let size = runs.len().div_ceil(threads).clamp(LANES, RUNS_AT_ONCE);
     let groups: Vec<_> = runs.chunks(size).collect();
-    let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
-        parallel::map(groups.len(), threads, |group| {
-            if !is_wanted() {
-                return Err(PyKeyboardInterrupt::new_err(()));
-            }
-            run_group(&walls, &records, groups[group], tail)
-        })
-    };
-    let found = watched(py, work, || Ok(()))??;
+    let run = |group: usize| run_group(&walls, &records, groups[group], tail);
+    let found = stoppable(py, || parallel::map(groups.len(), threads, run))??;
     let mut peaks = vec![[f64::NAN; 3]; runs.len()];
     for (run, found) in runs.iter().zip(found.concat()) {
         peaks[run.number] = found;

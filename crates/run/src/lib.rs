@@ -5,7 +5,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`parallel`] | work shared by threads |
+//! | [`parallel`] | work shared by threads, which another thread can watch and stop |
 //! | [`mod@file`] | files, written completely or not at all |
 //! | [`bisection`] | the first value at which a condition holds |
 //! | [`sample`] | medians, fractiles, random numbers that are the same on every machine |

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use ground_motion::{
     Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
     parse, parse_channels, read,
@@ -97,14 +98,9 @@ impl SceneArguments {
             None => error.into(),
         })
     }
-
-    /// Applies `--set`, after a motion may have changed the start.
-    pub(crate) fn apply(&self, scene: &mut Scene) -> Result<()> {
-        apply_set(&self.set, scene)
-    }
 }
 
-/// Applies assignments to a scene.
+/// Applies `--set` to a scene, after a motion may have changed the start.
 pub(crate) fn apply_set(set: &[String], scene: &mut Scene) -> Result<()> {
     for assignment in set {
         let Some((name, value)) = assignment.split_once('=') else {
@@ -113,6 +109,16 @@ pub(crate) fn apply_set(set: &[String], scene: &mut Scene) -> Result<()> {
         scene.set(name.trim(), value).with_context(|| format!("--set {assignment}"))?;
     }
     Ok(())
+}
+
+/// Reads the name of a file that takes a picture; names without an ending are those of devices.
+pub(crate) fn svg_file() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| match path.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
+            Err("a picture is SVG; give a file that ends in .svg")
+        }
+        _ => Ok(path),
+    })
 }
 
 /// Replaces what Rust says of a text that is no number.

@@ -66,7 +66,7 @@ fn read(path: &Path) -> (Building, Parts) {
 
 fn run(path: &Path, ground: &GroundMotion, end: f64, tolerance: f64) -> Coupled {
     let (_, parts) = read(path);
-    Coupled::run(&parts, ground, Settings { end, tolerance }, &|| true).unwrap()
+    Coupled::run(&parts, ground, Settings { end, tolerance }).unwrap()
 }
 
 /// Without walls, peaks are those of the modes, to 1e-3 of the floor's.

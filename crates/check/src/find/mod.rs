@@ -7,6 +7,7 @@ use std::fmt::Write;
 use report::number;
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
+use run::parallel;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -199,8 +200,8 @@ impl Found {
 /// Name, capacity over demand, whether it passes, and whether it decides.
 type Outcome = (&'static str, f64, bool, bool);
 
-/// Finds the smallest value, or the largest height, from which on a wall passes each of its checks;
-/// `progress` is told how many values have been tried, of how many.
+/// Finds the smallest value, or the largest height, from which on a wall passes each of its checks. Counts
+/// each value that was tried as [done](parallel::count_done).
 ///
 /// ```
 /// use check::{CheckFile, Sought, Subject, find, read};
@@ -215,7 +216,7 @@ type Outcome = (&'static str, f64, bool, bool);
 /// "#;
 /// let code = read(&CheckFile::parse("scene.toml", text)?)?;
 /// let parameters = Parameters::default();
-/// let found = find(&*code, Subject::new(&parameters), Sought::Thickness, &mut |_, _| {})?;
+/// let found = find(&*code, Subject::new(&parameters), Sought::Thickness)?;
 /// assert!((0.4..0.6).contains(&found.value.unwrap()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -223,12 +224,7 @@ type Outcome = (&'static str, f64, bool, bool);
 /// # Errors
 /// [`CheckError`] of the wall as it is, so that a statement that is missing is named; and of a tie that is
 /// sought for a wall without one.
-pub fn find(
-    code: &dyn Code,
-    subject: Subject<'_>,
-    sought: Sought,
-    progress: &mut dyn FnMut(u32, u32),
-) -> Result<Found, CheckError> {
+pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Found, CheckError> {
     let Subject { floors, assumed, .. } = subject;
     let parameters = &code.prepared(subject.parameters)?;
     check_tie(parameters, sought)?;
@@ -248,7 +244,7 @@ pub fn find(
     let mut tries = Vec::new();
     for index in 0..tried {
         tries.push((at(index), with(at(index))));
-        progress(index + 1, tried);
+        parallel::count_done(tried as usize);
     }
     let mut checks: Vec<(&'static str, bool)> = Vec::new();
     for (check, .., decides) in tries.iter().filter_map(|(_, tried)| tried.as_ref().ok()).flatten() {

@@ -155,7 +155,7 @@ fn searched(tie: &str, more: &str) -> Found {
     let text = facade(tie, &format!("rocking = \"one_sided_positive\"\n{more}"));
     let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
-    find(&*code, (&scene).into(), Sought::TieStrength, &mut |_, _| {}).unwrap()
+    find(&*code, (&scene).into(), Sought::TieStrength).unwrap()
 }
 
 /// Example 15: from which strength of the tie on each limit state passes, and what blocks.
@@ -192,17 +192,17 @@ fn a_side_without_a_tie_blocks() {
     let text = facade("tie_stiffness = 5e6\ntie_strength = 10e3\ntie_ultimate = 0.3", "");
     let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
-    let found = find(&*code, (&scene).into(), Sought::TieStrength, &mut |_, _| {}).unwrap();
+    let found = find(&*code, (&scene).into(), Sought::TieStrength).unwrap();
     assert!(found.text().contains("u < 0: the side without a tie governs"), "{}", found.text());
     // a bar is sought by its diameter; a wall without one has none to seek
-    let error = find(&*code, (&scene).into(), Sought::BarDiameter, &mut |_, _| {}).unwrap_err().to_string();
+    let error = find(&*code, (&scene).into(), Sought::BarDiameter).unwrap_err().to_string();
     assert!(error.contains("bar_diameter is sought, but the wall has no such tie"), "{error}");
     let bar = "rocking = \"one_sided_positive\"\ntie = { at_activation = \"yield\", bar = { diameter = \
                0.016, length = 6, yield_stress = 235e6, ultimate_strain = 0.06, spacing = 3 } }";
     let text = facade("", bar);
     let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
-    let found = find(&*code, (&scene).into(), Sought::BarDiameter, &mut |_, _| {}).unwrap();
+    let found = find(&*code, (&scene).into(), Sought::BarDiameter).unwrap();
     let diameter = found.value.unwrap();
     for (factor, passes) in [(1.0, true), (1.0 - 1e-6, false)] {
         let text = text.replace("diameter = 0.016", &format!("diameter = {}", diameter * factor));

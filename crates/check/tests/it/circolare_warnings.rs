@@ -173,7 +173,7 @@ fn runs_under_records_say_what_they_leave_out() {
 fn searched(text: &str, sought: Sought) -> Found {
     let scene = Scene::parse("scene.toml", text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", text).unwrap()).unwrap();
-    find(&*code, (&scene).into(), sought, &mut |_, _| {}).unwrap()
+    find(&*code, (&scene).into(), sought).unwrap()
 }
 
 /// Why nothing is found, in the order of the specification; a large force is warned of.

@@ -81,7 +81,7 @@ fn every_code_gives_all_of_a_verdict() {
         for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {
             assert!(page.contains(part), "{name}: the report lacks {part}");
         }
-        let found = find(&*stated, (&scene).into(), Sought::Thickness, &mut |_, _| {}).unwrap();
+        let found = find(&*stated, (&scene).into(), Sought::Thickness).unwrap();
         let plot = found.plot();
         // the area is 399 px high: the legend, its rows 18 px high, is above the lines, which go up to 3
         let rows = plot.series.iter().filter(|series| !series.name.is_empty()).count();

@@ -9,7 +9,6 @@ use report::table::{Digits, Table};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 use run::model::{Model, color};
-use run::parallel;
 use run::records::NamedRecord;
 use run::sample::sorted;
 use run::walls::NamedWall;
@@ -43,15 +42,11 @@ pub struct Collapses {
 }
 
 /// Scales each record by `AvgSA` until each wall of Table 5 overturns, for CR, CDC, CDR, SDR and CDR with Eq.
-/// (14). Calls `finished` after each combination, with the number of all.
+/// (14).
 ///
 /// # Errors
 /// [`IdaError`] if there is no record, if one cannot be scaled, or if a run fails.
-pub fn figure_15(
-    records: Vec<NamedRecord>,
-    threads: NonZeroUsize,
-    finished: impl Fn(usize) + Sync,
-) -> Result<Collapses, IdaError> {
+pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Collapses, IdaError> {
     let count = records.len();
     let walls = TABLE_5.iter().map(|row| {
         let restitution_source = RestitutionSource::Calibrated;
@@ -60,11 +55,7 @@ pub fn figure_15(
     });
     let models = Model::figure_15();
     let study = Study::new(walls.collect(), records, models, IntensityMeasure::default(), LEVELS)?;
-    let curves = parallel::map(study.count(), threads.get(), |index| {
-        let curve = study.curve(study.case(index));
-        finished(study.count());
-        curve
-    })?;
+    let curves = study.run(threads.get())?;
     let bootstrap = Bootstrap::new(count, RESAMPLES, SEED);
     let (mut charts, mut walls) = (Vec::new(), Vec::new());
     for (wall, row) in TABLE_5.iter().enumerate() {

@@ -68,14 +68,14 @@ pub struct Reproduction {
 }
 
 /// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
-/// records, is computed by [`collapse::figure_15`]. Calls `finished` with the number of all
-/// calibrations, which take most of the time, after each.
+/// records, is computed by [`collapse::figure_15`]. Counts the calibrations, which take most of the time, as
+/// [done](run::parallel::count_done).
 ///
 /// # Errors
 /// [`EvidenceError`] if a wall, a motion, a run or a calibration fails.
-pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, EvidenceError> {
+pub fn reproduce(threads: NonZeroUsize) -> Result<Reproduction, EvidenceError> {
     let [table_1, table_2] = formulas::tables_1_and_2()?;
-    let section_5 = section_5::Section5::new(threads, || finished(section_5::CALIBRATIONS))?;
+    let section_5 = section_5::Section5::new(threads)?;
     let tables = vec![
         table_1,
         table_2,

@@ -6,6 +6,7 @@ use report::plot::{Plot, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 use run::model::{RATIO_MODELS as MODELS, label};
+use run::parallel::count_done;
 use study::calibration::figure::charts;
 use study::calibration::{
     Calibration, CalibrationError, FREE_STANDING, Grid, PowerLaw, REGRESSIONS, calibrate,
@@ -26,7 +27,7 @@ const HEIGHTS: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 const LEAST_A1: f64 = 0.01;
 
 /// Number of calibrations of section 5: three models each for stiffness, amplitude and heights, and c̄.
-pub(super) const CALIBRATIONS: usize = 3 * (2 + HEIGHTS.len()) + 1;
+const CALIBRATIONS: usize = 3 * (2 + HEIGHTS.len()) + 1;
 
 /// Calibrations of section 5.
 pub(super) struct Section5 {
@@ -45,11 +46,11 @@ fn parapet(height: f64) -> Parameters {
 }
 
 impl Section5 {
-    /// Computes them, and calls `finished` after each.
-    pub(super) fn new(threads: NonZeroUsize, finished: impl Fn()) -> Result<Self, CalibrationError> {
+    /// Computes them.
+    pub(super) fn new(threads: NonZeroUsize) -> Result<Self, CalibrationError> {
         let one_of = |parameters: &Parameters, model, grid: &Grid| {
             let calibration = calibrate(parameters, model, grid, threads);
-            finished();
+            count_done(CALIBRATIONS);
             calibration
         };
         let each = |parameters: &Parameters, grid: &Grid| -> Result<[Calibration; 3], CalibrationError> {

@@ -16,7 +16,7 @@ use crate::records::folder;
 /// Checks the paper's statements about Figure 15 for every wall.
 #[allow(clippy::print_stderr, reason = "the figures behind a verdict")]
 fn check(records: Vec<NamedRecord>, tolerance: f64) {
-    let found = figure_15(records, threads(None), |_| ()).unwrap();
+    let found = figure_15(records, threads(None)).unwrap();
     assert_eq!((found.walls.len(), found.figure.charts.len(), found.table.rows.len()), (9, 9, 9));
     for (index, models) in found.walls.iter().enumerate() {
         let wall = index + 1;
@@ -73,6 +73,6 @@ fn equation_14_overestimates() {
 
 #[test]
 fn a_figure_without_records_is_refused() {
-    let error = figure_15(Vec::new(), threads(None), |_| ()).unwrap_err().to_string();
+    let error = figure_15(Vec::new(), threads(None)).unwrap_err().to_string();
     assert!(error.contains("record"), "{error}");
 }

@@ -258,5 +258,3 @@ def bar(total: int, wanted: bool, unit: str = " curves") -> Iterator[Callable[[i
             shown.update(done - shown.n)
 
         yield report
-        if shown.n < total:
-            report(total)

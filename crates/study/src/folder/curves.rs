@@ -43,7 +43,7 @@ impl<'a> Curves<'a> {
 }
 
 /// Makes something of the curves of each wall of a complete folder, on some threads, and takes it wall by
-/// wall: memory does not grow with the walls.
+/// wall: memory does not grow with the walls. Counts each wall as [done](parallel::count_done).
 ///
 /// # Errors
 /// [`FolderError`] if parts are missing, or that of `take`.
@@ -61,6 +61,7 @@ pub(crate) fn each_wall<T: Send>(
         let Ok(made) = parallel::map(read.len(), threads, made);
         for (wall, made) in (start..end).zip(made) {
             take(wall, made)?;
+            parallel::count_done(walls);
         }
     }
     Ok(())

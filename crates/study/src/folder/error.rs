@@ -4,13 +4,18 @@ use std::path::PathBuf;
 
 use run::file::FileError;
 
-/// Why a study cannot be kept in a folder, or its results not be written.
+use crate::ida::IdaError;
+
+/// Why a study cannot be computed or kept in a folder, or its results not be written.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum FolderError {
     /// A file or folder cannot be written, made or removed.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A run failed.
+    #[error(transparent)]
+    Run(#[from] IdaError),
     /// There is no study.
     #[error("{}: cannot be read; expected a folder that `wall study ida` has made: {source}", path.display())]
     NoStudy { path: PathBuf, source: std::io::Error },

@@ -54,7 +54,7 @@ mod store;
 mod subject;
 pub(crate) mod tables;
 
-pub use compute::{ComputeError, compute};
+pub use compute::compute;
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
 pub use curves::curve_tables;
 pub(crate) use curves::each_wall;

@@ -53,22 +53,18 @@ pub struct Report {
     pub files: Vec<PathBuf>,
 }
 
-/// Writes the tables and the page of a folder whose parts are complete, on `threads` threads. `done` is
-/// called for each wall.
+/// Writes the tables and the page of a folder whose parts are complete, on `threads` threads. Counts
+/// each wall as [done](run::parallel::count_done).
 ///
 /// # Errors
 /// [`FolderError`] if parts are missing, or a file cannot be written.
-pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result<Report, FolderError> {
+pub fn finish(folder: &Folder, threads: usize) -> Result<Report, FolderError> {
     let runs = survey(folder)?;
     folder.sweep();
     // an earlier report may have had what this one lacks
     OPTIONAL.iter().try_for_each(|name| file::remove(&folder.path().join(name)))?;
     let (fitting, mut output) = (folder.manifest().fitting(), Output::new(folder, runs)?);
-    let fitted = |_, curves: &[Curve]| {
-        let results = fitting.results(curves.to_vec());
-        done();
-        results
-    };
+    let fitted = |_, curves: &[Curve]| fitting.results(curves.to_vec());
     each_wall(folder, threads, fitted, |wall, results| output.add(wall, &results))?;
     output.finish()
 }

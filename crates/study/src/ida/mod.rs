@@ -289,13 +289,17 @@ impl Study {
     }
 
     /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend
-    /// on the number of threads.
+    /// on the number of threads. Counts each group of combinations as [done](parallel::count_done).
     ///
     /// # Errors
     /// The error of the first combination, in their order, whose run fails.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
         let groups: Vec<_> = self.groups(0..self.count(), threads).collect();
-        let curves = parallel::map(groups.len(), threads, |group| self.curves(groups[group].clone()))?;
+        let curves = parallel::map(groups.len(), threads, |group| {
+            let curves = self.curves(groups[group].clone());
+            parallel::count_done(groups.len());
+            curves
+        })?;
         Ok(curves.into_iter().flatten().collect())
     }
 

@@ -14,17 +14,12 @@ use crate::ida::Curve;
 /// Most walls that a warning names.
 const NAMED: usize = 3;
 
-/// Writes the tables and the page of a study of reliability into a folder whose parts are complete. `done` is
-/// called for each wall.
+/// Writes the tables and the page of a study of reliability into a folder whose parts are complete. Counts
+/// each wall as [done](run::parallel::count_done).
 ///
 /// # Errors
 /// [`FolderError`] if parts are missing, or a file cannot be written.
-pub fn finish(
-    folder: &Folder,
-    reliability: &Reliability,
-    threads: usize,
-    done: impl Fn() + Sync,
-) -> Result<Report, FolderError> {
+pub fn finish(folder: &Folder, reliability: &Reliability, threads: usize) -> Result<Report, FolderError> {
     let (manifest, contents) = (folder.manifest(), folder.contents());
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let hazard = manifest.report.hazard.as_ref().map(|hazard| &hazard.curve);
@@ -32,11 +27,7 @@ pub fn finish(
     let (mut rows, mut rules) = (Rows::new(&paths[0])?, Rows::new(&paths[1])?);
     let (mut class, mut shown) = (Class::default(), Vec::new());
     let fitting = manifest.fitting();
-    let found = |place, curves: &[Curve]| {
-        let found = reliability.of_wall(place, curves, &fitting);
-        done();
-        found
-    };
+    let found = |place, curves: &[Curve]| reliability.of_wall(place, curves, &fitting);
     each_wall(folder, threads, found, |place, found| {
         let wall = &reliability.walls[place];
         class.add(wall, &found);

@@ -10,7 +10,7 @@
 //! scene.set("tie_height", "4")?;
 //! let records = vec![SyntheticMotion::default().motion()?];
 //! let study = TieStudy::new(scene, (&STIFFNESS, &[0.0, 1e6]), records, false)?;
-//! let rows = study.rows(study.values(), 1)?;
+//! let rows = study.rows(1)?;
 //! assert!(rows[0].outcomes[0].force == 0.0 && rows[1].outcomes[0].force > 0.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -260,12 +260,12 @@ impl TieStudy {
         self.yields
     }
 
-    /// Runs every motion with a tie of each of some values, on some threads.
+    /// Runs every motion with a tie of each value, on some threads.
     ///
     /// # Errors
     /// [`TieError`] of the first run that fails.
-    pub fn rows(&self, values: &[f64], threads: usize) -> Result<Vec<Row>, TieError> {
-        let count = self.scenes.len();
+    pub fn rows(&self, threads: usize) -> Result<Vec<Row>, TieError> {
+        let (values, count) = (&self.values, self.scenes.len());
         let outcomes = parallel::map(values.len() * count, threads, |index| {
             outcome(&with(&self.scenes[index % count], &self.varied, values[index / count])?)
         })?;

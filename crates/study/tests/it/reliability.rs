@@ -14,7 +14,6 @@ use study::reliability::{FILES, Reliability, finish};
 
 use crate::reliability_tables::{self as tables, WALLS, least};
 
-const CONTINUE: std::ops::ControlFlow<()> = std::ops::ControlFlow::Continue(());
 /// g of codes [m/s²].
 pub(crate) const G: f64 = 9.81;
 pub(crate) const CHECK: &str = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
@@ -36,8 +35,8 @@ pub(crate) fn run_analysis(name: &str, loaded: &LoadedStudy) -> PathBuf {
     let path = folder(name);
     let folder = Folder::of_study(&path, loaded).unwrap();
     let missing = folder.missing(0..folder.contents().parts());
-    compute(&loaded.study, &folder, &missing, 2, |_, _| CONTINUE).unwrap();
-    study::folder::finish(&folder, 2, || {}).unwrap();
+    compute(&loaded.study, &folder, &missing, 2).unwrap();
+    study::folder::finish(&folder, 2).unwrap();
     path
 }
 
@@ -45,7 +44,7 @@ pub(crate) fn run_analysis(name: &str, loaded: &LoadedStudy) -> PathBuf {
 pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report) {
     let path = run_analysis(name, loaded);
     let folder = Folder::open(&path).unwrap();
-    let report = finish(&folder, &Reliability::of(loaded).unwrap(), 2, || {}).unwrap();
+    let report = finish(&folder, &Reliability::of(loaded).unwrap(), 2).unwrap();
     (path, report)
 }
 
@@ -165,10 +164,10 @@ fn runs_are_those_of_the_analysis() {
     let parts = of_parts.contents().parts();
     for part in [0, 1] {
         let mine: Vec<_> = (part..parts).step_by(2).collect();
-        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1, |_, _| CONTINUE).unwrap();
+        compute(&loaded.study, &of_parts, &of_parts.missing(mine), 1).unwrap();
     }
-    study::folder::finish(&of_parts, 1, || {}).unwrap();
-    finish(&of_parts, &Reliability::of(&loaded).unwrap(), 1, || {}).unwrap();
+    study::folder::finish(&of_parts, 1).unwrap();
+    finish(&of_parts, &Reliability::of(&loaded).unwrap(), 1).unwrap();
     for name in ["levels.csv", "fragilities.csv", "study.html"].into_iter().chain(FILES) {
         assert_eq!(fs::read(whole.join(name)).unwrap(), fs::read(path.join(name)).unwrap(), "{name}");
     }

@@ -144,7 +144,7 @@ fn shaken(
 ) -> Result<String> {
     let &Options { tail, tolerance, .. } = options;
     let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
-    let run = Coupled::run(parts, ground, settings, &|| true)?;
+    let run = Coupled::run(parts, ground, settings)?;
     console.save(options.csv.as_ref(), || table::histories(building, &run).csv())?;
     console.save(options.html.as_ref(), || render(building, parts, &run, note))?;
     if options.json {

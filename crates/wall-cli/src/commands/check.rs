@@ -12,7 +12,7 @@ use rocking_wall::scene::{Scene, read_text};
 use run::parallel;
 use run::walls::read_walls;
 
-use crate::args::{SceneArguments, apply_set, refuse};
+use crate::args::{SceneArguments, apply_set, refuse, svg_file};
 use crate::output::{Console, progress, written};
 
 #[derive(Debug, Args)]
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "PARAMETER", value_parser = sought)]
     find: Option<Sought>,
     /// With --find: write capacity over demand over the parameter as a chart (SVG)
-    #[arg(long, value_name = "FILE", requires = "find")]
+    #[arg(long, value_name = "FILE", requires = "find", value_parser = svg_file())]
     plot: Option<PathBuf>,
     /// Write the rows as CSV: one for each check, or for each wall of a file of walls, the worst first
     #[arg(long, value_name = "FILE")]
@@ -93,16 +93,8 @@ fn one(
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
-        let is_long = code.takes_runs();
-        let found = progress::shown(|progress| {
-            find(code, subject, sought, &mut |_, of| {
-                if is_long {
-                    progress.add(of as usize);
-                }
-            })
-        });
-        let found = found.map_err(|error| file.located(error))?;
-        console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
+        let found = progress::shown(|| find(code, subject, sought))?.map_err(|error| file.located(error))?;
+        console.save(plot.as_ref(), || found.plot().picture())?;
         if arguments.json {
             return console.json(&found.json());
         }

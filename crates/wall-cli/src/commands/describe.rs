@@ -9,7 +9,7 @@ use report::table::significant;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, TiePart, Wall};
 
-use crate::args::SceneArguments;
+use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
 use run::capacity::Capacity;
 
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw the capacity curve with its secants, as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
@@ -34,15 +34,14 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&arguments.scene.set, &mut scene)?;
     console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
     scene.set_output(None, None, arguments.thresholds.clone())?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
     let capacity = Capacity::new(&wall, &scene.thresholds);
-    // first, because its ending may be refused
-    console.picture(arguments.plot.as_ref(), || Ok(capacity.plot().picture()))?;
+    console.save(arguments.plot.as_ref(), || capacity.plot().picture())?;
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };

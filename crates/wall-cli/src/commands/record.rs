@@ -11,7 +11,7 @@ use run::record_facts::figure::{self, Drawn};
 use run::record_facts::{Facts, Intensities, listing, samples, table};
 use serde_json::json;
 
-use crate::args::{MotionArguments, SYNTHETIC, named, record_files};
+use crate::args::{MotionArguments, SYNTHETIC, named, record_files, svg_file};
 use crate::output::{self, Console};
 
 fn files_help() -> String {
@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     samples: Option<PathBuf>,
     /// Draw the histories and the spectra, as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
 }
 
@@ -133,7 +133,9 @@ fn show(
         };
         console.write(path, samples(&one.record.motion).as_bytes())?;
     }
-    console.picture(arguments.plot.as_ref(), || picture(channels, of, arguments.damping))?;
+    if let Some(path) = &arguments.plot {
+        console.write(path, picture(channels, of, arguments.damping)?.as_bytes())?;
+    }
     let table = table(channels, &of.periods);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     if arguments.json {

@@ -1,42 +1,32 @@
 //! A line on the terminal: how much is done, and the time left.
 
 use std::io::{IsTerminal, Write};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// How often the line is written anew.
-const PAUSE: Duration = Duration::from_millis(200);
+use anyhow::Result;
+use run::parallel::watched;
 
-pub(crate) struct Progress {
-    start: Instant,
-    /// Finished parts, and when the line was last written; `None` where nobody sees it.
-    state: Option<Mutex<(usize, Instant)>>,
-}
+/// Time after which work has a line.
+const LONG: Duration = Duration::from_millis(200);
 
-/// Runs `work`, shows its progress on one line, then ends that line.
-pub(crate) fn shown<T>(work: impl FnOnce(&Progress) -> T) -> T {
+/// Does work and shows its progress on one line where somebody sees it.
+pub(crate) fn shown<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T> {
+    if !std::io::stderr().is_terminal() {
+        return Ok(work());
+    }
     let start = Instant::now();
-    let state = std::io::stderr().is_terminal().then(|| Mutex::new((0, start)));
-    let progress = Progress { start, state };
-    let outcome = work(&progress);
-    if progress.state.as_ref().is_some_and(|state| state.lock().is_ok_and(|state| state.0 > 0)) {
-        to_terminal("\n");
-    }
-    outcome
-}
-
-impl Progress {
-    /// Counts one more finished part of `total`.
-    pub(crate) fn add(&self, total: usize) {
-        let Some(Ok(mut state)) = self.state.as_ref().map(Mutex::lock) else { return };
-        state.0 += 1;
-        let (done, written) = *state;
-        if written.elapsed() >= PAUSE || done == total {
-            state.1 = Instant::now();
-            let left = self.start.elapsed().as_secs_f64() / done as f64 * (total - done) as f64;
-            to_terminal(&format!("\r{done} of {total} done, {:.1} min left   ", left / 60.0));
+    let mut end = "";
+    let outcome = watched(work, |done, all| {
+        let time = start.elapsed();
+        if done > 0 && time >= LONG {
+            let left = time.as_secs_f64() / done as f64 * (all - done) as f64;
+            to_terminal(&format!("\r{done} of {all} done, {:.1} min left   ", left / 60.0));
+            end = "\n";
         }
-    }
+        anyhow::Ok(())
+    });
+    to_terminal(end);
+    outcome
 }
 
 /// Writes to the terminal; one that is lost is no reason to stop.

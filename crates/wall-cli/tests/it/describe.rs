@@ -1,6 +1,6 @@
 //! Tests `wall describe`.
 
-use crate::command_line::{assert_has, content, folder, json, printed, refused, succeed};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, succeed};
 
 #[test]
 fn describe_writes_the_curve() {
@@ -24,7 +24,7 @@ fn describe_writes_the_curve() {
     assert!(limits[3]["secant_period"].is_null());
     let folder = crate::command_line::folder("capacity_refused");
     refused(&folder, &["describe", "--thresholds", "2"], &["thresholds", "2"]);
-    refused(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
+    fails(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
 }
 
 /// The part of the tie that gives way first is told, with the places where the tie changes.

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::command_line::{assert_has, content, folder, printed, refused, setting, succeed, text};
+use crate::command_line::{assert_has, content, fails, folder, printed, refused, setting, succeed, text};
 
 /// `--csv -` writes the file that `--csv FILE` writes, and the summary goes to stderr; it names no file.
 #[test]
@@ -33,7 +33,7 @@ fn a_dash_is_standard_output() {
 #[test]
 fn a_map_is_svg() {
     let folder = folder("svg_ending");
-    refused(&folder, &["study", "spectrum", "--synthetic", "--svg", "x.png"], &["x.png", "ends in .svg"]);
+    fails(&folder, &["study", "spectrum", "--synthetic", "--svg", "x.png"], &["x.png", "ends in .svg"]);
     assert!(!folder.join("x.png").exists());
 }
 

@@ -10,7 +10,7 @@ use rocking_wall::scene::{
 };
 use rocking_wall::simulation::Excitation;
 
-use crate::args::{RecordArguments, SceneArguments};
+use crate::args::{RecordArguments, SceneArguments, apply_set};
 use crate::output::Console;
 
 #[derive(Debug, Args)]
@@ -89,7 +89,7 @@ impl Arguments {
                 "--tail belongs to a motion given with --record or --synthetic; a scene states its own tail"
             );
         }
-        self.scene.apply(&mut scene)?;
+        apply_set(&self.scene.set, &mut scene)?;
         if self.hold {
             let Some(excitation) = scene.excitation.take() else {
                 bail!("--hold needs a motion; give --record or --synthetic, or a scene with one");

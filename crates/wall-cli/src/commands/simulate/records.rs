@@ -12,8 +12,7 @@ use serde_json::json;
 
 use super::arguments::Arguments;
 use crate::args::short_name;
-use crate::output::progress::{self, Progress};
-use crate::output::{self, Console};
+use crate::output::{self, Console, progress};
 use run::polarity::Polarities;
 
 /// A record, scaled: its name, a note on it, and its motion.
@@ -35,7 +34,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.warn(wall.warnings());
     console.warn(first.floors.iter().flat_map(|floors| floors.warnings(&wall)));
     let runs = signs.len() * motions.len();
-    let row = |index: usize, progress: &Progress| {
+    let row = |index: usize| {
         let ((name, note, motion), (sign, factor)) =
             (&motions[index / signs.len()], signs[index % signs.len()]);
         let motion = motion.checked_scaled(factor)?;
@@ -44,11 +43,11 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         // peaks and times come from the motion itself, not from samples
         scene.output_step = scene.stop_time;
         let response = Response::of(&scene).with_context(|| name.clone())?;
-        progress.add(runs);
+        parallel::count_done(runs);
         anyhow::Ok(MotionRow { name: name.clone(), sign, peak_acceleration, summary: response.summary })
     };
     let threads = parallel::threads(None).get();
-    let rows = progress::shown(|progress| parallel::map(runs, threads, |index| row(index, progress)))?;
+    let rows = progress::shown(|| parallel::map(runs, threads, row))??;
     let table = motions::table(&rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     if arguments.json {

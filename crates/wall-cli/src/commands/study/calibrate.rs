@@ -10,7 +10,7 @@ use run::parallel::threads;
 use study::calibration::page::page;
 use study::calibration::{Grid, STEP, calibrate, calibrated_models, model_named, table};
 
-use crate::args::SceneArguments;
+use crate::args::{SceneArguments, apply_set};
 use crate::output::Console;
 
 #[derive(Debug, Args)]
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&arguments.scene.set, &mut scene)?;
     console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
     let grid = Grid {
         restitution: arguments.restitution.clone(),

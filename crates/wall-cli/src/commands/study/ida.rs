@@ -2,9 +2,7 @@
 //! shards.
 
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
@@ -12,13 +10,11 @@ use clap::Args;
 use report::counted;
 use run::file::folder;
 use run::parallel;
-use study::folder::{Folder, Report};
-use study::ida::Study;
+use study::folder::{Folder, Report, compute};
 use study::loaded::LoadedStudy;
 use study::reliability::{self, Reliability};
 
-use crate::output::progress::{self, Progress};
-use crate::output::{self, Console};
+use crate::output::{self, Console, progress};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -97,10 +93,16 @@ fn analyse(
         console.report(&format!("{found} of {} combinations are done already", cases(&mine)));
     }
     tell_of_resuming()?;
-    let told_of_runs = compute(&loaded.study, &folder, &missing, cases(&missing), threads)?;
+    let start = Instant::now();
+    let runs = progress::shown(|| compute(&loaded.study, &folder, &missing, threads))??;
     drop(loaded);
-    // a summary that cannot be printed must not prevent the results from being written
-    let told = console.print(&told_of_runs);
+    let told = if missing.is_empty() {
+        Ok(())
+    } else {
+        let (runs, seconds) = (counted(runs, "run"), start.elapsed().as_secs_f64());
+        // a summary that cannot be printed must not prevent the results from being written
+        console.print(&format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread")))
+    };
     if shards > 1 {
         let name = path.display();
         // merging makes the tables of the analysis alone
@@ -112,11 +114,7 @@ fn analyse(
     }
     finish(console, &folder, threads).and(told)?;
     let Some(reliability) = reliability else { return Ok(()) };
-    let walls = folder.contents().walls.len();
-    let report = progress::shown(|progress| {
-        reliability::finish(&folder, &reliability, threads, || progress.add(walls))
-    })?;
-    told_of(console, &report)
+    told_of(console, &progress::shown(|| reliability::finish(&folder, &reliability, threads))??)
 }
 
 pub(crate) fn merge(console: &Console<'_>, arguments: &MergeArguments) -> Result<()> {
@@ -153,35 +151,9 @@ fn tell_of_resuming() -> Result<()> {
     .context("Ctrl-C")
 }
 
-/// Runs the missing parts, which hold `cases` combinations; says how many runs took how long.
-fn compute(
-    study: &Study,
-    folder: &Folder,
-    missing: &[usize],
-    cases: usize,
-    threads: usize,
-) -> Result<String> {
-    if missing.is_empty() {
-        return Ok(String::new());
-    }
-    let (start, runs) = (Instant::now(), AtomicUsize::new(0));
-    progress::shown(|progress| {
-        study::folder::compute(study, folder, missing, threads, |_, curve| {
-            runs.fetch_add(curve.runs().len(), Ordering::Relaxed);
-            progress.add(cases);
-            ControlFlow::Continue(())
-        })
-    })?;
-    let (runs, seconds) = (counted(runs.into_inner(), "run"), start.elapsed().as_secs_f64());
-    Ok(format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread")))
-}
-
 /// Makes the final results of a folder whose parts are complete.
 fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> {
-    let walls = folder.contents().walls.len();
-    let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls));
-    let report = progress::shown(finished)?;
-    told_of(console, &report)
+    told_of(console, &progress::shown(|| study::folder::finish(folder, threads))??)
 }
 
 fn told_of(console: &Console<'_>, report: &Report) -> Result<()> {

@@ -15,7 +15,7 @@ use study::spectrum::{
     PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
-use crate::args::{RecordArguments, SceneArguments, refuse};
+use crate::args::{RecordArguments, SceneArguments, apply_set, refuse, svg_file};
 use crate::output::{self, Console};
 use study::spectrum::page::page;
 
@@ -65,7 +65,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// Write the heat map as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     svg: Option<PathBuf>,
 }
 
@@ -74,11 +74,10 @@ const MOST_VALUES: usize = 500;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&arguments.scene.set, &mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
-    output::expect_svg(arguments.svg.as_ref())?;
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {

@@ -20,7 +20,7 @@ use study::tie::{
     AtLevel, BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, at_level, table,
 };
 
-use crate::args::{SceneArguments, read_record, short_name};
+use crate::args::{SceneArguments, apply_set, read_record, short_name, svg_file};
 use crate::commands::check::MAX_FILE_BYTES;
 use crate::output::{self, Console};
 
@@ -74,13 +74,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw demands and displacement over what is varied, as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
 }
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
-    arguments.scene.apply(&mut scene)?;
+    apply_set(&arguments.scene.set, &mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
     let named = records(console, arguments)?;
@@ -91,8 +91,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     };
     let study = TieStudy::new(scene, varied(arguments), motions, arguments.both_polarities || both_signs);
     let study = arguments.scene.named(study)?;
-    let rows = study.rows(study.values(), parallel::threads(arguments.threads).get())?;
-    console.picture(arguments.plot.as_ref(), || Ok(picture(&study, &rows)))?;
+    let rows = study.rows(parallel::threads(arguments.threads).get())?;
+    console.save(arguments.plot.as_ref(), || picture(&study, &rows))?;
     let table = table(&study, &rows);
     console.save(arguments.csv.as_ref(), || table.csv())?;
     let Parameters { tie_height, tie_side, .. } = study.scene().parameters;

@@ -10,7 +10,7 @@ use evidence::accuracy::{Problem, defaults, measure};
 use evidence::reproduce::rotations::{self, Rotations};
 use rocking_wall::scene::Scene;
 
-use crate::args::RecordArguments;
+use crate::args::{RecordArguments, svg_file};
 use crate::output::Console;
 
 #[derive(Debug, Args)]
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     html: Option<PathBuf>,
     /// Write the work-precision plots as SVG; with --peers the plots of the
     /// other tools instead
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
     /// Measurements of other tools for the page or the plot, the CSV of `cargo xtask bench --peers`
     #[arg(long, value_name = "FILE")]
@@ -81,7 +81,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     console.save(arguments.csv.as_ref(), || table(&studies).csv())?;
     console.save(arguments.linearisation.as_ref(), || rotations::table(&both).csv())?;
-    console.picture(arguments.plot.as_ref(), || Ok(picture(&studies, peers.as_ref())))?;
+    console.save(arguments.plot.as_ref(), || picture(&studies, peers.as_ref()))?;
     let figures = rotations::figures(&both)?;
     console.save(arguments.html.as_ref(), || page(&studies, &figures, peers.as_ref()))
 }

@@ -12,6 +12,7 @@ use evidence::stability::{RowQuantity, extremes, map, maps};
 use evidence::validation::PublishedTest;
 use evidence::verification::{page as manual, verify};
 
+use crate::args::svg_file;
 use crate::output::{self, Console};
 
 #[derive(Debug, Subcommand)]
@@ -47,7 +48,7 @@ pub(crate) struct Tests {
     /// A test (TOML), such as those of `tests/data/validation`
     test: PathBuf,
     /// Write the points and the model as SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
 }
 
@@ -101,7 +102,7 @@ fn tests(console: &Console<'_>, arguments: &Tests) -> Result<()> {
     console.check_distinct(&case.inputs, &arguments.plot)?;
     let (text, chart) = case.shown()?;
     console.print(&text)?;
-    console.picture(arguments.plot.as_ref(), || Ok(chart.figure_file()))
+    console.save(arguments.plot.as_ref(), || chart.figure_file())
 }
 
 fn stability(console: &Console<'_>, arguments: &Stability) -> Result<()> {

@@ -33,10 +33,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let records =
         arguments.records.as_deref().map(|folder| records(console, folder, &arguments.output)).transpose()?;
     let threads = threads(arguments.threads);
-    let reproduction = progress::shown(|progress| reproduce(threads, |all| progress.add(all)))?;
+    let reproduction = progress::shown(|| reproduce(threads))??;
     console.print(&summary(&reproduction))?;
-    let collapses = records
-        .map(|records| progress::shown(|progress| figure_15(records, threads, |all| progress.add(all))));
+    let collapses = records.map(|records| progress::shown(|| figure_15(records, threads))).transpose()?;
     let collapses = collapses.transpose()?;
     if let Some(collapses) = &collapses {
         console.print(&format!("{MEDIANS}\n{}", collapses.table.text()))?;
