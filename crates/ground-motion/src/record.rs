@@ -158,7 +158,7 @@ fn parsed(name: &str, mut bytes: Vec<u8>, options: &RecordOptions) -> Result<(Fo
     if text.trim().is_empty() {
         return Err(Fault::new(1, "a record", "an empty file", "check that this is the right file"));
     }
-    let format = options.format.map_or_else(|| Format::of(text, options), Ok)?;
+    let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
     let mut parsed = format.parse(text, options)?;
     if vertical::by_name(name, format, options) {
         for channel in &mut parsed {

@@ -240,7 +240,8 @@ impl Numbers {
         let value = real(&plain).filter(|value| value.is_finite());
         value.ok_or_else(|| {
             let remedy = "correct the value: decimals have a point, or a comma between semicolons, tabs or \
-                          blanks; write minus signs as `-`, and no marks between thousands";
+                          blanks; write minus signs as `-`, no marks between thousands, and times in s, not \
+                          as dates";
             Fault::excerpt(line, "a finite number", cell, remedy)
         })
     }

@@ -24,6 +24,7 @@ mod volume_2;
 pub use csv::CSV_HEADER;
 
 use std::iter::Peekable;
+use std::path::Path;
 
 use crate::error::{Fault, UNEVEN};
 use crate::fields::{Numbered, find, untrimmed_lines};
@@ -40,29 +41,31 @@ type Recognises = fn(&[&str]) -> bool;
 /// Reads every channel of a text.
 type Parse = fn(&str, &RecordOptions) -> Result<Vec<Parsed>, Fault>;
 
-/// A format: its short name, what people call it, whether its files say which direction a component has, and
-/// its reader.
-type Known = (Format, &'static str, &'static str, bool, Recognises, Parse);
+/// A format: its short name, what people call it, the endings of its files, whether these say which direction
+/// a component has, and its reader.
+type Known = (Format, &'static str, &'static str, &'static [&'static str], bool, Recognises, Parse);
+
+const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
 /// The formats in the order of the enumeration, in which they are tried. CSMIP comes after GeoNet, volume 1,
 /// COSMOS and SMC, whose first lines may have the same words; AT2, known by two words anywhere in its header,
 /// comes after tables, whose title may have them too.
 const KNOWN: [Known; Format::ALL.len()] = [
-    (Format::Esm, "esm", "ESM/ITACA", true, esm::recognises, esm::parse),
-    (Format::Geonet, "geonet", "GeoNet", true, geonet::recognises, geonet::parse),
-    (Format::Volume1, "volume1", "RENADIC/BHRC", true, volume_1::recognises, volume_1::parse),
-    (Format::Knet, "knet", "K-NET/KiK-net", true, knet::recognises, knet::parse),
-    (Format::KnetCsv, "knet-csv", "K-NET CSV", true, knet_csv::recognises, knet_csv::parse),
-    (Format::Afad, "afad", "AFAD", true, afad::recognises, afad::parse),
-    (Format::Cwa, "cwa", "CWA", true, cwb::recognises, cwb::parse),
-    (Format::Unam, "unam", "UNAM", true, unam::recognises, unam::parse),
-    (Format::Cosmos, "cosmos", "COSMOS V2", true, cosmos::recognises, cosmos::parse),
-    (Format::Smc, "smc", "USGS SMC", true, smc::recognises, smc::parse),
-    (Format::Csmip, "csmip", "CSMIP V2", true, csmip::recognises, csmip::parse),
-    (Format::Csv, "csv", "CSV", false, csv::recognises, csv::parse),
-    (Format::At2, "at2", "PEER AT2", false, at2::recognises, at2::parse),
+    (Format::Esm, "esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
+    (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], true, geonet::recognises, geonet::parse),
+    (Format::Volume1, "volume1", "RENADIC/BHRC", &[], true, volume_1::recognises, volume_1::parse),
+    (Format::Knet, "knet", "K-NET/KiK-net", KNET, true, knet::recognises, knet::parse),
+    (Format::KnetCsv, "knet-csv", "K-NET CSV", &[], true, knet_csv::recognises, knet_csv::parse),
+    (Format::Afad, "afad", "AFAD", &[], true, afad::recognises, afad::parse),
+    (Format::Cwa, "cwa", "CWA", &[], true, cwb::recognises, cwb::parse),
+    (Format::Unam, "unam", "UNAM", &[], true, unam::recognises, unam::parse),
+    (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
+    (Format::Smc, "smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
+    (Format::Csmip, "csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
+    (Format::Csv, "csv", "CSV", &[], false, csv::recognises, csv::parse),
+    (Format::At2, "at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
     // whether these are numbers depends on the step that is stated: see below
-    (Format::Numbers, "numbers", "numbers", false, |_| false, numbers::parse),
+    (Format::Numbers, "numbers", "numbers", &[], false, |_| false, numbers::parse),
 ];
 
 const _: () = {
@@ -92,15 +95,19 @@ impl Format {
         states_direction
     }
 
-    /// Finds the format of a text by its content; refuses one that is known and not read.
-    pub(crate) fn of(text: &str, options: &RecordOptions) -> Result<Self, Fault> {
+    /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that
+    /// is known and not read.
+    pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         refuse_unread(&head)?;
         let by_content = KNOWN.iter().find(|(.., recognises, _)| recognises(&head));
         if by_content.is_none() && numbers::recognises(&head, options.step.is_some()) {
             return Ok(Self::Numbers);
         }
-        Ok(by_content.map_or(Self::Csv, |(format, ..)| *format))
+        let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let has_ending = |endings: &[&str]| endings.iter().any(|known| ending.as_deref() == Some(known));
+        let known = by_content.or_else(|| KNOWN.iter().find(|(_, _, _, endings, ..)| has_ending(endings)));
+        Ok(known.map_or(Self::Csv, |(format, ..)| *format))
     }
 
     /// Reads every channel of a text in this format.

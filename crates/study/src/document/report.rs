@@ -61,6 +61,7 @@ pub struct WallClass {
     pub weights: Vec<f64>,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 impl ReportOptions {
     /// Returns the places of the limit states from the first to be exceeded to the last, each once.
     pub(crate) fn rising(&self) -> Vec<usize> {
