@@ -244,13 +244,13 @@ def test_a_system_may_have_the_grounds_motion_as_its_input(tmp_path):
     [
         (("mass = 2.0e4", "mass = -1"), ["line 10", "mass", "-1"]),
         (('on = "floor_1"', 'on = "floor_3"'), ["floor_3", "ground, floor_1"]),
-        (('name = "parapet"', 'name = "strip"'), ["strip", "choose another"]),
+        (('name = "parapet"', 'name = "strip"'), ["line 29", 'name = "strip"', "is taken"]),
         (('name = "parapet"', 'name = "a wall"'), ["a wall", "letters"]),
         (('scene = "parapet.toml"', 'scene = "none.toml"'), ["none.toml"]),
         (('scene = "parapet.toml"', 'scene = "strip.toml"'), ["parapet", "top"]),
         (("velocity_start", "speed"), ["speed", "velocity_start"]),
         (("stop_time = 5.0", "stop_time = 0"), ["stop_time = 0"]),
-        (("stop_time = 5.0", "stop_time = 5.0\nstep = 0"), ["step = 0", "leave it out"]),
+        (("stop_time = 5.0", "stop_time = 5.0\nstep = 0"), ["line 5", "step = 0", "above 0", "by default"]),
         (("stop_time = 5.0", "stop_time = 5.0\nstep = 6"), ["step = 6", "stop_time = 5"]),
     ],
 )

@@ -96,7 +96,7 @@ OPTIONS_OF_STUDY = (
     "uncertain",
 )
 """Keys of a study that are typed."""
-INLINE = {"models": "Model", "parameters": "Distribution"}
+INLINE = {"bar": "Bar", "models": "Model", "parameters": "Distribution"}
 """Names of the tables that have none in the schema, by the keys that hold them."""
 KINDS = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
 

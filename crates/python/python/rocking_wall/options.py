@@ -47,7 +47,7 @@ class Check(TypedDict, total=False):
     - tie: The tie in the check.
     - topography: Topography of NTC 3.2.2, or S_T (-); default "T1".
     - use_class: Use class of NTC 2.4.2; in class IV SLD decides too.
-    - young_modulus: E of the masonry [Pa], for "beam", above 0.
+    - young_modulus: E of the masonry [Pa], for "beam", at least 1e+07.
     """
 
     SLC: LimitState
@@ -201,15 +201,16 @@ class Tie(TypedDict, total=False):
 
 
 class Bar(TypedDict, total=False):
-    """A steel bar with its anchor.
+    """The bar, in place of tie_stiffness, tie_strength and tie_ultimate.
 
-    - anchor_capacity: What the anchor bears [N], above 0.
-    - diameter: Diameter φ [m], above 0.
-    - length: Length [m], above 0.
-    - spacing: Distance of the bars along the wall [m]; one bar for the width unless given, above 0.
-    - ultimate_strain: Strain at fracture (-); brittle unless given, above 0.
-    - yield_stress: Design value of the yield stress [Pa], above 0.
-    - young_modulus: E of the bar [Pa], above 0; default 210000000000.0.
+    - anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the bar
+      [N], above 0.
+    - diameter: Diameter of the bar [m], above 0.
+    - length: Free length between the anchors [m], above 0.
+    - spacing: Distance between bars along the wall; by default one bar holds its width [m], above 0.
+    - ultimate_strain: Strain at which the bar tears, above 0; where none is given, the tie stays elastic.
+    - yield_stress: Stress at which the bar yields [Pa], above 0.
+    - young_modulus: Young's modulus of the bar; 210e9 Pa by default [Pa], above 0.
     """
 
     anchor_capacity: float

@@ -347,7 +347,9 @@ fn open_medians_have_their_bound() {
     assert!(told.contains("  open >0.200  "), "{told}");
     for (text, bound) in [(&told, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
         assert!(text.contains(bound), "{text}");
-        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+        // the message on NRML has the word
+        let numbers = text.replace("would be 0 or infinite", "");
+        assert!(!numbers.contains("inf") && !numbers.contains("NaN"), "{text}");
     }
     // stripes are points: of runs, and of the fractions that exceed a limit state
     assert!(page.contains("stroke-linecap=\"round\"") && page.contains("stroke-width=\"1.4\""));

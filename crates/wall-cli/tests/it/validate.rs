@@ -76,7 +76,7 @@ fn tests_that_cannot_be_used_are_refused() {
     fs::copy(data.join("brick_wall_12.csv"), folder.join("brick_wall_12.csv")).unwrap();
     for (from, to, words) in [
         ("fit_from = 0.058", "fit_from = 0.5", &["fit_from = 0.5", "fewer than two points"][..]),
-        ("d1 = 0.94", "d1 = 5", &["d1 = 5", "limit"]),
+        ("d1 = 0.94", "d1 = 5", &["test.toml, line", "d1 = 5", "above its maximum, 1"]),
     ] {
         copy("brick_wall_12.toml", from, to);
         refused(&folder, &["verify", "tests", "test.toml"], words);
