@@ -74,13 +74,23 @@ pub fn apply_group(
             (_, name) => return Err(place.error(key.span(), unknown_key(name, group, names))),
         }
     }
-    if let Some(value) = points.or(law) {
-        let read = law.and(points).and_then(|points| read_points(points.get_ref()));
-        let message = format!(
-            "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the first corner \
-             outwards; give both"
-        );
-        parameters.multilinear = Some(read.ok_or_else(|| place.error(value.span(), message))?.into());
+    match (law, points) {
+        (Some(_), Some(points)) => {
+            let message = || {
+                let given = shown(points.get_ref());
+                let expected = "a list of pairs [u/u_ins, F/F0] of numbers, from the first corner outwards";
+                place.error(points.span(), format!("{POINTS} = {given}: expected {expected}"))
+            };
+            parameters.multilinear = Some(read_points(points.get_ref()).ok_or_else(message)?.into());
+        }
+        (Some(value), None) | (None, Some(value)) => {
+            let message = format!(
+                "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the first \
+                 corner outwards; give both"
+            );
+            return Err(place.error(value.span(), message));
+        }
+        (None, None) => {}
     }
     let Some(bar) = bar else { return Ok(()) };
     if let Some(key) = entries.keys().find(|key| OF_BAR.contains(&key.get_ref().as_str())) {

@@ -22,6 +22,24 @@ fn a_law_of_points_replaces_the_named_one() {
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
 }
 
+/// Points that are no pairs of numbers are named, and not taken for absent.
+#[test]
+fn points_of_a_law_that_are_no_pairs_are_refused() {
+    let law = "force_law = \"multilinear\"\n";
+    for (lines, message) in [
+        (
+            format!("{law}points = [[0.03, 0.9, 1], [1, 0]]"),
+            "points = […]: expected a list of pairs [u/u_ins, F/F0]",
+        ),
+        (format!("{law}points = 0.03"), "points = 0.03: expected a list of pairs"),
+        (law.to_owned(), "give both"),
+        ("points = [[0.03, 0.9], [1, 0]]".to_owned(), "give both"),
+    ] {
+        let error = Scene::parse("s.toml", &format!("[force_law]\n{lines}\n"), Path::new(".")).unwrap_err();
+        assert!(error.to_string().contains(message), "{error}");
+    }
+}
+
 /// Damping and restitution are warned of beyond the range they stand for, and not inside it.
 #[test]
 fn damping_beyond_its_meaning_is_warned_of() {

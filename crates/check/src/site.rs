@@ -45,11 +45,16 @@ impl Records {
     }
 }
 
-/// Checks that points (T, `S_a`) are a spectrum; `place` names one by its index.
+/// Checks that points (T, `S_a`) are a spectrum, as they are given; `unit` is that of `S_a`, and `place` names
+/// a point by its index.
 ///
 /// # Errors
 /// The first whose T does not rise from 0 on, or whose `S_a` is not above 0; or that there are too few.
-pub(crate) fn check_points(points: &[(f64, f64)], place: impl Fn(usize) -> String) -> Result<(), String> {
+pub(crate) fn check_points(
+    points: &[(f64, f64)],
+    unit: &str,
+    place: impl Fn(usize) -> String,
+) -> Result<(), String> {
     let is_usable = |index: usize| {
         let (period, acceleration) = points[index];
         let rises = if index == 0 { period == 0.0 } else { period > points[index - 1].0 };
@@ -59,7 +64,7 @@ pub(crate) fn check_points(points: &[(f64, f64)], place: impl Fn(usize) -> Strin
     match (0..points.len()).find(|index| !is_usable(*index)) {
         Some(index) => {
             let ((period, acceleration), at) = (points[index], place(index));
-            Err(format!("{expected}; found T = {period} s and Sa = {acceleration} m/s² at {at}"))
+            Err(format!("{expected}; found T = {period} s and Sa = {acceleration} {unit} at {at}"))
         }
         None if points.len() < 2 => Err(format!("{expected}, at two points or more; found {}", points.len())),
         None => Ok(()),

@@ -117,9 +117,22 @@ impl Series {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
     }
 
-    /// The pieces of a line inside ranges of x and y, cut at their edges; the first keeps the name.
+    /// The pieces of a line inside ranges of x and y, cut at their edges; the first keeps the name. Of a line
+    /// all outside, one piece without points keeps it.
+    ///
+    /// ```
+    /// use report::plot::Series;
+    ///
+    /// let line = Series::line("above", 0, vec![(0.0, 5.0), (1.0, 6.0)]);
+    /// let names: Vec<_> = line.within([[0.0, 1.0], [0.0, 3.0]]).map(|piece| piece.name).collect();
+    /// assert_eq!(names, ["above"]);
+    /// ```
     pub fn within(&self, ranges: [[f64; 2]; 2]) -> impl Iterator<Item = Self> {
-        within(&self.points, ranges).into_iter().enumerate().map(|(index, points)| {
+        let mut pieces = within(&self.points, ranges);
+        if pieces.is_empty() {
+            pieces.push(Vec::new());
+        }
+        pieces.into_iter().enumerate().map(|(index, points)| {
             let name = if index == 0 { self.name.clone() } else { String::new() };
             Self { points, name, ..self.clone() }
         })

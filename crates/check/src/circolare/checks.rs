@@ -278,18 +278,28 @@ fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckE
         return Ok(0.0);
     }
     let Some(tie) = curve.tie() else { return Ok(0.0) };
-    let limit = SOFTEST * curve.zero;
-    let yields = tie.strength.map_or(f64::INFINITY, |strength| strength / tie.stiffness / tie.lever);
-    let Some(strength) = tie.strength.filter(|_| tie.slack == 0.0 && yields <= limit) else {
-        let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
-        let message = format!(
-            "at_activation = \"yield\" needs a tie with tie_strength, N_y in N, or a bar, without tie_slack, \
-             that has its strength before {SOFTEST} u_0 = {limit} mm; this one has tie_slack = {} m, and its \
-             strength at u_y = {yields} mm; state \"none\", or another tie",
-            tie.slack
-        );
-        return Err(CheckError::value(&["tie", "at_activation"], message));
+    let refused = |message: String| {
+        let message = format!("at_activation = \"yield\" {message}");
+        Err(CheckError::value(&["tie", "at_activation"], message))
     };
+    let Some(strength) = tie.strength else {
+        return refused("needs a tie with tie_strength, N_y in N, or a bar".into());
+    };
+    if tie.slack > 0.0 {
+        return refused(format!(
+            "needs a tight tie: with tie_slack = {} m the wall rocks before the tie pulls; state \"none\", \
+             or leave tie_slack out",
+            tie.slack
+        ));
+    }
+    let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
+    if yields > limit {
+        let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
+        return refused(format!(
+            "needs a stiff tie: this one has its strength at u_y = {yields} mm, beyond {SOFTEST} u_0 = \
+             {limit} mm; state \"none\", or a stiffer tie"
+        ));
+    }
     Ok(tie.lever * strength)
 }
 

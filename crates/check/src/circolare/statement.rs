@@ -14,6 +14,7 @@ use super::table::{
     Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, Method,
     STRESS_BLOCK,
 };
+use super::warnings::YOUNG_MODULUS;
 use super::{FEWEST_RECORDS, LimitState};
 
 /// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
@@ -93,6 +94,11 @@ impl Statement {
             let message =
                 "before_activation = \"beam\" and young_modulus, E in Pa, go together; give both or none";
             return refused(key, message.into());
+        }
+        if let Some(e) = table.young_modulus.filter(|e| *e < SOFTEST) {
+            let doubt = YOUNG_MODULUS.warning(e).map(|doubt| format!("{doubt}; ")).unwrap_or_default();
+            let message = format!("{doubt}no masonry has E below {SOFTEST:e} Pa; give young_modulus in Pa");
+            return refused("young_modulus", message);
         }
         let mut states = [const { None }; 3];
         for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
@@ -210,6 +216,9 @@ fn masonry(table: &CheckTable, confidence_factor: f64) -> Result<Option<f64>, Ch
     let over = if table.masonry_over_fc.unwrap_or(true) { confidence_factor } else { 1.0 };
     Ok(Some(block * strength / (gamma * over)))
 }
+
+/// The softest masonry, E; less is in another unit \[Pa\].
+const SOFTEST: f64 = 1e7;
 
 fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
     let factor = match (table.confidence_factor, table.knowledge_level) {

@@ -104,10 +104,11 @@ fn source(
             Ok(Source::Code(GroundSpectrum::new(Hazard { ag, f0, tc }, soil, topography)))
         }
         (None, Some(points), Some(damping)) if given.f0.or(given.tc).is_none() => {
-            let points: Vec<_> = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
+            let points: Vec<_> = points.iter().map(|[period, sa]| (*period, *sa)).collect();
             let place = |index| format!("point {} of the spectrum", index + 1);
-            check_points(&points, place).map_err(|message| refused(state, "spectrum", &message))?;
-            Ok(Source::Points(points, damping))
+            check_points(&points, "g", place).map_err(|message| refused(state, "spectrum", &message))?;
+            let in_si = points.into_iter().map(|(period, sa)| (period, sa * super::G));
+            Ok(Source::Points(in_si.collect(), damping))
         }
         (None, None, None)
             if given.f0.or(given.tc).is_none()

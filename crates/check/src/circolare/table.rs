@@ -23,7 +23,7 @@ tables! {
         /// The wall before it rocks: held, elastic as its law, or a beam.
         pub before_activation: Option<Activation>,
         /// E of the masonry \[Pa\], for "beam".
-        #[key(minimum = SOFTEST)]
+        #[key(exclusiveMinimum = 0)]
         pub young_modulus: Option<f64>,
         /// FC (-); below 1.35 only with `compression_considered`.
         #[key(minimum = 1, default = LARGEST_CONFIDENCE_FACTOR)]
@@ -43,7 +43,7 @@ tables! {
         /// Range of `hinge_ratio` in which the hinge is searched (-).
         #[key(default = HINGE_RANGE.to_vec())]
         pub hinge_range: Option<[f64; 2]>,
-        /// Mean compressive strength `f_m` of the masonry \[Pa\], for which hinges are set back.
+        /// Mean compressive strength `f_m` of the masonry in Pa, such as 1.5e6; hinges are set back for it.
         #[key(minimum = LEAST_STRENGTH)]
         pub masonry_strength: Option<f64>,
         /// γ that divides it (-).
@@ -209,8 +209,6 @@ pub(super) const HINGE_RANGE: [f64; 2] = [0.1, 0.9];
 pub(super) const STRESS_BLOCK: f64 = 0.85;
 /// The least `f_m`; less is in another unit \[Pa\].
 const LEAST_STRENGTH: f64 = 1e5;
-/// The softest masonry, E; less is in another unit \[Pa\].
-const SOFTEST: f64 = 1e7;
 
 /// Where the hinge of a strip is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]

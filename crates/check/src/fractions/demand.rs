@@ -27,7 +27,7 @@ impl Demand {
     /// `S_a` is not above 0; `place` names a point by its index.
     pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
         let refused = |message| CheckError::value(&["spectrum"], message);
-        check_points(&points, place).map_err(refused)?;
+        check_points(&points, "m/s²", place).map_err(refused)?;
         Ok(Self(Of::Points(points)))
     }
 

@@ -27,7 +27,7 @@ use crate::code::{Code, Entry, Subject};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::report::Figure;
-use crate::site::Records;
+use crate::site::{Records, check_points};
 use crate::verdict::{Details, Ends, Row, Verdict, numbers};
 use ::report::table::{Cell, Digits, Table, significant};
 use sides::governing;
@@ -127,10 +127,13 @@ impl Statement {
                     let message = "unit is missing: state the unit of Sa, m/s2, cm/s2, mm/s2 or g";
                     return Err(CheckError::value(&["unit"], message));
                 };
-                let points: Vec<_> = points.iter().map(|[period, sa]| (*period, unit.to_si(*sa))).collect();
+                let points: Vec<_> = points.iter().map(|[period, sa]| (*period, *sa)).collect();
                 statement.source = format!("{} points, Sa in {}", points.len(), unit.name());
                 let place = |index| format!("point {} of the spectrum", index + 1);
-                statement.spectrum = Some(Demand::of_points(points, place)?);
+                check_points(&points, unit.name(), place)
+                    .map_err(|message| CheckError::value(&["spectrum"], message))?;
+                let in_si = points.into_iter().map(|(period, sa)| (period, unit.to_si(sa)));
+                statement.spectrum = Some(Demand::of_points(in_si.collect(), place)?);
             }
             (Some(SpectrumTable::File(name)), None) => {
                 statement.read_spectrum(file.folder().join(name), &table)?;

@@ -77,16 +77,26 @@ pub(super) fn governing(sides: &[SideCheck], ratio: fn(&SideCheck) -> f64) -> &S
 /// let sides = check(&wall, Fractions::default(), |_| Ok(1.0))?;
 /// assert_eq!(sides.len(), 2);
 /// assert!((sides[0].onset_acceleration - 0.97 * 0.981).abs() < 1e-12);
+/// let error = check(&wall, Fractions { secant: 0.0, ..Fractions::default() }, |_| Ok(1.0)).unwrap_err();
+/// assert_eq!(error.to_string(), "secant_fraction = 0 must be above 0 and at most 1");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`CheckError`]: no secant period, or a period that the demand lacks.
+/// [`CheckError`]: a fraction that is not above 0 and at most 1, no secant period, or a period that the
+/// demand lacks.
 pub fn check(
     wall: &Wall,
     fractions: Fractions,
     demand: impl Fn(f64) -> Result<f64, CheckError>,
 ) -> Result<Vec<SideCheck>, CheckError> {
+    let Fractions { displacement, secant } = fractions;
+    for (key, value) in [("displacement_fraction", displacement), ("secant_fraction", secant)] {
+        if !(value > 0.0 && value <= 1.0) {
+            let message = format!("{key} = {value} must be above 0 and at most 1");
+            return Err(CheckError::value(&[key], message));
+        }
+    }
     wall.sides().map(|sign| check_side(wall, sign, fractions, &demand)).collect()
 }
 

@@ -13,8 +13,14 @@ pub(super) fn with_commas(text: &str) -> String {
         let word = &word[..word.find(|letter| !belongs(letter) && letter != '.').unwrap_or(word.len())];
         let word = word.trim_end_matches('.');
         let is_clause = between.starts_with(' ') && written.ends_with("NTC") || word.matches('.').count() > 1;
-        let is_number = word.starts_with(|letter: char| letter.is_ascii_digit()) && !is_clause;
-        let own = is_number.then(|| word.contains('.'));
+        let after_whole = word.trim_start_matches(|letter: char| letter.is_ascii_digit());
+        let decimals = after_whole
+            .strip_prefix('.')
+            .filter(|decimals| decimals.starts_with(|c: char| c.is_ascii_digit()));
+        // a point that no digit follows is that of a file, such as 1.csv
+        let is_number =
+            after_whole.len() < word.len() && (decimals.is_some() || !word.contains('.')) && !is_clause;
+        let own = is_number.then_some(decimals.is_some());
         let is_list = before.is_some() && own.is_some() && before.max(own) == Some(true);
         let is_comma = between.trim_end_matches(['-', '−']) == ", ";
         written += &if is_list && is_comma { between.replacen(',', ";", 1) } else { between.to_owned() };
@@ -34,7 +40,7 @@ mod tests {
             ("ζ = <b>0.4886</b>, FC = 1.35 (C8.5.4).", "ζ = <b>0,4886</b>, FC = 1,35 (C8.5.4)."),
             ("NTC 8.3, 7.3.6; [C7.2.10], Tab. 3.2.IV", "NTC 8.3, 7.3.6; [C7.2.10], Tab. 3.2.IV"),
             ("D.M. 17.1.2018, 21.1.2019 n. 7", "D.M. 17.1.2018, 21.1.2019 n. 7"),
-            ("wall 0.1.0 of 1.5e6 Pa, a1.csv", "wall 0.1.0 of 1,5e6 Pa, a1.csv"),
+            ("wall 0.1.0 of 1.5e6 Pa, a1.csv, 1.csv", "wall 0.1.0 of 1,5e6 Pa, a1.csv, 1.csv"),
             ("hinge_range = [0.1, 0.9], a 0.9.", "hinge_range = [0,1; 0,9], a 0,9."),
             ("con tie_slack = 0.01. Per a1 = 0.05", "con tie_slack = 0,01. Per a1 = 0,05"),
             ("SLC.displacement = 0.3 m, u_0 = 0.25 m", "SLC.displacement = 0,3 m, u_0 = 0,25 m"),

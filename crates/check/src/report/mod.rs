@@ -118,13 +118,31 @@ fn file_name(path: &Path) -> String {
 }
 
 impl Records {
-    /// Returns a text with a mark in place of each file of the records, which has an extension.
+    /// Returns a text with a mark in place of each file of the records.
     fn marked(&self, text: &str) -> String {
-        let files = self.files.iter().enumerate().filter(|(_, path)| path.extension().is_some());
+        let files = self.files.iter().enumerate();
         files.fold(text.to_owned(), |text, (index, path)| {
-            text.replace(&path.display().to_string(), &mark(index))
+            with_word(&text, &path.display().to_string(), &mark(index))
         })
     }
+}
+
+/// Replaces a word where it does not belong to a longer one: the record `r` is not in every word with an r.
+/// Folders before a path with folders are part of the same file.
+fn with_word(text: &str, word: &str, new: &str) -> String {
+    let is_bare = !word.contains(['/', '\\']);
+    let belongs =
+        |c: char| c.is_alphanumeric() || matches!(c, '_' | '-') || is_bare && matches!(c, '/' | '\\');
+    let (mut written, mut rest) = (String::new(), text);
+    while let Some(at) = rest.find(word).filter(|_| !word.is_empty()) {
+        let (before, after) = (&rest[..at], &rest[at + word.len()..]);
+        let goes_on = after.strip_prefix('.').unwrap_or(after).starts_with(belongs);
+        written += before;
+        let is_part = written.ends_with(belongs) || goes_on;
+        written += if is_part { word } else { new };
+        rest = after;
+    }
+    written + rest
 }
 
 /// Adds the verdict on a wall and its warnings.
@@ -234,4 +252,17 @@ fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
     Ok(table(&[], &rows)
         + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
            against deliberate changes.</p>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_word;
+
+    #[test]
+    fn a_file_is_marked_where_it_stands_by_itself() {
+        let text = "r: the record r.csv of a/r is shorter than r. Error of 'r', rr";
+        let written = "*: the record r.csv of a/r is shorter than *. Error of '*', rr";
+        assert_eq!(with_word(text, "r", "*"), written);
+        assert_eq!(with_word("x a/r y ./a/r", "a/r", "*"), "x * y ./*");
+    }
 }

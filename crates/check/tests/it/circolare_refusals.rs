@@ -85,7 +85,8 @@ fn a_refusal_begins_with_the_numbers_that_may_be_its_cause() {
     let beam = open("before_activation = \"beam\"\nyoung_modulus = 1500");
     let error = refuses(
         &format!("{PARAPET}{beam}"),
-        "young_modulus = 1500 must be at least 10000000: E of the masonry [Pa]",
+        "young_modulus = 1500 Pa is unusual: 100000000 to 5e10 Pa is usual; if it is in MPa, give 1.5e9 Pa; \
+         no masonry has E below 1e7 Pa",
     );
     assert!(error.contains("[check] young_modulus"), "{error}");
     // a limit that a key of the table sets keeps its line
@@ -138,6 +139,7 @@ fn demands_that_do_not_serve_are_refused() {
         (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),
         (spectrum(to_two, 0.1), "SLC: the spectrum goes from 0 to 2 s and has no T = 3.1"),
         (spectrum("[[1, 0.2], [2, 0.01]]", 0.1), "T from 0 on that rises"),
+        (spectrum("[[0, -0.1], [2, 0.01]]", 0.1), "found T = 0 s and Sa = -0.1 g at point 1 of the spectrum"),
         (in_building, "leave [check.building] out"),
         (records.replace(SITE, "{ ag = 0.15 }"), as_they_are),
     ] {

@@ -31,8 +31,8 @@ class Check(TypedDict, total=False):
     - knowledge_level: Level of knowledge instead of FC.
     - masonry_gamma: γ that divides it (-), at least 1; default 1.
     - masonry_over_fc: Whether FC divides it, too; default True.
-    - masonry_strength: Mean compressive strength f_m of the masonry [Pa], for which hinges are set back, at
-      least 100000.
+    - masonry_strength: Mean compressive strength f_m of the masonry in Pa, such as 1.5e6; hinges are set back
+      for it, at least 100000.
     - method: What decides: displacement, q, or runs under records; default "nonlinear".
     - overburden_mass: Share r of the overburden whose mass moves with a parapet (-), at least 0.
     - polarities: Signs with which each record acts; default "both".
