@@ -64,8 +64,9 @@ impl<'a> Columns<'a> {
     /// row of units.
     ///
     /// A line names the columns if `is_first` knows its first name, or if it has as many names as the first
-    /// row has cells. So does the last comment above the rows, if `is_first` knows its first name. `forms`
-    /// says in messages what the file should have.
+    /// row has cells. So does the last comment above the rows, if it has as many names, and `is_first` knows
+    /// the first one, or that states a unit of time, or any a unit of acceleration. `forms` says in messages
+    /// what the file should have.
     ///
     /// # Errors
     /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
@@ -123,7 +124,9 @@ impl<'a> Columns<'a> {
         }
         if let Some(comment) = lines(text).take_while(|(line, _)| *line < number).last() {
             let named = names(comment.1.trim_start_matches(COMMENTS).trim());
-            if named.len() == width && is_first(&named[0]) {
+            let is_time = |name: &Name| matches!(name.stated(), Some((_, Quantity::Time(_))));
+            let counts = |first| is_first(first) || is_time(first) || named.iter().any(Name::is_acceleration);
+            if named.len() == width && counts(&named[0]) {
                 (columns.heading, columns.names) = (comment, named);
             }
         }
@@ -155,6 +158,11 @@ impl<'a> Columns<'a> {
     /// Returns the line of the names, or else of the first row.
     pub fn line(&self) -> usize {
         self.heading.0
+    }
+
+    /// Returns whether a comment names the columns.
+    pub(crate) fn are_named_by_a_comment(&self) -> bool {
+        self.heading.1.starts_with(COMMENTS) && !self.names.is_empty()
     }
 
     /// Returns the text of that line.
@@ -249,17 +257,13 @@ impl<'a> Columns<'a> {
         }
         match name.stated().filter(|_| is_first(name)) {
             Some((_, Quantity::Time(seconds))) if seconds == 1.0 || may_differ => Ok(seconds),
-            // `time (a_g in m/s2)`
-            None if is_first(name) && name.unit().is_none_or(|unit| unit.contains(" in ")) => Ok(1.0),
+            None if is_first(name) => Ok(1.0),
             _ => {
                 let expected = format!("{expected} in the first column");
-                let found = name.unit().map(|unit| format!("{} [{unit}]", name.text()));
-                Err(Fault::excerpt(
-                    self.heading.0,
-                    expected,
-                    found.as_deref().unwrap_or(name.written()),
-                    remedy,
-                ))
+                let of_unit_row = name.unit().filter(|unit| !name.written().contains(unit));
+                let found = of_unit_row.map(|unit| format!("{} [{unit}]", name.written()));
+                let found = found.as_deref().unwrap_or(name.written());
+                Err(Fault::excerpt(self.heading.0, expected, found, remedy))
             }
         }
     }

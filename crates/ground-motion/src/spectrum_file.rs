@@ -84,8 +84,18 @@ impl SpectrumFile {
             let remedy = "write the period and Sa on each line, between commas, semicolons, tabs or blanks";
             return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
         }
-        columns.seconds(is_period, false, ["periods in s", NAME_PERIODS])?;
-        let column_number = columns.beside_the_first(wanted, "T")?;
+        let column_number = columns.beside_the_first(wanted, "T");
+        let is_spectral = |column: &usize| {
+            columns.names().get(*column).is_some_and(|name| name.says() == Some(Quantity::Spectrum))
+        };
+        let may_be_time = column_number.as_ref().map_or(true, is_spectral);
+        let may_be_period = |name: &Name| {
+            // a comment may call the periods anything
+            let is_unknown = columns.are_named_by_a_comment() && !is_abscissa(name);
+            is_unknown || is_period(name) && (may_be_time || !is_time(name))
+        };
+        columns.seconds(may_be_period, false, ["periods in s", NAME_PERIODS])?;
+        let column_number = column_number?;
         let name = columns.names().get(column_number);
         let options = RecordOptions { unit: given, ..RecordOptions::default() };
         let Some(unit) = columns.unit(column_number, &options)? else {
@@ -135,10 +145,14 @@ fn is_abscissa(name: &Name) -> bool {
     matches!(name.quantity().or(abscissa(name)), Some(Quantity::Time(_) | Quantity::Frequency))
 }
 
-/// Returns whether a column has periods, not frequencies, nor the times of a record.
+/// Returns whether a column may have periods, not frequencies.
 fn is_period(name: &Name) -> bool {
-    let is_time = name.text() == "t" || name.words().first().is_some_and(|word| word == "time");
-    is_abscissa(name) && !is_time && abscissa(name) != Some(Quantity::Frequency)
+    is_abscissa(name) && abscissa(name) != Some(Quantity::Frequency)
+}
+
+/// Returns whether a column is called as the times of a record are. Beside `Sa` it has periods.
+fn is_time(name: &Name) -> bool {
+    name.text() == "t" || name.words().first().is_some_and(|word| word == "time")
 }
 
 const NAME_PERIODS: &str = "make the periods in s the first column, and name it `T [s]`: times are those \

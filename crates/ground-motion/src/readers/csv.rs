@@ -54,7 +54,12 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let has_times = columns.width() > 1;
     let (column, seconds) = if has_times {
         refuse_spectrum(&columns, 1)?;
-        let seconds = columns.seconds(is_time, options.step.is_some(), ["times in s", NAME_TIMES])?;
+        // brackets may have a unit, or what `time (a_g in m/s2)` says
+        let has_unit = |unit: &str| Quantity::of(unit).is_some() || unit.contains(" in ");
+        let may_be_time = |name: &Name| {
+            columns.are_named_by_a_comment() || is_time(name) && name.unit().is_none_or(has_unit)
+        };
+        let seconds = columns.seconds(may_be_time, options.step.is_some(), ["times in s", NAME_TIMES])?;
         (columns.beside_the_first(options.column.as_deref(), "`time`")?, seconds)
     } else {
         (0, 1.0)

@@ -20,6 +20,11 @@ fn spectra_are_read() {
         ("Period (s)\tSa (g)\n0\t0.25\n0.5\t0.75\n2\t0.125\n", None, None),
         ("\"T\",\"Sa (5 %) [g]\"\r\"0\",\"0.25\"\r\"0.5\",\"0.75\"\r\"2\",\"0.125\"\r", None, None),
         ("Period,Sa\nsec,g\n0,0.25\n0.5,0.75\n2,0.125\n,\n", None, None),
+        ("t [s],Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
+        ("time [s],Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
+        ("# time [s], Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
+        ("# x, Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
+        ("Period (T),Sa (g)\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
         ("T,Sa (5 %)\n0,2.5D-1\n0.5,0.75\n2,0.125\n", g, None),
         (
             "Period (sec),Acceleration (g),Velocity (cm/sec),Displacement (cm)\n0,0.25,1,1\n0.5,0.75,1,1\n\
@@ -85,6 +90,9 @@ fn spectra_are_refused() {
         ("T_ms,Sa [g]", &["periods in s", "name it `T [s]`"]),
         ("T [min],Sa [g]", &["periods in s", "name it `T [s]`"]),
         ("# f [Hz], Sa [g]", &["periods in s", "T = 1/f"]),
+        ("# f, Sa [g]", &["periods in s", "T = 1/f"]),
+        ("# time [s], a [g]", &["line 1", "those of a record"]),
+        ("Period (ms),Sa (g)", &["periods in s", "`Period (ms)`"]),
         ("x,Sa [g]", &["periods in s", "name it `T [s]`"]),
         ("Sa [g],T [s]", &["periods in s", "name it `T [s]`"]),
         ("T [s],Sa [m/s]", &["convert it to an acceleration"]),
