@@ -40,6 +40,14 @@ pub struct Tie {
     pub lever: f64,
     /// |u| from which on the wall has left its supports, and the tie with them \[m\].
     departure: Sides,
+    // The quotients are computed once, with the tie: where there is none, the compiler may divide by its
+    // stiffness of 0 before it asks, which some hosts trap.
+    /// |u| at which it first begins to pull \[m\].
+    onset: f64,
+    /// |u| at which its force first reaches its strength \[m\].
+    yields: Option<f64>,
+    /// |u| at which it breaks \[m\].
+    breaks: Option<f64>,
 }
 
 /// What the ties of a wall remember.
@@ -115,14 +123,21 @@ impl Tie {
             return Err(ParameterError::TieHeight { tie_height, height });
         }
         let strength = Some(parameters.tie_strength).filter(|strength| *strength > 0.0);
+        let ultimate = strength.and(ultimate);
+        let lever = 2.0 * tie_height / height;
+        // the elongation under the strength; with no plastic elongation the tie breaks where it yields
+        let elastic = strength.map(|strength| strength / stiffness + slack);
         Ok(Some(Self {
             stiffness,
             slack,
             strength,
-            ultimate: strength.and(ultimate),
+            ultimate,
             side: parameters.tie_side,
-            lever: 2.0 * tie_height / height,
+            lever,
             departure: body.departure,
+            onset: slack / lever,
+            yields: elastic.map(|elastic| elastic / lever),
+            breaks: elastic.zip(ultimate).map(|(elastic, ultimate)| (elastic + ultimate) / lever),
         }))
     }
 
@@ -137,21 +152,19 @@ impl Tie {
 
     /// Returns the |u| at which the tie first begins to pull, g₀ h/(2y) \[m\].
     pub fn onset(&self) -> f64 {
-        self.slack / self.lever
+        self.onset
     }
 
     /// Returns the |u| at which the force of the tie first reaches its strength \[m\]; `None` without a
     /// strength.
     pub fn strength_displacement(&self) -> Option<f64> {
-        self.strength.map(|strength| (strength / self.stiffness + self.slack) / self.lever)
+        self.yields
     }
 
     /// Returns the |u| at which the tie breaks, wherever it has yielded before \[m\]; `None` for one that
     /// stays elastic.
     pub fn fracture_displacement(&self) -> Option<f64> {
-        let (strength, ultimate) = (self.strength?, self.ultimate?);
-        // the sum in the order of `strength_displacement`: without plastic elongation both are the same
-        Some((strength / self.stiffness + self.slack + ultimate) / self.lever)
+        self.breaks
     }
 
     /// Returns the slope that the tie adds to F where it pulls, K (2y/h)² \[N/m\].

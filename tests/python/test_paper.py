@@ -32,7 +32,7 @@ spectrum = [[0, 2], [0.1, 5], [0.4, 5], [1, 2], [2, 1], [4, 0.25]]
 unit = "m/s2"
 """
 # Arguments of `wall` in a folder with study.toml and scene.toml, and coloured boxes that the page has at
-# least: swatches, intervals, shaded cells. {} is the page.
+# least: swatches, lines of a key, intervals, shaded cells. {} is the page.
 PAGES = {
     "simulate": ("simulate --synthetic --html {}", 0),
     "full rotations": ("simulate --set force_law=rigid_linear --set damping_model=none "
@@ -125,7 +125,8 @@ def test_swatches_intervals_and_marks_are_printed(page):
     backgrounds, marks = browser.execute_script(
         "document.head.insertAdjacentHTML('beforeend', '<style id=probe>svg { visibility: hidden }</style>');"
         "const shown = query => [...document.querySelectorAll(query)].filter(one => one.checkVisibility());"
-        "return [shown('i.chip, tr.FAIL').map(one => getComputedStyle(one).backgroundColor),"
+        "const side = one => one.matches('.line') ? 'borderTopColor' : 'backgroundColor';"
+        "return [shown('i.chip, tr.FAIL').map(one => getComputedStyle(one)[side(one)]),"
         "  shown('b.chip').map(one => getComputedStyle(one).color)];"
     )
     printed = sheets(browser)
