@@ -160,14 +160,14 @@ impl<'a> Columns<'a> {
         self.heading.0
     }
 
-    /// Returns whether a comment names the columns.
-    pub(crate) fn are_named_by_a_comment(&self) -> bool {
-        self.heading.1.starts_with(COMMENTS) && !self.names.is_empty()
-    }
-
     /// Returns the text of that line.
     pub(crate) fn heading(&self) -> &'a str {
         self.heading.1
+    }
+
+    /// Returns whether a comment names the columns.
+    pub(crate) fn are_named_by_a_comment(&self) -> bool {
+        self.heading.1.starts_with(COMMENTS) && !self.names.is_empty()
     }
 
     /// Counts the columns.
