@@ -28,7 +28,7 @@ fn points_of_a_law_that_are_no_pairs_are_refused() {
     let law = "force_law = \"multilinear\"\n";
     for (lines, message) in [
         (
-            format!("{law}points = [[0.03, 0.9, 1], [1, 0]]"),
+            format!("{law}points = [[0.03, \"a\"], [1, 0]]"),
             "points = […]: expected a list of pairs [u/u_ins, F/F0]",
         ),
         (format!("{law}points = 0.03"), "points = 0.03: expected a list of pairs"),
