@@ -304,7 +304,7 @@ fn what_is_no_wall_is_refused_by_name() {
     for (error, words) in [
         (
             walls(&bilinear(), (Size::Height, &[-1.0]), (Slenderness::Ratio, &[8.0])),
-            &["height h (m) = -1", "height = -1 m is below its limit 0.001"][..],
+            &["height h (m) = -1", "height = -1.0 m is below its minimum, 0.001"][..],
         ),
         (
             walls(&bilinear(), height, (Slenderness::Ratio, &[f64::NAN])),
@@ -317,7 +317,7 @@ fn what_is_no_wall_is_refused_by_name() {
         (walls(&bilinear(), height, (Slenderness::Angle, &[16.0])), &["α (rad) = 16", "at most 0.7854"]),
         (
             walls(&bilinear(), (Size::Height, &[1e-5]), (Slenderness::Ratio, &[8.0])),
-            &["= 0.00001", "is below its limit 0.001"],
+            &["= 0.00001", "is below its minimum, 0.001"],
         ),
         (
             walls(&bilinear(), (Size::Height, &[1.0; 600]), (Slenderness::Ratio, &[8.0; 600])),
