@@ -75,8 +75,10 @@ fn in_value(
     match value.get_ref() {
         DeValue::Table(table) => table.iter().find_map(|(key, value)| {
             let key = key.get_ref().as_ref();
-            // who applies a group of parameters checks them by the model description
-            if declared.is_none() && GROUPS.iter().any(|(_, names)| names.contains(&key)) {
+            // who applies a group of parameters checks them by the model description, but not their
+            // distributions, which are tables
+            let is_parameter = || GROUPS.iter().any(|(_, names)| names.contains(&key));
+            if declared.is_none() && !matches!(value.get_ref(), DeValue::Table(_)) && is_parameter() {
                 return None;
             }
             let keys = [keys, &[key.to_owned()]].concat();

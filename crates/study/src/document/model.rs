@@ -1,23 +1,17 @@
 //! Damping models by their short names.
 
-use serde::Deserialize;
 use toml::{Spanned, Value};
 
 use fmu_export::VariableId;
-use rocking_wall::scene::{Place, SceneError, Schema, check_limits, object, one_of, parameters, text, with};
+use rocking_wall::scene::{
+    Place, SceneError, Schema, check_limits, object, one_of, parameters, suggestion, text, with,
+};
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{COMPUTED, Damping, Ratio};
 use run::model::{EnergyLoss, Model, damping_models, label};
 
-/// A model that is a table.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ModelTable {
-    name: Option<String>,
-    model: String,
-    xi: Option<f64>,
-    c_bar: Option<f64>,
-}
+/// Keys of a model that is a table.
+const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];
 
 /// Lists the short names, for messages.
 fn names() -> String {
@@ -48,27 +42,41 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
     match value.get_ref() {
         Value::String(text) => named(text).map(Model::new),
         Value::Table(table) => {
-            let read = table.clone().try_into::<ModelTable>();
-            let ModelTable { name, model: short, xi, c_bar } = read.map_err(|error| {
-                refuse(format!("a model in a table, with model = one of {}: {}", names(), error.message()))
-            })?;
+            if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+                let (meant, keys) = (suggestion(key, KEYS), KEYS.join(", "));
+                return Err(refuse(format!("unknown key {key:?} of a model{meant}; it holds {keys}")));
+            }
+            let other_kind = |key: &str, expected: &str, found: &Value| {
+                refuse(format!("{key} of a model must be {expected}, found {}", found.type_str()))
+            };
+            let text = |key: &str| match table.get(key) {
+                None => Ok(None),
+                Some(Value::String(text)) => Ok(Some(text.as_str())),
+                Some(found) => Err(other_kind(key, "a text in quotes", found)),
+            };
+            let name = text("name")?;
+            let no_model = || refuse(format!("a model in a table needs model = one of {}", names()));
+            let short = text("model")?.ok_or_else(no_model)?;
             let no_table = || refuse(format!("{short:?} takes no ratio; write it as \"{short}\""));
-            let EnergyLoss::Viscous(Damping { model, .. }) = named(&short)? else { return Err(no_table()) };
+            let EnergyLoss::Viscous(Damping { model, .. }) = named(short)? else { return Err(no_table()) };
             let taken = model.ratio_name().ok_or_else(no_table)?;
-            let given = Ratio::ALL.map(|ratio| match ratio {
-                Ratio::Xi => (ratio.name(), xi),
-                Ratio::CBar => (ratio.name(), c_bar),
-            });
-            if let Some((other, _)) = given.iter().find(|(key, ratio)| *key != taken && ratio.is_some()) {
+            let mut others = Ratio::ALL.map(Ratio::name).into_iter().filter(|key| *key != taken);
+            if let Some(other) = others.find(|key| table.contains_key(*key)) {
                 return Err(refuse(format!("{short:?} takes no {other}; give {taken}, or leave it out")));
             }
-            let number = xi.or(c_bar).unwrap_or(COMPUTED);
+            let number = match table.get(taken) {
+                None => COMPUTED,
+                Some(Value::Float(number)) => *number,
+                #[allow(clippy::cast_precision_loss, reason = "beyond 2⁵³ it is beyond the limit too")]
+                Some(Value::Integer(number)) => *number as f64,
+                Some(found) => return Err(other_kind(taken, "a number without quotes", found)),
+            };
             if let Some(variable) = RealVariable::from_name(taken) {
                 check_limits(variable.variable(), number).map_err(refuse)?;
             }
             let damping = Damping::new(model, number).map_err(|error| refuse(error.to_string()))?;
             let model = Model::new(EnergyLoss::Viscous(damping));
-            Ok(Model { name: name.unwrap_or(model.name), ..model })
+            Ok(Model { name: name.map_or(model.name, str::to_owned), ..model })
         }
         _ => Err(refuse(format!("a model is a name or a table; the models are {}", names()))),
     }

@@ -37,6 +37,12 @@ pub enum FolderError {
         path.display()
     )]
     OtherStudy { path: PathBuf, difference: String },
+    /// Folders that are to be merged hold different studies.
+    #[error(
+        "{}: holds another study than the first folder ({difference}); merge folders of one study only",
+        path.display()
+    )]
+    OtherThanFirst { path: PathBuf, difference: String },
     /// Several folders, and none for what they hold together.
     #[error("merging several folders needs one for the result; name it (-o FOLDER; in Python into=)")]
     NoTarget,

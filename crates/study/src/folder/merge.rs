@@ -12,7 +12,10 @@ use super::store::Folder;
 /// damaged), there are several folders and none to merge into, or a file cannot be written.
 pub fn merge(mut folders: Vec<Folder>, into: Option<&Path>) -> Result<Folder, FolderError> {
     for folder in folders.iter().skip(1) {
-        folder.expect(folders[0].contents())?;
+        let (path, found, first) = (folder.path().to_owned(), folder.contents(), folders[0].contents());
+        if found != first {
+            return Err(FolderError::OtherThanFirst { path, difference: found.difference(first) });
+        }
     }
     let target = match (into, folders.len()) {
         (Some(path), 1..) => Folder::like(path, folders[0].manifest())?,

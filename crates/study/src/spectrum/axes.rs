@@ -70,7 +70,7 @@ pub enum PulseForm {
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum SpectrumError {
-    /// A value of an axis makes no pulse.
+    /// A value of an axis makes no pulse or no wall.
     #[error("{name} = {value} is out of range; it must be {limit}")]
     Value { name: &'static str, value: f64, limit: String },
     /// A size and a slenderness make no wall.

@@ -27,7 +27,7 @@ mod axes;
 pub mod figure;
 pub mod page;
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
 use fmu_export::VariableId;
 
@@ -212,6 +212,11 @@ fn shaped(
 ) -> Result<Parameters, SpectrumError> {
     let ratio = match slenderness {
         Slenderness::Ratio => row,
+        // the tangent repeats itself beyond the angles of walls
+        Slenderness::Angle if !(row > 0.0 && row <= FRAC_PI_4) => {
+            let limit = format!("above 0 and at most {FRAC_PI_4:.4}");
+            return Err(SpectrumError::Value { name: slenderness.quantity().label, value: row, limit });
+        }
         Slenderness::Angle => 1.0 / libm::tan(row),
     };
     let height = match size {

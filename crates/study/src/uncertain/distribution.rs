@@ -110,21 +110,36 @@ impl Shape {
     /// Sees that it has the numbers that it needs, and values within limits.
     fn check(&self, [least, most]: [f64; 2]) -> Result<(), String> {
         let positive = |number: f64| number > 0.0 && number.is_finite();
-        let is_right = match *self {
-            Self::Normal { mean, deviation } => mean.is_finite() && positive(deviation),
-            Self::Lognormal { median, beta } => positive(median) && positive(beta),
-            Self::Uniform([low, high]) => positive(high - low),
-            Self::Triangular([low, mode, high]) => low <= mode && mode <= high && positive(high - low),
-            Self::Values(ref values) => {
-                !values.is_empty() && values.iter().all(|[x, weight]| x.is_finite() && positive(*weight))
+        match *self {
+            Self::Normal { mean, deviation } if !(mean.is_finite() && positive(deviation)) => Err(format!(
+                "normal = [{mean}, {deviation}]: the mean must be finite and the standard deviation above 0"
+            )),
+            Self::Lognormal { median, beta } if !(positive(median) && positive(beta)) => Err(format!(
+                "lognormal = [{median}, {beta}]: the median and the standard deviation of the logarithm must \
+                 be above 0"
+            )),
+            Self::Uniform([low, high]) if !positive(high - low) => {
+                Err(format!("uniform = [{low}, {high}]: the upper end must be above the lower one"))
             }
-        };
-        if !is_right {
-            return Err(format!(
-                "{self:?}: numbers must be finite, a median, deviations, betas and weights above 0, and ends \
-                 with a mode between them must rise"
-            ));
-        }
+            Self::Triangular([low, mode, high]) if !(low <= mode && mode <= high && positive(high - low)) => {
+                Err(format!(
+                    "triangular = [{low}, {mode}, {high}]: the upper end must be above the lower one, and the \
+                     mode between them"
+                ))
+            }
+            Self::Values(ref values) if values.is_empty() => {
+                Err("values = []: there must be a value at least".to_owned())
+            }
+            Self::Values(ref values) => {
+                let is_wrong = |[x, weight]: &&[f64; 2]| !(x.is_finite() && positive(*weight));
+                values.iter().find(is_wrong).map_or(Ok(()), |[x, weight]| {
+                    Err(format!(
+                        "values with {x} of weight {weight}: values must be finite and weights above 0"
+                    ))
+                })
+            }
+            _ => Ok(()),
+        }?;
         let values = if let Self::Values(values) = self { &values[..] } else { &[] };
         match values.iter().find(|[value, _]| !(least..=most).contains(value)) {
             Some([value, _]) => {

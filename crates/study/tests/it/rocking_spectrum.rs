@@ -310,7 +310,11 @@ fn what_is_no_wall_is_refused_by_name() {
             walls(&bilinear(), height, (Slenderness::Ratio, &[f64::NAN])),
             &["h/b = NaN", "thickness = NaN is not a finite number"],
         ),
-        (walls(&bilinear(), height, (Slenderness::Angle, &[2.0])), &["α (rad) = 2", "thickness = -6"]),
+        (walls(&bilinear(), height, (Slenderness::Angle, &[0.0])), &["α (rad) = 0 ", "above 0"]),
+        (walls(&bilinear(), height, (Slenderness::Angle, &[2.0])), &["α (rad) = 2", "at most 0.7854"]),
+        // their tangents are those of walls
+        (walls(&bilinear(), height, (Slenderness::Angle, &[3.3])), &["α (rad) = 3.3", "at most 0.7854"]),
+        (walls(&bilinear(), height, (Slenderness::Angle, &[16.0])), &["α (rad) = 16", "at most 0.7854"]),
         (
             walls(&bilinear(), (Size::Height, &[1e-5]), (Slenderness::Ratio, &[8.0])),
             &["= 0.00001", "is below its minimum, 0.001 m"],

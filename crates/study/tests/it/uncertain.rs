@@ -159,7 +159,31 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         (
             "[uncertain.parameters]\nheight = { normal = [3, -1] }",
-            "line 7: height: Normal { mean: 3.0, deviation: -1.0 }: numbers must be finite",
+            "line 7: height: normal = [3, -1]: the mean must be finite and the standard deviation above 0",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { lognormal = [0, 0.1] }",
+            "line 7: height: lognormal = [0, 0.1]: the median and the standard deviation of the logarithm must",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { uniform = [3, 2] }",
+            "line 7: height: uniform = [3, 2]: the upper end must be above the lower one",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { triangular = [2, 4, 3] }",
+            "line 7: height: triangular = [2, 4, 3]: the upper end must be above the lower one, and the mode",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { values = [3, 4], weights = [1, -0.5] }",
+            "line 7: height: values with 4 of weight -0.5: values must be finite and weights above 0",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { values = [] }",
+            "line 7: uncertain.parameters.height.values needs at least 1 values, found 0",
+        ),
+        (
+            "[uncertain.parameters]\nheight = { values = [3], weights = [] }",
+            "line 7: uncertain.parameters.height.weights needs at least 1 values, found 0",
         ),
         ("[uncertain.parameters]\nheight = { normal = [3] }", "line 7: normal = [3]: expected"),
         ("[uncertain.parameters]\nheight = 3", "line 7: height = 3: expected a table"),

@@ -53,7 +53,24 @@ fn an_output_is_no_input_and_no_other_output() {
         &format!("models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [0.1] }}\n{study}"),
     );
     write("levels.csv", RECORD);
-    refused(&folder, &["study", "ida", "study.toml", "-o", "."], &["the input", "-o"]);
+    refused(&folder, &["study", "ida", "study.toml", "-o", "."], &["levels.csv", "the input"]);
+    assert_eq!(content(&folder, "levels.csv"), RECORD);
+    // a result that is a link to the record, and a record that is a link to a result
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        write("study.toml", &content(&folder, "study.toml").replace("levels.csv", "r.csv"));
+        fs::create_dir(folder.join("linked")).unwrap();
+        symlink("../r.csv", folder.join("linked/levels.csv")).unwrap();
+        let linked = ["study", "ida", "study.toml", "-o", "linked"];
+        refused(&folder, &linked, &["linked/levels.csv", "the input r.csv"]);
+        assert_eq!(content(&folder, "r.csv"), RECORD);
+        fs::remove_file(folder.join("linked/levels.csv")).unwrap();
+        fs::rename(folder.join("r.csv"), folder.join("linked/levels.csv")).unwrap();
+        symlink("linked/levels.csv", folder.join("r.csv")).unwrap();
+        refused(&folder, &linked, &["linked/levels.csv", "the input r.csv"]);
+        assert_eq!(content(&folder, "r.csv"), RECORD);
+    }
     // devices and pipes may be shared
     #[cfg(unix)]
     succeed(&folder, &["simulate", "s.toml", "--csv", "/dev/null", "--html", "/dev/null"]);

@@ -282,6 +282,10 @@ fn other_studies_and_bad_ones_are_refused() {
     change("wall.toml", "height = 3,", "height = 3.1,");
     let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder"];
     refused(&folder, &["study", "ida", "wall.toml", "-o", "out"], &other);
+    // both are valid, so neither is to be removed
+    succeed(&folder, &["study", "ida", "wall.toml", "-o", "other", "--shard", "1/8"]);
+    let words = ["other: holds another study than the first folder", "height = 3.1", "of one study only"];
+    refused(&folder, &["study", "merge", "out", "other", "-o", "both"], &words);
     fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
     refused(&folder, &["study", "ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
     for command in [&["study", "ida", "study.toml"][..], &["study", "merge", "out"]] {
@@ -290,7 +294,7 @@ fn other_studies_and_bad_ones_are_refused() {
     refused(&folder, &["study", "merge", "records"], &["study.json", "`wall study ida`"]);
     refused(&folder, &["study", "ida", "none.toml"], &["none.toml"]);
     fails(&folder, &["study", "ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
-    let cases: [(&str, &str, &[&str]); 22] = [
+    let cases: [(&str, &str, &[&str]); 23] = [
         ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
         ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
         ("gap = 0.3", "values = [1]", &["line 5", "values", "no part"]),
@@ -302,7 +306,8 @@ fn other_studies_and_bad_ones_are_refused() {
         ("xi = 0.05", "xi = 11", &["line 3", "xi = 11.0 is above its maximum, 10.0"]),
         ("xi = 0.05", "xi = -0.5", &["line 3", "xi = -0.5", "or -1 where it is not given"]),
         ("xi = 0.05", "c_bar = 0.5", &["line 3", "takes no c_bar", "give xi"]),
-        ("xi = 0.05", "e = 0.9", &["line 3", "unknown field `e`", "`xi`, `c_bar`"]),
+        ("xi = 0.05", "e = 0.9", &["line 3", "unknown key \"e\" of a model", "xi, c_bar"]),
+        ("xi = 0.05", "xi = \"much\"", &["line 3", "xi of a model must be a number", "found string"]),
         ("[report]", "[report]\nreference = \"SDR\"", &["SDR", "not among the models"]),
         ("[report]", "[report]\nfractions = [0.5, 1.5]", &["1.5", "at most 1"]),
         ("a1 = 0.009", "a1 = -0.009", &["a1", "-0.009", "below its minimum"]),

@@ -8,7 +8,6 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use report::counted;
-use run::file::folder;
 use run::parallel;
 use study::folder::{Folder, Report, compute};
 use study::loaded::LoadedStudy;
@@ -73,11 +72,9 @@ fn analyse(
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
-    let is_inside =
-        |input: &&PathBuf| path.exists() && folder(input).canonicalize().ok() == path.canonicalize().ok();
-    if let Some(input) = loaded.inputs.iter().find(is_inside) {
-        bail!("{}: the input lies in the folder of the results; give another one with -o", input.display());
-    }
+    let of_reliability = reliability.is_some().then_some(&reliability::FILES).into_iter().flatten();
+    let files = study::folder::FILES.iter().chain(of_reliability);
+    console.check_distinct(&loaded.inputs, &files.map(|name| path.join(name)).collect::<Vec<_>>())?;
     let folder = Folder::of_study(&path, &loaded)?;
     console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
