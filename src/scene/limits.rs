@@ -89,7 +89,10 @@ fn in_value(
             let limits = outside(schema, list.len() as f64, &OF_LIST);
             let items = |items| list.iter().find_map(|item| in_value(items, about, tables, item, keys));
             match limits {
-                Some(limits) => fault(format!("needs {limits} values, found {}", list.len())),
+                Some(limits) => {
+                    let noun = if limits.ends_with(" 1") { "value" } else { "values" };
+                    fault(format!("needs {limits} {noun}, found {}", list.len()))
+                }
                 None => schema.get("items").and_then(items),
             }
         }
@@ -106,8 +109,8 @@ fn in_value(
 /// What a number must be that is outside the limits of a schema.
 fn outside(schema: &Value, given: f64, words: &[(&str, &str)]) -> Option<String> {
     let stated = words.iter().filter_map(|(word, said)| {
-        let limit = schema.get(word)?;
-        let limit = limit.as_float().or_else(|| Some(f64::from(i32::try_from(limit.as_integer()?).ok()?)))?;
+        // a whole number too
+        let limit: f64 = schema.get(word)?.clone().try_into().ok()?;
         let holds = match *word {
             "exclusiveMinimum" => given > limit,
             "exclusiveMaximum" => given < limit,
@@ -121,4 +124,16 @@ fn outside(schema: &Value, given: f64, words: &[(&str, &str)]) -> Option<String>
         return Some(said.join(" and "));
     }
     (!given.is_finite()).then(|| "finite".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_limits_may_be_of_any_size() {
+        let schema: Value = toml::from_str::<toml::Table>("maximum = 5_000_000_000").unwrap().into();
+        assert_eq!(outside(&schema, 5e9, &OF_NUMBER), None);
+        assert_eq!(outside(&schema, 6e9, &OF_NUMBER).as_deref(), Some("at most 5000000000"));
+    }
 }

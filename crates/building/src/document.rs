@@ -218,17 +218,22 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>
     let text = name.get_ref();
     let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let plain = plain && text.starts_with(|c: char| c.is_ascii_alphabetic());
-    let taken =
-        names.iter().map(String::as_str).chain([GROUND]).any(|other| other.eq_ignore_ascii_case(text));
-    if !plain || taken || text.len() > LONGEST_NAME {
-        let message = format!(
-            "name = {text:?}: use at most {LONGEST_NAME} letters, digits and _, a letter first, and not \
-             {GROUND:?} or a name that is taken, in small or capital letters"
-        );
-        return Err(place.error(name.span(), message));
-    }
-    names.push(text.clone());
-    Ok(())
+    let taken = names.iter().find(|other| other.eq_ignore_ascii_case(text));
+    let fault = match taken {
+        _ if !plain => "use letters, digits and _, a letter first".to_owned(),
+        _ if text.len() > LONGEST_NAME => {
+            format!("{} characters are too many; use at most {LONGEST_NAME}", text.len())
+        }
+        _ if text == GROUND => format!("{GROUND:?} stands for the ground; give another name"),
+        Some(other) => format!(
+            "{other:?} is taken, in small or capital letters; give each storey and each wall a name of its own"
+        ),
+        None => {
+            names.push(text.clone());
+            return Ok(());
+        }
+    };
+    Err(place.error(name.span(), format!("name = {text:?}: {fault}")))
 }
 
 fn read_floor(table: &Group, before: &[Floor], place: &Place<'_>) -> Result<(Spanned<String>, Floor)> {

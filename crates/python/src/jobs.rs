@@ -36,12 +36,12 @@ pub(crate) fn check_wall<'py>(
     records: Vec<(String, Motion)>,
 ) -> PyResult<(String, String, Bound<'py, PyDict>, String)> {
     let (records, subject) = (named_records(records), Subject::from(wall));
-    let checked = py.detach(|| {
+    let checked = stoppable(py, || {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
         let picture = verdict.details.figure()?.plot.picture();
         Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
-    });
+    })?;
     let (summary, numbers, rows, picture) = checked.map_err(of_check)?;
     Ok((summary, numbers, table(py, rows)?, picture))
 }
@@ -57,14 +57,14 @@ pub(crate) fn check_report(
 ) -> PyResult<String> {
     let records = named_records(records);
     let text = to_toml(&wall.scene, "") + "\n" + &text;
-    let made = py.detach(|| {
+    let made = stoppable(py, || {
         let file = CheckFile::parse("wall.toml", &text)?.with_records(records);
         let (code, report) = (read(&file)?, file.report()?);
         let verdict = code.check(Subject::from(wall))?;
         let title = title.as_deref().unwrap_or(&wall.scene.title);
         let (records, report) = (code.records(), &report);
         page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records, report })
-    });
+    })?;
     made.map_err(of_check)
 }
 

@@ -16,8 +16,9 @@ use crate::errors::{failed, of_scene, refused};
 use crate::walls::Wall;
 use crate::watch::{stoppable, threads_of};
 
-/// Most runs of a thread between two looks at Ctrl-C.
-const RUNS_AT_ONCE: usize = 1024;
+/// Most runs of a group, between two of which a thread looks at Ctrl-C: of one thread, and of several, which
+/// end together only where each has several groups.
+const RUNS_AT_ONCE: [usize; 2] = [1024, 256];
 
 /// A wall as records find it.
 struct Prepared<'a> {
@@ -86,7 +87,8 @@ pub(crate) fn simulate_many<'py>(
     }
     // the runs of a wall and record beside each other, so that they are prepared once
     runs.sort_by_key(|run| (run.wall, run.record));
-    let size = runs.len().div_ceil(threads).clamp(LANES, RUNS_AT_ONCE);
+    let most = RUNS_AT_ONCE[usize::from(threads > 1)];
+    let size = runs.len().div_ceil(threads).clamp(LANES, most);
     let groups: Vec<_> = runs.chunks(size).collect();
     let run = |group: usize| run_group(&walls, &records, groups[group], tail);
     let found = stoppable(py, || parallel::map(groups.len(), threads, run))??;

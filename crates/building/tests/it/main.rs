@@ -199,4 +199,17 @@ fn broken_files_are_refused_in_plain_words() {
     assert_eq!(error, "b.toml, line 16: drift = \"yes\": expected true or false");
     let error = read(&text.replace("mass = 2e4", "mass = 20,5")).unwrap_err().to_string();
     assert!(error.starts_with("b.toml, line 8: cannot read `mass = 20,5`: "), "{error}");
+    let named = |name: &str| read(&text.replace("\"p\"", &format!("{name:?}")));
+    // Ground.fmu is the file of no other
+    assert_eq!(named("Ground").unwrap().walls[0].name, "Ground");
+    for (name, words) in [
+        ("1p", "a letter first"),
+        ("ground", "\"ground\" stands for the ground"),
+        ("ONE", "\"one\" is taken"),
+        (&"p".repeat(101), "101 characters are too many; use at most 100"),
+    ] {
+        let told = named(name).unwrap_err().to_string();
+        let start = format!("b.toml, line 12: name = {name:?}: ");
+        assert!(told.starts_with(&start) && told.contains(words), "{told}");
+    }
 }

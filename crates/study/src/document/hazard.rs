@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use crate::hazard::{Hazard, HazardCurve, YEARS, read};
+use crate::hazard::{Hazard, HazardCurve, YEARS, is_open_quake, read};
 use crate::ida::{IntensityMeasure, ToSi};
 use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
@@ -48,13 +48,31 @@ pub struct HazardEntry {
 #[derive(Clone, Debug)]
 enum Source {
     Points(HazardCurve),
-    /// `has_unit` says that the study states a unit.
+    /// A file, and where the study states a unit and a site.
     File {
         file: String,
         to_si: ToSi,
-        has_unit: bool,
-        site: Option<u32>,
+        unit: Option<Stated>,
+        site: Option<(u32, Stated)>,
     },
+}
+
+/// Where a study states a key.
+#[derive(Clone, Debug)]
+struct Stated {
+    file: String,
+    line: usize,
+}
+
+impl Stated {
+    fn at<T>(value: &Spanned<T>, place: &Place<'_>) -> Self {
+        Self { file: place.name().to_owned(), line: place.line(value.span()) }
+    }
+
+    fn error(self, key: &str, message: &str) -> SceneError {
+        let Self { file, line } = self;
+        SceneError::Line { file, line, key: Some(key.to_owned()), message: message.to_owned() }
+    }
 }
 
 impl HazardEntry {
@@ -72,11 +90,23 @@ impl HazardEntry {
         let Self { curve, years, target } = self;
         let (curve, warnings) = match curve {
             Source::Points(curve) => (curve, Vec::new()),
-            Source::File { file, to_si, has_unit, site } => {
+            Source::File { file, to_si, unit, site } => {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let (curve, warnings) = read(&Place::new(&name, &text), measure, (to_si, has_unit), site)?;
+                match (is_open_quake(&text), unit, &site) {
+                    (true, Some(unit), _) => {
+                        let message = "a table of OpenQuake has units of its own; leave out unit";
+                        return Err(unit.error("unit", message));
+                    }
+                    (false, _, Some((_, site))) => {
+                        let message = "site belongs to a table of OpenQuake; leave it out";
+                        return Err(site.clone().error("site", message));
+                    }
+                    _ => {}
+                }
+                let site = site.map(|(number, _)| number);
+                let (curve, warnings) = read(&Place::new(&name, &text), measure, to_si, site)?;
                 inputs.push(path);
                 (curve, warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
             }
@@ -106,8 +136,8 @@ pub(super) fn hazard(
         (None, Some(file)) => Source::File {
             file: file.get_ref().clone(),
             to_si,
-            has_unit: unit.is_some(),
-            site: site.as_ref().map(|site| *site.get_ref()),
+            unit: unit.as_ref().map(|unit| Stated::at(unit, place)),
+            site: site.as_ref().map(|site| (*site.get_ref(), Stated::at(site, place))),
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
     };

@@ -13,7 +13,7 @@ const FORMS: &str = "expected a line of names with a measure or \"intensity\" an
                      hazard-curve CSV of OpenQuake";
 
 /// Reads the hazard curve of a study's measure from a file; `to_si` converts the intensities of two columns,
-/// and `site` is the number from 1 of a site of `OpenQuake`.
+/// and `site` is the number from 1 of a site of `OpenQuake`, which alone has sites.
 ///
 /// # Errors
 /// [`SceneError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
@@ -21,7 +21,7 @@ const FORMS: &str = "expected a line of names with a measure or \"intensity\" an
 pub fn read(
     file: &Place<'_>,
     measure: &IntensityMeasure,
-    (to_si, has_unit): (ToSi, bool),
+    to_si: ToSi,
     site: Option<u32>,
 ) -> Result<Read, SceneError> {
     let lines = file.text().trim_start_matches('\u{feff}').lines().zip(1..);
@@ -30,14 +30,18 @@ pub fn read(
     let Some((first, rest)) = lines.split_first() else {
         return Err(file.error_on(1, format!("the file is empty; {FORMS}")));
     };
-    let is_open_quake = first.1.starts_with('#') && first.1.contains("investigation_time");
-    let has_more = [has_unit && is_open_quake, site.is_some() && !is_open_quake];
-    match has_more {
-        [true, _] => Err(file.error_on(first.0, "a table of OpenQuake has units of its own; leave out unit")),
-        [_, true] => Err(file.error_on(first.0, "site belongs to a table of OpenQuake; leave it out")),
-        _ if is_open_quake => open_quake(file, *first, rest, measure, site),
-        _ => two_columns(file, *first, rest, measure, to_si),
+    if is_open_quake(file.text()) {
+        open_quake(file, *first, rest, measure, site)
+    } else {
+        two_columns(file, *first, rest, measure, to_si)
     }
+}
+
+/// Returns whether the text of a file is a table of `OpenQuake`, which begins with a comment.
+pub fn is_open_quake(text: &str) -> bool {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty());
+    first.is_some_and(|line| line.starts_with('#') && line.contains("investigation_time"))
 }
 
 fn two_columns(
@@ -98,6 +102,12 @@ fn open_quake(
         return fail(line, "the table ends after its comment".into());
     };
     let count = sites.len();
+    if count == 0 {
+        return fail(
+            *heading,
+            "the table has no row below its names; give one with at least one site".into(),
+        );
+    }
     let at = site.map_or(1, |site| site as usize);
     if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
         let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
@@ -186,7 +196,7 @@ mod tests {
     fn tables_of_openquake_have_rates() {
         let measure = IntensityMeasure::Sa { period: 0.5 };
         let file = Place::new("oq.csv", OPEN_QUAKE);
-        let read = |site| read(&file, &measure, (G, false), site);
+        let read = |site| read(&file, &measure, G, site);
         let (curve, warnings) = read(Some(1)).unwrap();
         let given = [[0.1, 0.5], [0.2, 0.1], [0.4, 0.02]];
         assert_eq!(curve.points().len(), 3, "{warnings:?}");
@@ -203,16 +213,17 @@ mod tests {
         ] {
             assert!(read(site).unwrap_err().to_string().contains(words));
         }
-        let other = super::read(&file, &IntensityMeasure::Pga, (G, false), Some(1));
-        let told = super::read(&file, &measure, (G, true), Some(1)).unwrap_err().to_string();
-        assert!(told.contains("leave out unit"), "{told}");
+        let empty = OPEN_QUAKE.split_inclusive('\n').take(2).collect::<String>();
+        let told = super::read(&Place::new("oq.csv", &empty), &measure, G, None).unwrap_err().to_string();
+        assert!(told.contains("line 2") && told.contains("has no row"), "{told}");
+        let other = super::read(&file, &IntensityMeasure::Pga, G, Some(1));
         let told = other.unwrap_err().to_string();
         assert!(told.contains("line 1") && told.contains("\"SA(0.5)\", the study of PGA"), "{told}");
     }
 
     #[test]
     fn two_columns_have_a_unit_and_their_measure() {
-        let read = |text| read(&Place::new("a.csv", text), &IntensityMeasure::Pga, (G, false), None);
+        let read = |text| read(&Place::new("a.csv", text), &IntensityMeasure::Pga, G, None);
         let table = read("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-3\n").unwrap();
         assert_eq!(table.0.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
         assert_eq!(read("intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n").unwrap(), table);

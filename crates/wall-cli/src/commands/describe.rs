@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Args;
 use report::table::significant;
 use rocking_wall::solver::Method;
@@ -36,7 +36,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
     apply_set(&arguments.scene.set, &mut scene)?;
     console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
-    scene.set_output(None, None, arguments.thresholds.clone())?;
+    scene.set_output(None, None, arguments.thresholds.clone()).context("--thresholds")?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;

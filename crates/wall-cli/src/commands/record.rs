@@ -87,20 +87,24 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
             bail!("{folder}: a folder without files; name a folder with records");
         }
         ([], [failure]) => bail!("{failure}"),
-        ([], _) => {}
-        _ => show(console, &channels, if is_listing { &failures } else { &[] }, arguments, &of)?,
+        _ => {}
     }
-    match (failures.len(), is_listing && !channels.is_empty()) {
+    let lists = is_listing && !channels.is_empty();
+    if !lists {
+        // first, since to show the others may fail
+        console.report_all(failures.iter().cloned());
+    }
+    if !channels.is_empty() {
+        show(console, &channels, if lists { &failures } else { &[] }, arguments, &of)?;
+    }
+    match (failures.len(), lists) {
         // a folder may have files that are no records
         (0, _) => {}
         (_, true) if missing == 0 => {}
         (_, true) => {
             bail!("{missing} of the files that are named could not be read; they are listed as not read");
         }
-        (count, false) => {
-            console.report_all(failures);
-            bail!("{count} of {} files could not be read", files.len());
-        }
+        (count, false) => bail!("{count} of {} files could not be read", files.len()),
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ pub(crate) fn shown<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T> {
     let outcome = watched(work, |done, all| {
         let time = start.elapsed();
         if done > 0 && time >= LONG {
-            let left = time.as_secs_f64() / done as f64 * (all - done) as f64;
+            let left = time.as_secs_f64() / done as f64 * all.saturating_sub(done) as f64;
             to_terminal(&format!("\r{done} of {all} done, {:.1} min left   ", left / 60.0));
             end = "\n";
         }

@@ -187,8 +187,10 @@ fn messages_are_short() {
     for (arguments, number) in [
         (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
         (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
-        (["simulate", "--stop-time", "1e300"], "stop_time = 1e300 must"),
-        (["simulate", "--thresholds", "1e22"], "thresholds = 1e22 must"),
+        (["simulate", "--stop-time", "1e300"], "--stop-time: stop_time = 1e300 must"),
+        (["simulate", "--output-step", "0"], "--output-step: output_step = 0 must"),
+        (["describe", "--thresholds", "2"], "--thresholds: thresholds = 2 must"),
+        (["simulate", "--thresholds", "1e22"], "--thresholds: thresholds = 1e22 must"),
         (["simulate", "--set", "xi=10.000000000000002"], "maximum, 10"),
     ] {
         refused(&folder, &arguments, &[number]);

@@ -123,9 +123,14 @@ fn a_hazard_that_cannot_be_is_refused() {
     let folder = folder("hazard_refused");
     fs::write(folder.join("other.csv"), "Sa(0.5 s),annual_rate\n0.1,1e-2\n0.2,1e-3\n").unwrap();
     fs::write(folder.join("bad.csv"), "PGA,annual_rate\n0.1,1e-2\n0.2,2e-2\n").unwrap();
+    let table = "# investigation_time=50.0, imt='PGA'\nlon,lat,poe-0.05,poe-0.2\n";
+    fs::write(folder.join("empty.csv"), table).unwrap();
     let study = STUDY.replace("\"code\"", "\"PGA\"");
     for (hazard, words) in [
-        ("{}", &["line 7", "hazard needs points, or a file"][..]),
+        ("{ file = \"bad.csv\", site = 1 }", &["study.toml, line 7", "site belongs to a table"][..]),
+        ("{ file = \"empty.csv\", unit = \"g\" }", &["study.toml, line 7", "leave out unit"]),
+        ("{ file = \"empty.csv\" }", &["empty.csv, line 2", "no row"]),
+        ("{}", &["line 7", "hazard needs points, or a file"]),
         ("{ points = [[0.1, 1e-2]] }", &["line 7", "hazard.points needs at least 2 values, found 1"]),
         ("{ points = [[0.2, 1e-2], [0.1, 1e-3]] }", &["point 2", "0.1 must be above 0.2"]),
         ("{ points = [[0.1, 1e-3], [0.2, 1e-2]] }", &["point 2", "0.01 must be below 0.001"]),

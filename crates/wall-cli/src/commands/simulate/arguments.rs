@@ -97,7 +97,9 @@ impl Arguments {
             scene.excitation = Some(excitation.held());
             scene.motion_notes.push("each sample held until the next".into());
         }
-        scene.set_output(self.stop_time, self.output_step, self.thresholds.clone())?;
+        scene.set_output(self.stop_time, None, None).context("--stop-time")?;
+        scene.set_output(None, self.output_step, None).context("--output-step")?;
+        scene.set_output(None, None, self.thresholds.clone()).context("--thresholds")?;
         Ok(scene)
     }
 }

@@ -82,8 +82,11 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.save(arguments.csv.as_ref(), || table(&studies).csv())?;
     console.save(arguments.linearisation.as_ref(), || rotations::table(&both).csv())?;
     console.save(arguments.plot.as_ref(), || picture(&studies, peers.as_ref()))?;
-    let figures = rotations::figures(&both)?;
-    console.save(arguments.html.as_ref(), || page(&studies, &figures, peers.as_ref()))
+    if arguments.html.is_some() {
+        let figures = rotations::figures(&both)?;
+        console.save(arguments.html.as_ref(), || page(&studies, &figures, peers.as_ref()))?;
+    }
+    Ok(())
 }
 
 fn peers(path: &Path) -> Result<Peers> {
