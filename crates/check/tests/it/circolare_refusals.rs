@@ -55,7 +55,7 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
             "height_ratio = 2 must be at least 0 and at most 1: z/H",
         ),
         (at_height("", "{ storeys = 3 }"), "give storeys, period and height_ratio, or modes"),
-        (at_height("", "{ modes = [] }"), "building.modes needs at least 1 values, found 0"),
+        (at_height("", "{ modes = [] }"), "building.modes needs at least 1 value, found 0"),
         (with(building), "state building_damping, the damping of the building"),
         (
             with(building).replace("0.32", "0.32, building_damping = 0.5, damping = 0.5"),
@@ -85,7 +85,7 @@ fn a_refusal_begins_with_the_numbers_that_may_be_its_cause() {
     let beam = open("before_activation = \"beam\"\nyoung_modulus = 1500");
     let error = refuses(
         &format!("{PARAPET}{beam}"),
-        "young_modulus = 1500 must be at least 10000000: E of the masonry [Pa]",
+        "young_modulus = 1500 must be at least 1e7: E of the masonry [Pa]",
     );
     assert!(error.contains("[check] young_modulus"), "{error}");
     // a limit that a key of the table sets keeps its line

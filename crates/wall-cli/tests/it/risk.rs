@@ -254,7 +254,7 @@ fn classes_that_cannot_be_made_are_refused() {
         (
             "fractions = [0.4, 0.1, 1]",
             "fractions = []",
-            &["report.fractions needs at least 1 values, found 0"],
+            &["report.fractions needs at least 1 value, found 0"],
         ),
         (
             "resamples = 100",
