@@ -1,6 +1,9 @@
 //! The limits of the values of a file, as the schema of its tables states them.
 
+use std::any::TypeId;
+use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use serde::Deserialize;
 use toml::de::{DeValue, ValueDeserializer};
@@ -9,6 +12,7 @@ use toml::{Spanned, Value};
 use crate::variables::GROUPS;
 
 use super::error::{Place, SceneError};
+use super::parameter::{number, unknown_key};
 use super::schema::{Described, Schema};
 use super::toml_text::parse_document;
 
@@ -35,26 +39,48 @@ const OF_LIST: [(&str, &str); 2] = [("minItems", "at least"), ("maxItems", "at m
 /// Checks a number or a list of numbers, given by itself, against the limits of a key of `T`.
 ///
 /// # Errors
-/// [`SceneError::Value`] with the key, the value and its limits.
+/// [`SceneError::Value`] with the key, the value and its limits, and for a key that `T` does not hold.
 ///
 /// ```
 /// use rocking_wall::scene::{MotionTable, check_value};
 ///
 /// let error = check_value::<MotionTable>("tail", -1.0).unwrap_err().to_string();
-/// assert!(error.starts_with("tail = -1 must be at least 0 and at most 1000000: Free vibration"), "{error}");
+/// assert!(error.starts_with("tail = -1 must be at least 0 and at most 1e6: Free vibration"), "{error}");
 /// ```
 pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Result<(), SceneError> {
+    let (schema, tables) = schema_of::<T>();
+    let keys = declared(schema, tables).unwrap_or(schema).get("properties").and_then(Value::as_table);
+    if keys.is_none_or(|keys| !keys.contains_key(key)) {
+        let known: Vec<_> = keys.into_iter().flat_map(Schema::keys).map(String::as_str).collect();
+        return Err(SceneError::Value { message: unknown_key(key, "", &known) });
+    }
     // TOML writes NaN in small letters
-    let text = format!("{key} = {value:?}").to_lowercase();
+    let text = format!("{key} = {}", format!("{value:?}").to_lowercase());
     let table = Spanned::new(0..text.len(), DeValue::Table(parse_document(&Place::new(key, &text))?));
     fault::<T>(&table).map_or(Ok(()), |Fault { message, .. }| Err(SceneError::Value { message }))
 }
 
 /// Finds the first value of a table that is outside the limits of the keys of `T`.
 pub(super) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault> {
-    let mut tables = Schema::new();
-    let schema = T::describe("", &mut tables);
-    in_value(&schema.into(), "", &tables, table, &[])
+    let (schema, tables) = schema_of::<T>();
+    in_value(schema, "", tables, table, &[])
+}
+
+/// Returns the schema of `T` and the tables that it refers to, which are made once: many walls are read.
+fn schema_of<T: Described>() -> &'static (Value, Schema) {
+    static MADE: Mutex<Option<HashMap<TypeId, &'static (Value, Schema)>>> = Mutex::new(None);
+    // a schema that could not be made is not in the map
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    made.get_or_insert_default().entry(TypeId::of::<T>()).or_insert_with(|| {
+        let mut tables = Schema::new();
+        let schema = T::describe("", &mut tables).into();
+        Box::leak(Box::new((schema, tables)))
+    })
+}
+
+/// Returns the table that a schema refers to.
+fn declared<'a>(schema: &Value, tables: &'a Schema) -> Option<&'a Value> {
+    tables.get(schema.get("$ref")?.as_str()?.rsplit('/').next()?)
 }
 
 fn in_value(
@@ -65,8 +91,7 @@ fn in_value(
     keys: &[String],
 ) -> Option<Fault> {
     let about = schema.get("description").and_then(Value::as_str).unwrap_or(about).trim_end_matches('.');
-    let name = schema.get("$ref").and_then(|path| path.as_str()?.rsplit('/').next());
-    let declared = name.and_then(|name| tables.get(name));
+    let declared = declared(schema, tables);
     let schema = declared.unwrap_or(schema);
     let fault = |said: String| {
         let message = format!("{} {said}: {about}", keys.join("."));
@@ -90,8 +115,8 @@ fn in_value(
             let items = |items| list.iter().find_map(|item| in_value(items, about, tables, item, keys));
             match limits {
                 Some(limits) => {
-                    let noun = if limits.ends_with(" 1") { "value" } else { "values" };
-                    fault(format!("needs {limits} {noun}, found {}", list.len()))
+                    let values = if limits.ends_with(" 1") { "value" } else { "values" };
+                    fault(format!("needs {limits} {values}, found {}", list.len()))
                 }
                 None => schema.get("items").and_then(items),
             }
@@ -100,7 +125,7 @@ fn in_value(
             let number = f64::deserialize(ValueDeserializer::from(value.clone())).ok()?;
             let forms = schema.get("anyOf").and_then(Value::as_array).into_iter().flatten();
             let limits = [schema].into_iter().chain(forms).find_map(|form| outside(form, number, &OF_NUMBER));
-            limits.and_then(|limits| fault(format!("= {number} must be {limits}")))
+            limits.and_then(|limits| fault(format!("= {} must be {limits}", shown(number))))
         }
         _ => None,
     }
@@ -108,22 +133,24 @@ fn in_value(
 
 /// What a number must be that is outside the limits of a schema.
 fn outside(schema: &Value, given: f64, words: &[(&str, &str)]) -> Option<String> {
-    let stated = words.iter().filter_map(|(word, said)| {
-        // a whole number too
-        let limit: f64 = schema.get(word)?.clone().try_into().ok()?;
-        let holds = match *word {
-            "exclusiveMinimum" => given > limit,
-            "exclusiveMaximum" => given < limit,
-            "minimum" | "minItems" => given >= limit,
-            _ => given <= limit,
-        };
-        Some((format!("{said} {limit}"), holds))
-    });
-    let (said, holds): (Vec<String>, Vec<bool>) = stated.unzip();
-    if holds.contains(&false) {
+    let limits = || words.iter().filter_map(|(word, said)| Some((*word, *said, number(schema.get(word)?)?)));
+    let holds = |(word, _, limit): (&str, &str, f64)| match word {
+        "exclusiveMinimum" => given > limit,
+        "exclusiveMaximum" => given < limit,
+        "minimum" | "minItems" => given >= limit,
+        _ => given <= limit,
+    };
+    if !limits().all(holds) {
+        let said: Vec<_> = limits().map(|(_, said, limit)| format!("{said} {}", shown(limit))).collect();
         return Some(said.join(" and "));
     }
     (!given.is_finite()).then(|| "finite".to_owned())
+}
+
+/// Writes a number, one with many zeros with its power of ten.
+fn shown(number: f64) -> String {
+    let [plain, short] = [format!("{number}"), format!("{number:e}")];
+    if short.len() + 2 < plain.len() { short } else { plain }
 }
 
 #[cfg(test)]
@@ -134,6 +161,6 @@ mod tests {
     fn whole_limits_may_be_of_any_size() {
         let schema: Value = toml::from_str::<toml::Table>("maximum = 5_000_000_000").unwrap().into();
         assert_eq!(outside(&schema, 5e9, &OF_NUMBER), None);
-        assert_eq!(outside(&schema, 6e9, &OF_NUMBER).as_deref(), Some("at most 5000000000"));
+        assert_eq!(outside(&schema, 6e9, &OF_NUMBER).as_deref(), Some("at most 5e9"));
     }
 }

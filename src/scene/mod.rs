@@ -157,7 +157,10 @@ impl Scene {
         }
         scene.stop_time = document.stop_time.unwrap_or(scene.stop_time);
         scene.output_step = document.output_step.unwrap_or(scene.output_step);
-        Ok(scene)
+        match (&document.motion, scene.moved_apart(scene.excitation.as_ref())) {
+            (Some(table), Some(message)) => Err(place.error(table.span(), message)),
+            _ => Ok(scene),
+        }
     }
 
     /// Sets one parameter by name from text, as `--set xi=0.03` does.
@@ -176,7 +179,7 @@ impl Scene {
     /// ```
     /// # use rocking_wall::scene::Scene;
     /// let error = Scene::default().set_output(Some(0.0), None, None).unwrap_err();
-    /// assert!(error.to_string().starts_with("stop_time = 0 must be above 0 and at most 10000000: End"));
+    /// assert!(error.to_string().starts_with("stop_time = 0 must be above 0 and at most 1e7: End"));
     /// ```
     pub fn set_output(
         &mut self,
@@ -229,16 +232,19 @@ impl Scene {
                 return Err(refused("storeys move under a motion of the ground; give [motion] or --record"));
             }
         };
+        self.moved_apart(motion.as_deref()).map_or(Ok(motion), |message| Err(refused(message)))
+    }
+
+    /// Says what is wrong with full rotations on supports that move differently.
+    fn moved_apart(&self, motion: Option<&Excitation>) -> Option<&'static str> {
         let Parameters { mechanism, kinematics, .. } = self.parameters;
         let is_full_strip =
             mechanism == Mechanism::VerticalSpanning && kinematics == Kinematics::Trigonometric;
-        if is_full_strip && motion.as_ref().is_some_and(|motion| motion.top().is_some()) {
-            return Err(refused(
-                "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or \
-                 set kinematics = linear",
-            ));
-        }
-        Ok(motion)
+        let is_apart = is_full_strip && motion.is_some_and(|motion| motion.top().is_some());
+        is_apart.then_some(
+            "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set \
+             kinematics = linear",
+        )
     }
 
     /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the

@@ -1,8 +1,10 @@
 //! Parameters of a scene: names, groups, kinds and limits come from the model description.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
+use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
@@ -10,7 +12,7 @@ use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
-use super::toml_text::NUMBER;
+use super::toml_text::{NUMBER, parse_document, read_value};
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -97,24 +99,28 @@ pub fn apply_group(
         let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
         return Err(place.error(key.span(), message));
     }
-    let read = read_bar(bar.get_ref()).and_then(|own| {
-        parameters.bar = Some(own);
-        follow_bar(parameters)
-    });
-    read.map_err(|message| place.error(bar.span(), message))
+    let document = parse_document(place)?;
+    let own = find(&document, BAR, &bar.span());
+    let read = own.map(|own| read_value(place, &document, own)).transpose();
+    parameters.bar = read.map_err(|fault| place.error(fault.span, fault.message))?;
+    follow_bar(parameters).map_err(|message| place.error(bar.span(), message))
 }
 
-/// Reads the table `[tie.bar]`.
-fn read_bar(table: &Value) -> Result<Bar, String> {
-    let entries = table.as_table();
-    let entries = entries.ok_or_else(|| format!("{BAR} = {}: expected a table, [tie.bar]", shown(table)))?;
-    let (mut bar, keys) = (Bar::default(), Bar::NUMBERS.map(|number| number.key()));
-    for (key, value) in entries {
-        let index = keys.iter().position(|known| known == key);
-        bar.set(index.ok_or_else(|| unknown_key(key, "tie.bar", &keys))?, real(key, value)?);
+/// Finds the value of a key in a document by its place.
+fn find<'a, 'b>(table: &'a DeTable<'b>, key: &str, span: &Range<usize>) -> Option<&'a Spanned<DeValue<'b>>> {
+    fn inside<'a, 'b>(
+        value: &'a Spanned<DeValue<'b>>,
+        key: &str,
+        span: &Range<usize>,
+    ) -> Option<&'a Spanned<DeValue<'b>>> {
+        match value.get_ref() {
+            DeValue::Table(table) => find(table, key, span),
+            DeValue::Array(items) => items.iter().find_map(|item| inside(item, key, span)),
+            _ => None,
+        }
     }
-    // once it is complete, for a wall of any width
-    bar.tie(1.0).map(|_| bar).map_err(|error| error.to_string())
+    let own = table.iter().find(|(own, value)| own.get_ref() == key && value.span() == *span);
+    own.map(|(_, value)| value).or_else(|| table.values().find_map(|value| inside(value, key, span)))
 }
 
 /// Gives the tie the numbers of its bar, once the bar is complete.

@@ -20,7 +20,7 @@ use super::parameter::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, PO
 pub type Schema = Table;
 
 /// A value of a file that a schema describes.
-pub trait Described {
+pub trait Described: 'static {
     /// Whether a table may leave the value out.
     const OPTIONAL: bool = false;
 

@@ -64,6 +64,13 @@ pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> 
             format!("{} is given twice; leave one out", text[span.clone()].trim_matches(['"', '\'']))
         } else {
             let line = text.lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
+            if error.message().starts_with("cannot extend") {
+                let message = format!("`{}` adds to a value that is given above; leave one out", shown(line));
+                return place.error(span, message);
+            }
+            if DeTable::parse(line).is_ok() {
+                return place.error(span, OPEN);
+            }
             format!("cannot read `{}`: {SYNTAX}", shown(line).replace('\r', "\\r"))
         };
         place.error(span, message)
@@ -74,6 +81,9 @@ pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> 
 const SYNTAX: &str = "a line is key = value, [table] or # comment; a number has a decimal point and no unit, \
                       and digits on both sides of its point; a text stands in straight quotes, a path with \
                       /; lists and tables are closed";
+
+/// What a text lacks whose reader stops at a line that is right by itself, or behind the last one.
+const OPEN: &str = "a list, table or text above is not closed; close it with ], } or its quotes";
 
 /// What is expected where a number stands.
 pub(super) const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";

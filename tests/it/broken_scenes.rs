@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::Scene;
+use rocking_wall::scene::{Document, Scene, check_value};
 
 use crate::broken::walk;
 
@@ -43,6 +43,63 @@ fn what_is_not_toml_is_shown_with_the_way_to_write_it() {
         for remedy in ["key = value", "# comment", "decimal point and no unit", "straight quotes", "closed"] {
             assert!(rest.contains(remedy), "{found}");
         }
+    }
+}
+
+/// The reader stops at the first line that cannot go on with what is open, which is right by itself.
+#[test]
+fn what_is_not_closed_accuses_no_line_below() {
+    for (text, line) in [
+        ("thresholds = [1,\n\n[geometry]\nheight = 3\n", 4),
+        ("thresholds = [1,\noutput_step = 0.1\n", 2),
+        ("[motion]\nsine = { amplitude = 3,\n[geometry]\nheight = 3\n", 3),
+        ("title = \"\"\"a\n[geometry]\nheight = 3\n", 4),
+    ] {
+        let found = refused(text);
+        let start = format!("scene.toml, line {line}: a list, table or text above is not closed");
+        assert!(found.starts_with(&start), "{found}");
+    }
+    // nothing is open here
+    assert_says("title = 3\n[title.of]\n", "line 2: `[title.of]` adds to a value that is given above");
+}
+
+/// Full rotations of a strip know one motion for both supports.
+#[test]
+fn full_rotations_refuse_a_motion_of_the_top_at_its_table() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    std::fs::write(folder.join("apart.csv"), "0.0\n1.0\n0.0\n").unwrap();
+    let record = "record = \"apart.csv\"\nunit = \"m/s2\"\nstep = 0.1\n";
+    let wall = "[geometry]\nmechanism = \"vertical_spanning\"\nkinematics = \"trigonometric\"\n";
+    let text = format!("{wall}[motion]\n{record}[motion.top]\n{record}");
+    let error = Scene::parse("scene.toml", &text, folder).unwrap_err().to_string();
+    let start = "scene.toml, line 4: kinematics = trigonometric knows one motion for both supports; leave";
+    assert!(error.starts_with(start), "{error}");
+}
+
+#[test]
+fn a_value_by_itself_is_checked_by_the_limits_of_its_key() {
+    for (key, value, message) in [
+        ("stop_time", f64::NAN, "stop_time = NaN must be above 0 and at most 1e7: "),
+        ("stop_time", f64::INFINITY, "stop_time = inf must be above 0 and at most 1e7: "),
+        ("Stop_Time", 1.0, "unknown key \"Stop_Time\" (did you mean \"stop_time\"?)"),
+    ] {
+        let error = check_value::<Document>(key, value).unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
+    // 2³² is beyond a whole number of 32 bits
+    let error = check_value::<Large>("count", 4_294_967_297_u64).unwrap_err().to_string();
+    assert!(
+        error.starts_with("count = 4294967297 must be at least 0 and at most 4294967296: A count"),
+        "{error}"
+    );
+}
+
+rocking_wall::tables! {
+    /// A table with a large limit.
+    struct Large {
+        /// A count.
+        #[key(maximum = 4_294_967_296_i64)]
+        count: u64,
     }
 }
 

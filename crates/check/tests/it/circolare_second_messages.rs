@@ -23,7 +23,7 @@ fn hinges_and_masonry_that_cannot_be() {
         (law("masonry_gamma = 2"), "masonry_over_fc count only with masonry_strength"),
         (
             law("masonry_strength = 1.5"),
-            "must be at least 100000: Mean compressive strength f_m of the masonry in Pa, such as 1.5e6",
+            "must be at least 1e5: Mean compressive strength f_m of the masonry in Pa, such as 1.5e6",
         ),
         (strong("1.5e6\nmasonry_gamma = 0.5"), "masonry_gamma = 0.5 must be at least 1"),
         (strong("1.5e6\nstress_block = 1.5"), "stress_block = 1.5 must be above 0 and at most 1"),

@@ -145,7 +145,11 @@ fn what_full_rotations_do_not_know_is_refused_with_the_remedy() {
     let apart = format!("{SCENE}[motion]\n{record}[motion.top]\n{record}");
     let strip = apart.replacen("[geometry]", "[geometry]\nmechanism = \"vertical_spanning\"", 1);
     fs::write(folder.join("apart.toml"), strip).unwrap();
-    refused(&folder, &["simulate", "apart.toml"], &["[motion.top]", "kinematics = linear"]);
+    refused(
+        &folder,
+        &["simulate", "apart.toml"],
+        &["apart.toml, line", "[motion.top]", "kinematics = linear"],
+    );
     succeed(&folder, &["simulate", "good.toml", "--html", "page.html"]);
     let page = content(&folder, "page.html");
     assert!(page.contains("0.26 % short") && !page.contains("NaN"), "the error of small rotations");
