@@ -308,7 +308,7 @@ fn what_is_no_wall_is_refused_by_name() {
         ),
         (
             walls(&bilinear(), height, (Slenderness::Ratio, &[f64::NAN])),
-            &["h/b = NaN", "thickness = NaN must be a finite number"],
+            &["h/b = NaN", "thickness = NaN is not a finite number"],
         ),
         (walls(&bilinear(), height, (Slenderness::Angle, &[0.0])), &["α (rad) = 0 ", "above 0"]),
         (walls(&bilinear(), height, (Slenderness::Angle, &[2.0])), &["α (rad) = 2", "at most 0.7854"]),
