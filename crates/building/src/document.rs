@@ -226,7 +226,7 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>
         }
         _ if text == GROUND => format!("{GROUND:?} stands for the ground; give another name"),
         Some(other) => format!(
-            "{other:?} is taken, in small or capital letters; give each storey and each wall a name of its own"
+            "{other:?} is taken, in small or capital letters; give each storey and wall a name of its own"
         ),
         None => {
             names.push(text.clone());

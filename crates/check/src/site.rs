@@ -45,8 +45,8 @@ impl Records {
     }
 }
 
-/// Checks that points (T, `S_a`) are a spectrum, as they are given; `unit` is that of `S_a`, and `place` names
-/// a point by its index.
+/// Checks that points (T, `S_a`) are a spectrum, as they are given; `unit` is that of `S_a`, and `place`
+/// names a point by its index.
 ///
 /// # Errors
 /// The first whose T does not rise from 0 on, or whose `S_a` is not above 0; or that there are too few.

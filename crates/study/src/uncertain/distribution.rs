@@ -121,12 +121,10 @@ impl Shape {
             Self::Uniform([low, high]) if !positive(high - low) => {
                 Err(format!("uniform = [{low}, {high}]: the upper end must be above the lower one"))
             }
-            Self::Triangular([low, mode, high]) if !(low <= mode && mode <= high && positive(high - low)) => {
-                Err(format!(
-                    "triangular = [{low}, {mode}, {high}]: the upper end must be above the lower one, and the \
-                     mode between them"
-                ))
-            }
+            Self::Triangular([a, mode, b]) if !(a <= mode && mode <= b && positive(b - a)) => Err(format!(
+                "triangular = [{a}, {mode}, {b}]: the upper end must be above the lower one, and the mode \
+                 between them"
+            )),
             Self::Values(ref values) if values.is_empty() => {
                 Err("values = []: there must be a value at least".to_owned())
             }

@@ -163,7 +163,7 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         (
             "[uncertain.parameters]\nheight = { lognormal = [0, 0.1] }",
-            "line 7: height: lognormal = [0, 0.1]: the median and the standard deviation of the logarithm must",
+            "line 7: height: lognormal = [0, 0.1]: the median and the standard deviation of the logarithm",
         ),
         (
             "[uncertain.parameters]\nheight = { uniform = [3, 2] }",
@@ -179,11 +179,11 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
         ),
         (
             "[uncertain.parameters]\nheight = { values = [] }",
-            "line 7: uncertain.parameters.height.values needs at least 1 values, found 0",
+            "line 7: uncertain.parameters.height.values needs at least 1 value, found 0",
         ),
         (
             "[uncertain.parameters]\nheight = { values = [3], weights = [] }",
-            "line 7: uncertain.parameters.height.weights needs at least 1 values, found 0",
+            "line 7: uncertain.parameters.height.weights needs at least 1 value, found 0",
         ),
         ("[uncertain.parameters]\nheight = { normal = [3] }", "line 7: normal = [3]: expected"),
         ("[uncertain.parameters]\nheight = 3", "line 7: height = 3: expected a table"),

@@ -88,7 +88,10 @@ fn bad_requests_are_refused() {
         (&["study", "spectrum", "--pulse", "ricker", "--scale", "2"], &["--scale", "--record"]),
         (&["study", "spectrum", "--synthetic", "--heights", "1:2"], &["--heights 1:2", "FROM:TO:COUNT"]),
         (&["study", "spectrum", "--synthetic", "--heights", "2:1:5"], &["2:1:5", "FROM < TO"]),
-        (&["study", "spectrum", "--synthetic", "--angles", "0.1:2:3"], &["angle", "= 2", "thickness = -1."]),
+        (
+            &["study", "spectrum", "--synthetic", "--angles", "0.1:2:3"],
+            &["angle", "= 1.05", "at most 0.7854"],
+        ),
         (&["study", "spectrum", "--synthetic", "--ratios", "5:9:501"], &["COUNT from 2 to 500"]),
         (&["study", "spectrum", "--record", "none.AT2"], &["none.AT2", "cannot be read"]),
         (
