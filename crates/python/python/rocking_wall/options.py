@@ -47,7 +47,7 @@ class Check(TypedDict, total=False):
     - tie: The tie in the check.
     - topography: Topography of NTC 3.2.2, or S_T (-); default "T1".
     - use_class: Use class of NTC 2.4.2; in class IV SLD decides too.
-    - young_modulus: E of the masonry [Pa], for "beam", at least 1e+07.
+    - young_modulus: E of the masonry [Pa], for "beam", above 0.
     """
 
     SLC: LimitState
