@@ -62,7 +62,7 @@ pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Resu
 
 /// Finds the first value of a table that is outside the limits of the keys of `T`.
 pub(super) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault> {
-    // the scene inside an FMU was checked when it was packaged, and its library does without the texts of keys
+    // the scene inside an FMU was checked when it was packaged; its library does without the texts of keys
     if cfg!(any(feature = "fmu", feature = "component")) {
         return None;
     }
