@@ -125,7 +125,7 @@ def test_swatches_intervals_and_marks_are_printed(page):
     backgrounds, marks = browser.execute_script(
         "document.head.insertAdjacentHTML('beforeend', '<style id=probe>svg { visibility: hidden }</style>');"
         "const shown = query => [...document.querySelectorAll(query)].filter(one => one.checkVisibility());"
-        "const isLine = one => getComputedStyle(one).borderTopStyle === 'solid';"
+        "const isLine = one => one.matches('.line') && getComputedStyle(one).borderTopStyle === 'solid';"
         "const side = one => isLine(one) ? 'borderTopColor' : 'backgroundColor';"
         "return [shown('i.chip, tr.FAIL').map(one => getComputedStyle(one)[side(one)]),"
         "  shown('b.chip').map(one => getComputedStyle(one).color)];"
