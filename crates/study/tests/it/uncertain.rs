@@ -145,6 +145,7 @@ fn sensitivities_are_those_of_formulas() {
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "one list of cases")]
 fn what_cannot_be_sampled_is_refused_with_its_line() {
     let parameters = "[uncertain.parameters]\n";
     for (text, words) in [
