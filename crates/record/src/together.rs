@@ -29,7 +29,7 @@ pub(crate) enum Common<'a> {
 }
 
 impl<'a> Common<'a> {
-    /// Returns the kind of a run; `None` if it goes by itself.
+    /// Returns what a run has in common with others; `None` if it goes by itself.
     pub(crate) fn of(solver: &'a RecordSolver<'a>, record: &Blocks<'_>) -> Option<Self> {
         let RecordSolver { step, table, .. } = solver;
         if table.steppings.contains(&Stepping::Curved) {
