@@ -2,6 +2,7 @@
 //! and what is refused. `tests/python/test_estimators.py` has the numbers.
 
 use std::fs;
+use std::path::Path;
 
 use crate::command_line::{assert_has, content, folder, printed, refused, rows, succeed, text};
 use crate::ida::{bytes, part_files};
@@ -34,12 +35,22 @@ force_law = { a1 = 0.05 }
 name = "both"
 "#;
 
+/// The results of a study are those that the program compares with its inputs.
+fn assert_listed(results: &Path) {
+    let listed = || study::folder::FILES.iter().chain(&study::reliability::FILES);
+    for entry in fs::read_dir(results).unwrap().map(Result::unwrap).filter(|entry| entry.path().is_file()) {
+        let name = entry.file_name().into_string().unwrap();
+        assert!(listed().any(|file| **file == name), "study::folder::FILES lacks {name}");
+    }
+}
+
 #[test]
 fn rates_and_reliability_are_the_same_bytes() {
     let folder = folder("hazard_bytes");
     fs::write(folder.join("study.toml"), STUDY).unwrap();
     let told = printed(&folder, &["study", "reliability", "study.toml", "-o", "whole", "--threads", "1"]);
     assert_has(&told, &["target 1e-3 a year", "walls that just pass fall", "P in 30 years"]);
+    assert_listed(&folder.join("whole"));
     let whole = bytes(&folder.join("whole"));
     for name in ["rates.csv", "rate_shares.csv", "reliability.csv", "reliability.html"] {
         assert!(whole.contains_key(std::path::Path::new(name)), "{name}");
@@ -168,6 +179,7 @@ fn losses_follow_the_limit_states() {
     fs::write(folder.join("study.toml"), &study).unwrap();
     let told = printed(&folder, &["study", "ida", "study.toml", "-o", "out"]);
     assert_has(&told, &["average annual loss, of the value of the wall"]);
+    assert_listed(&folder.join("out"));
     let number = |cell: &str| cell.parse::<f64>().unwrap();
     let (rates, losses) = (rows(&folder, "out/rates.csv"), rows(&folder, "out/losses.csv"));
     assert_eq!(losses.len(), 3 * 2);
