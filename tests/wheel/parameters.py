@@ -80,9 +80,16 @@ Written by `cargo xtask generate python` from the schema of studies.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, Required, TypedDict
+from typing import Literal, Required, TypedDict, is_typeddict
 
 from numpy.random import Generator
+'''
+OPTIONS_TAIL = '''
+
+_told = [f"{name}: {kind.__doc__}" for name, kind in list(globals().items()) if is_typeddict(kind)]
+__doc__ = "\\n\\n".join([__doc__, *_told])
+__all__: list[str] = []
+"""Empty, since `help` would tell with each class what every dictionary has."""
 '''
 OPTIONS_OF_STUDY = (
     "check",
@@ -171,7 +178,7 @@ LIMITS = {
 
 def options() -> str:
     """Returns the text of the file of the options."""
-    return OPTIONS_HEAD + "".join(Options(schemas()[1]).classes.values())
+    return OPTIONS_HEAD + "".join(Options(schemas()[1]).classes.values()) + OPTIONS_TAIL
 
 
 def wrapped(words: str, indent: str = "") -> list[str]:

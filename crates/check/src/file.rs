@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rocking_wall::scene::{
     Described, Fault, Place, SceneError, Schema, parse_document, read_text, read_value, suggestion,
 };
-use run::records::{NamedRecord, RecordsTable, all_records, record_files, records};
+use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -306,6 +306,7 @@ impl<'a> CheckFile<'a> {
             named = all_records(&entry, &found, self.name(), &mut warnings)?;
             files = found.into_iter().map(|file| file.path).collect();
         }
+        warnings.extend(copies(&named));
         Ok(Records { named, files, warnings })
     }
 

@@ -4,7 +4,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
-use rocking_wall::wall::{Parameters, Ratio};
+use rocking_wall::wall::Parameters;
 use run::walls::{NamedWall, assumed, wall_parameters};
 
 use crate::errors::refused;
@@ -25,8 +25,8 @@ pub(crate) fn named_walls(
                 unused.push((name, names));
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
-            let named = NamedWall::new(name.clone(), parameters).without_damping();
-            walls.push(NamedWall { floors, assumed: wall.assumed.clone(), ..named });
+            let assumed = wall.assumed.clone();
+            walls.push(NamedWall { floors, assumed, ..NamedWall::new(name.clone(), parameters) });
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }
@@ -50,10 +50,7 @@ fn unused_names(wall: &Wall) -> Vec<&'static str> {
         name => parameter_text(&wall.scene.parameters, name) != parameter_text(&default, name),
     };
     let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
-    // ratios of a wall object belong to the damping model of its own runs
-    let is_ratio = |name: &str| Ratio::ALL.iter().any(|ratio| ratio.name() == name);
-    let not_of_study =
-        names.filter(|name| is_ratio(name) || wall_parameters().all(|of_study| of_study != *name));
+    let not_of_study = names.filter(|name| wall_parameters().all(|of_study| of_study != *name));
     let motion = wall.scene.excitation.is_some().then_some("the motion of its scene");
     not_of_study.filter(given).chain(motion).collect()
 }

@@ -39,8 +39,18 @@ pub use axes::{apart, label, number, ticks};
 /// assert_eq!(report::escaped("a < b"), "a &lt; b");
 /// ```
 pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    // what XML cannot hold
+    let cannot =
+        |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r') || matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.replace(cannot, "\u{fffd}")
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
+
+/// What a table that may scroll begins with: the keyboard reaches it.
+pub const SCROLLS: &str = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table\">";
 
 /// Returns a count with its noun.
 ///

@@ -50,6 +50,6 @@ impl Page {
     /// Returns the page.
     pub fn html(&self) -> String {
         let parts = [("style", &*self.style), ("title", &*self.title), ("body", &*self.body)];
-        template::page("<style>\n{{style}}</style>\n<h1>{{title}}</h1>\n{{body}}", &parts)
+        template::page("<style>\n{{style}}</style>\n<main>\n<h1>{{title}}</h1>\n{{body}}</main>\n", &parts)
     }
 }

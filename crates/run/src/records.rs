@@ -1,6 +1,7 @@
 //! Records by their names: the table `[records]` of a study or a check, with files, folders and patterns.
 
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use ground_motion::{
@@ -176,6 +177,39 @@ pub fn all_records(
         records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
     }
     Ok(records)
+}
+
+/// Groups the records that are one motion, by their steps and samples.
+pub fn motions(records: &[NamedRecord]) -> Vec<Vec<&NamedRecord>> {
+    let mut groups: Vec<Vec<&NamedRecord>> = Vec::new();
+    let mut places = BTreeMap::new();
+    for record in records {
+        let mut hasher = DefaultHasher::new();
+        let motion = &record.motion;
+        let numbers = motion.samples().iter().copied().chain([motion.step()]);
+        // zeros of both signs are equal
+        numbers.for_each(|number| (number + 0.0).to_bits().hash(&mut hasher));
+        let place = *places.entry(hasher.finish()).or_insert(groups.len());
+        match groups.get_mut(place).filter(|group| group[0].motion == *motion) {
+            Some(group) => group.push(record),
+            None => groups.push(vec![record]),
+        }
+    }
+    groups
+}
+
+/// Warns of records that are one motion: a copy of a file, or a file that is named in two ways.
+pub fn copies(records: &[NamedRecord]) -> Vec<String> {
+    let copies = motions(records).into_iter().filter(|group| group.len() > 1);
+    let warning = |group: Vec<&NamedRecord>| {
+        let names: Vec<_> = group.iter().map(|record| format!("{:?}", record.name)).collect();
+        format!(
+            "records {} are the same motion, which counts {} times; keep one of them",
+            names.join(", "),
+            names.len()
+        )
+    };
+    copies.map(warning).collect()
 }
 
 /// Lists the files of a folder in the order of their names, but for hidden ones and the times beside records.

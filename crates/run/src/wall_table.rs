@@ -15,16 +15,18 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The column of the walls' names.
 const NAME: &str = "name";
 
-/// Reads the walls of a table, and returns them with warnings. An empty cell leaves its parameter at the
-/// default, a row without any content is skipped, and one with a name and no value refused.
-pub(crate) fn read(path: &Path) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
+/// Parameters that every wall of a table has if one has it.
+const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
+
+/// Reads the walls of a table. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
+/// row without any content is skipped, and one with a name and no value refused.
+pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
     let file = path.display().to_string();
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
 }
 
-/// Reads the walls from the text of a table, and returns them with warnings; `file` stands for it in
-/// messages.
-fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
+/// Reads the walls from the text of a table; `file` stands for it in messages.
+fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
     let fail =
         |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, key: None, message };
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
@@ -64,6 +66,12 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             let message = "the wall has a name and no value; write one in a column, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         }
+        let gap = WITHOUT_GAPS.into_iter().find(|name| names.contains(name) && !stated.contains(name));
+        if let Some(gap) = gap {
+            let message =
+                format!("the wall {wall:?} has no {gap}; write it, or delete the row or the column");
+            return Err(fail(row.line, message));
+        }
         walls.push(NamedWall::new(wall, scene.parameters.clone()).stating(stated));
     }
     for (column, thousands) in names.iter().zip(thousands) {
@@ -75,18 +83,7 @@ fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneE
             "the table has no walls; write a row for each below this line".to_owned(),
         ));
     }
-    let warnings = defaults(&walls).map(|warning| format!("{file}: {warning}")).collect();
-    Ok((walls, warnings))
-}
-
-/// Warns about walls for which the table gives no height or no thickness.
-fn defaults(walls: &[NamedWall]) -> impl Iterator<Item = String> {
-    let Parameters { height, thickness, .. } = Parameters::default();
-    [("height", height), ("thickness", thickness)].into_iter().filter_map(|(size, default)| {
-        let (count, all) = (walls.iter().filter(|wall| wall.assumed.contains(&size)).count(), walls.len());
-        (count > 0)
-            .then(|| format!("{count} of {all} walls have no {size}; the default of {default} m counts"))
-    })
+    Ok(walls)
 }
 
 /// Refuses columns that are no parameters, and a table without names of walls.
@@ -114,19 +111,19 @@ mod tests {
     #[test]
     fn walls_of_a_table() {
         let text = "name, height,force_law\n\"a, \"\"b\"\"\",3.5,trilinear\n\nc,3.6,\n";
-        let (walls, _) = parse("walls.csv", text).unwrap();
+        let walls = parse("walls.csv", text).unwrap();
         assert_eq!((walls.len(), walls[0].name.as_str()), (2, "a, \"b\""));
         assert_eq!(walls[0].parameters.height, 3.5);
         let default = rocking_wall::wall::Parameters::default();
         assert_eq!(walls[1].parameters, rocking_wall::wall::Parameters { height: 3.6, ..default.clone() });
         // a table of names only has walls of the default
-        assert_eq!(parse("walls.csv", "name\na\n").unwrap().0[0].parameters, default);
+        assert_eq!(parse("walls.csv", "name\na\n").unwrap()[0].parameters, default);
     }
 
     #[test]
     fn tables_are_read_as_people_have_them() {
         let of = |text: &str| -> Vec<(String, f64, f64)> {
-            let (walls, _) = parse("walls.csv", text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let walls = parse("walls.csv", text).unwrap_or_else(|error| panic!("{text}: {error}"));
             let sizes = |p: &rocking_wall::wall::Parameters| (p.height, p.thickness);
             walls
                 .iter()
@@ -149,23 +146,7 @@ mod tests {
             assert_eq!(of(text), expected, "{text}");
         }
         // a tab stands for an empty cell, too
-        assert_eq!(of("name\theight\tthickness\na\t\t0.3\n")[0].2, 0.3);
-    }
-
-    #[test]
-    fn sizes_of_the_default_are_warned_of() {
-        let of = |text: &str| parse("walls.csv", text).unwrap().1;
-        assert!(of("name,height,thickness\na,3,0.3\n,,\nb,2,0.3\n").is_empty());
-        let default = rocking_wall::wall::Parameters::default();
-        let thickness = format!("have no thickness; the default of {} m counts", default.thickness);
-        assert_eq!(of("name,height\na,3\nb,2\n"), [format!("walls.csv: 2 of 2 walls {thickness}")]);
-        assert_eq!(
-            of("name,height,thickness\na,3,0.3\nb,2,\n"),
-            [format!("walls.csv: 1 of 2 walls {thickness}")]
-        );
-        let height = format!("have no height; the default of {} m counts", default.height);
-        let both = [height, thickness].map(|words| format!("walls.csv: 1 of 1 walls {words}"));
-        assert_eq!(of("name,density\na,1800\n"), both);
+        assert_eq!(of("name\ta1\theight\tthickness\na\t\t2\t0.3\n")[0].2, 0.3);
     }
 
     #[test]
@@ -175,7 +156,10 @@ mod tests {
             ("height\n3", "needs a column"),
             ("name,height\n", "line 1: the table has no walls"),
             ("name,height\n,\n", "line 1: the table has no walls"),
-            ("name,height,thickness\na,3,\nb,,\n", "line 3: the wall has a name and no value"),
+            ("name,height,a1\na,3,\nb,,\n", "line 3: the wall has a name and no value"),
+            ("name,height,thickness\na,3,.3\nb,3,\n", "line 3: the wall \"b\" has no thickness; write it"),
+            ("name,height,density\na,3,\n", "line 2: the wall \"a\" has no density; write it"),
+            ("name;height;a1\na;;0,1\n", "line 2: the wall \"a\" has no height; write it"),
             (
                 ",name,height\n0,a,3\n",
                 "delete the first column, an index without a name (pandas: index=False)",

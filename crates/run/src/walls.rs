@@ -7,7 +7,7 @@ use rocking_wall::scene::{
     apply_group, object, parameters, parse_document, parse_toml, read_floors, suggestion,
 };
 use rocking_wall::tables;
-use rocking_wall::wall::{Bar, COMPUTED, Parameters, Ratio};
+use rocking_wall::wall::{Bar, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
@@ -83,13 +83,6 @@ fn scene_and_stated(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneErro
 }
 
 impl NamedWall {
-    /// Leaves out ξ and c̄ of a scene: they belong to the damping model of its own run.
-    #[must_use]
-    pub fn without_damping(mut self) -> Self {
-        self.parameters.leave_out_ratios();
-        self
-    }
-
     /// Takes the names of the parameters that its file states; no other is stated.
     #[must_use]
     pub(crate) fn stating(self, stated: Vec<&'static str>) -> Self {
@@ -300,7 +293,7 @@ pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
 }
 
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
-/// looked up beside its file. Adds the files that are read, and warnings about tables.
+/// looked up beside its file. Adds the files that are read, and warnings about defaults.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
@@ -316,9 +309,10 @@ pub fn read_walls(
     inputs.push(path.to_owned());
     for (place, entry) in walls_of(&name, text)?.into_iter().enumerate() {
         // a check uses neither the motion nor the damping of a scene
-        let found = self::walls(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?;
+        let found = self::walls(entry, folder, &name, inputs, &mut Vec::new())?;
         walls.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
     }
+    warnings.extend(defaults(&name, walls.iter()));
     check_unique("walls", walls.iter().map(|wall| &wall.name))
         .map_err(|reason| SceneError::File { file: name, reason })?;
     Ok(walls)
@@ -327,8 +321,8 @@ pub fn read_walls(
 /// The name of a wall, and what the study ignores of its scene.
 pub type Ignored = (String, &'static str);
 
-/// Reads the walls of an entry. Adds the files that it names to `inputs`, what the study ignores of a scene,
-/// and warnings about a table.
+/// Reads the walls of an entry. Adds the files that it names to `inputs`, and what the study ignores of a
+/// scene.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
@@ -337,7 +331,7 @@ pub fn walls(
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
+    ignored: &mut Vec<Ignored>,
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         key: None,
@@ -352,9 +346,7 @@ pub fn walls(
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
-            let (walls, found) =
-                wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
-            warnings.extend(found);
+            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
             inputs.push(path);
             Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
         }
@@ -369,14 +361,23 @@ pub fn walls(
                 let warning = "the study ignores the motion of its scene and uses its records";
                 ignored.push((name.clone(), warning));
             }
-            if Ratio::ALL.iter().any(|ratio| ratio.of(&scene.parameters) != COMPUTED) {
-                let warning = "the study ignores the damping of its scene and uses its models";
-                ignored.push((name.clone(), warning));
-            }
             let floors = entry.floors.or(scene.floors);
             Ok(vec![NamedWall { floors, ..NamedWall::new(name, scene.parameters).stating(stated) }])
         }
     }
+}
+
+/// Warns of walls of a file whose height or thickness nobody stated.
+pub fn defaults<'a>(file: &str, walls: impl Iterator<Item = &'a NamedWall> + Clone) -> Vec<String> {
+    let Parameters { height, thickness, .. } = Parameters::default();
+    let warning = |(size, default): (&str, f64)| {
+        let (count, all) =
+            (walls.clone().filter(|wall| wall.assumed.contains(&size)).count(), walls.clone().count());
+        let told =
+            format!("{file}: {count} of {all} walls have no {size}; the default of {default} m counts");
+        (count > 0).then_some(told)
+    };
+    [("height", height), ("thickness", thickness)].into_iter().filter_map(warning).collect()
 }
 
 /// Refuses a name that occurs twice.

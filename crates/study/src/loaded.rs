@@ -7,9 +7,9 @@ use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::scene::{SceneError, read_text};
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
-use run::records::{NamedRecord, all_records, record_files};
+use run::records::{NamedRecord, all_records, copies, record_files};
 use run::wall_text::{wall_of_text, wall_text};
-use run::walls::{Ignored, NamedWall, WallSource, assumed, check_unique, walls};
+use run::walls::{Ignored, NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
@@ -67,10 +67,8 @@ impl LoadedStudy {
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
         for (place, entry) in std::mem::take(&mut file.walls).into_iter().enumerate() {
-            let is_scene = matches!(entry.source, WallSource::Scene(..));
-            let found = walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?;
-            let found = found.into_iter().map(|wall| NamedWall { entry: place, ..wall });
-            all.extend(found.map(|wall| if is_scene { wall.without_damping() } else { wall }));
+            let found = walls(entry, folder, &name, &mut inputs, &mut ignored)?;
+            all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
@@ -174,6 +172,7 @@ impl LoadedStudy {
         };
         // of samples the first of each wall
         let every = walls.len().checked_div(sampled.len()).unwrap_or(1).max(1);
+        warnings.extend(defaults(name, walls.iter().step_by(every)));
         warn(walls.iter().step_by(every), ignored, (&file.models, &file.measure), &mut warnings);
         let StudyFile { title, models, measure, select, levels, report, target, .. } = file;
         let records = match select {
@@ -187,6 +186,7 @@ impl LoadedStudy {
             .with_polarity(file.polarity);
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         warnings.extend(alike(&study));
+        warnings.extend(copies(&study.given_records()));
         Ok(Self { title, study, report, inputs: Vec::new(), warnings, text, target, sampled })
     }
 }

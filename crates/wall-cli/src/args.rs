@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use ground_motion::{
     Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
     parse, parse_channels, read,
 };
-use rocking_wall::scene::Scene;
+use rocking_wall::scene::{Place, Scene, parse_document, set_names};
 use rocking_wall::simulation::Excitation;
 use run::record_facts;
 use run::records::folder_files;
@@ -58,6 +59,9 @@ pub(crate) struct MotionArguments {
     /// Use the project's synthetic motion
     #[arg(long, conflicts_with = "recorded")]
     pub(crate) synthetic: bool,
+    /// Seed of the synthetic motion, by default 1; another seed gives another motion of its kind
+    #[arg(long, requires = "synthetic", conflicts_with = "recorded", value_name = "NUMBER")]
+    seed: Option<u64>,
     /// Factor on the motion given here
     #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
     pub(crate) scale: Option<f64>,
@@ -78,6 +82,8 @@ impl SceneArguments {
         let scene = Scene::read(path).map_err(|error| {
             if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
                 anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
+            } else if let Some(command) = command_of(path) {
+                anyhow!("{error}; this file is no scene: {command} takes it")
             } else {
                 error.into()
             }
@@ -98,6 +104,14 @@ impl SceneArguments {
             None => error.into(),
         })
     }
+}
+
+/// Finds the command of a file that has the keys of a study or of walls.
+fn command_of(path: &Path) -> Option<&'static str> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let document = parse_document(&Place::new("", &text)).ok()?;
+    let commands = [("models", "wall study ida"), ("walls", "wall check")];
+    commands.into_iter().find(|(key, _)| document.contains_key(*key)).map(|(_, command)| command)
 }
 
 /// Applies `--set` to a scene, after a motion may have changed the start.
@@ -121,8 +135,15 @@ pub(crate) fn svg_file() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// Replaces what Rust says of a text that is no number.
-pub(crate) fn in_plain_words(message: &str) -> String {
+/// Replaces what Rust says of a text that is no number, and says how a parameter is given.
+pub(crate) fn in_plain_words(refused: &clap::Error) -> String {
+    let mut message = refused.to_string();
+    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
+        (refused.kind(), refused.get(ContextKind::InvalidArg))
+        && let Some(name) = set_names().find(|name| option.strip_prefix("--") == Some(name))
+    {
+        message += &format!("\n{name} is a parameter of a wall: give it as --set {name}=VALUE\n");
+    }
     [
         ("invalid float literal", "expected a number with a decimal point, such as 0.3"),
         ("invalid digit found in string", "expected a whole number"),
@@ -133,7 +154,7 @@ pub(crate) fn in_plain_words(message: &str) -> String {
         ("number would be zero for non-zero type", "expected a number from 1 on"),
     ]
     .into_iter()
-    .fold(message.to_owned(), |text, (rust, plain)| text.replace(rust, plain))
+    .fold(message, |text, (rust, plain)| text.replace(rust, plain))
 }
 
 /// Refuses the first option that is given, and says why.
@@ -212,7 +233,7 @@ impl RecordArguments {
         let MotionArguments { synthetic, scale, pga, .. } = &self.motion;
         let (motion, note) = match &self.record {
             Some(path) => self.read(console, path)?,
-            None if *synthetic => (SyntheticMotion::default().motion()?, SYNTHETIC.to_owned()),
+            None if *synthetic => (self.motion.synthetic()?, SYNTHETIC.to_owned()),
             None if scale.is_some() || pga.is_some() => {
                 bail!(
                     "--scale and --pga act on a motion given with --record or --synthetic; give one of them"
@@ -243,13 +264,19 @@ impl MotionArguments {
         })
     }
 
+    /// Makes the synthetic motion.
+    fn synthetic(&self) -> Result<GroundMotion> {
+        let usual = SyntheticMotion::default();
+        Ok(SyntheticMotion { seed: self.seed.unwrap_or(usual.seed), ..usual }.motion()?)
+    }
+
     /// Reads every channel of a record, or the one that is asked for, and scales them; without a path the
     /// channel of the synthetic motion. `-` is standard input.
     pub(crate) fn channels(&self, console: &Console<'_>, path: Option<&Path>) -> Result<Vec<Record>> {
         let options = self.options()?;
         let mut records = match path {
             None => {
-                let csv = record_facts::samples(&SyntheticMotion::default().motion()?);
+                let csv = record_facts::samples(&self.synthetic()?);
                 parse_channels(SYNTHETIC, csv.into_bytes(), &options)?
             }
             Some(path) => match standard_input(path)? {

@@ -37,7 +37,7 @@ pub fn run<T: Into<OsString> + Clone>(
     let told = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments.run(&console),
         Err(refused) if refused.use_stderr() => {
-            console.to_stderr(&args::in_plain_words(&refused.to_string()));
+            console.to_stderr(&args::in_plain_words(&refused));
             return BAD_INPUT;
         }
         Err(help) => console.print(&help.to_string()).map(|()| 0),

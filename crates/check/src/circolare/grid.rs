@@ -5,6 +5,8 @@
 //! four nodes around the site it is their mean by the inverse of the distances. So NTC 2008, Annex A, is
 //! remembered in the field; its text was not seen.
 
+use std::borrow::Cow;
+
 use ground_motion::columns::{Columns, Fault, Name, Numbers};
 use serde::Deserialize;
 
@@ -44,7 +46,8 @@ pub(super) type GridFault = (usize, String);
 
 impl Grid {
     /// Reads a grid from a table with columns `lon` and `lat` in degrees and, for each return period T in
-    /// years, `ag_T`, `F0_T` and `TC_T`. `unit` is that of `a_g` \[g\]. Other columns are passed over.
+    /// years, `ag_T`, `F0_T` and `TC_T`, or as the ministry has them, `Fo` and `TC*`, and T in a line above.
+    /// `unit` is that of `a_g` \[g\]. Other columns are passed over.
     ///
     /// # Errors
     /// The line and what is wrong with it: a column that is missing, a number that cannot be, two nodes in
@@ -52,13 +55,14 @@ impl Grid {
     pub(super) fn read(text: &str, unit: f64) -> Result<Self, GridFault> {
         let fault = |fault: Fault| (fault.line(), fault.to_string());
         let forms = "a grid: a line of names (lon, lat, ag_30, F0_30, TC_30, …), and a row for each node";
-        let columns = Columns::of_texts(text.trim_start_matches('\u{feff}'), forms).map_err(fault)?;
+        let text = with_periods(text.trim_start_matches('\u{feff}'));
+        let columns = Columns::of_texts(&text, forms).map_err(fault)?;
         let head = columns.line();
         let names: Vec<String> = columns
             .names()
             .iter()
             .map(Name::written)
-            .map(|name| name.replace('*', "").to_lowercase())
+            .map(|name| name.replace('*', "").to_lowercase().replace("fo_", "f0_"))
             .collect();
         let column = |names_of: &[&str]| {
             let found = names.iter().position(|name| names_of.contains(&name.as_str()));
@@ -186,15 +190,44 @@ impl SiteHazard {
     }
 }
 
+/// Puts return periods that stand above the names, `TR = 30` above `ag`, behind these: `ag_30`.
+fn with_periods(text: &str) -> Cow<'_, str> {
+    let mut lines = text.split_inclusive('\n').skip_while(|line| line.trim().is_empty());
+    let (Some(above), Some(names)) = (lines.next(), lines.next()) else { return text.into() };
+    let separator = [';', '\t', ','].into_iter().find(|mark| above.contains(*mark)).unwrap_or(';');
+    let period = |cell: &str| {
+        let is_period = cell.trim_matches([' ', '"']).to_lowercase().starts_with("tr");
+        is_period.then(|| cell.chars().filter(char::is_ascii_digit).collect::<String>())
+    };
+    let mut periods = above.trim_end().split(separator).map(period);
+    if periods.clone().flatten().all(|digits| digits.is_empty()) {
+        return text.into();
+    }
+    let mut last = String::new();
+    let of_name = |name: &str| {
+        last = periods.next().flatten().unwrap_or(std::mem::take(&mut last));
+        let name = name.trim_matches([' ', '"']);
+        if last.is_empty() { name.to_owned() } else { format!("{name}_{last}") }
+    };
+    let joined: Vec<_> = names.trim_end().split(separator).map(of_name).collect();
+    // every line keeps its number
+    text.replacen(above, "\n", 1)
+        .replacen(names, &format!("{}\n", joined.join(&separator.to_string())), 1)
+        .into()
+}
+
 /// Finds the return periods of the columns `ag_T`, rising, and as they are written \[years\].
 ///
 /// # Errors
 /// The reason: fewer than two periods, or a period that is given twice, such as by `ag_30` and `ag_030`.
 fn periods(names: &[String]) -> Result<Vec<(f64, &str)>, String> {
     let written = names.iter().filter_map(|name| name.strip_prefix("ag_"));
-    let mut periods: Vec<(f64, &str)> =
-        written.filter_map(|written| Some((written.parse().ok()?, written))).collect();
-    periods.retain(|(period, _)| *period > 0.0 && period.is_finite());
+    let period =
+        |written: &str| written.parse().ok().filter(|period: &f64| *period > 0.0 && period.is_finite());
+    let no_period = |written: &str| format!("column ag_{written}: {written:?} is no return period in years");
+    let mut periods = written
+        .map(|written| Ok((period(written).ok_or_else(|| no_period(written))?, written)))
+        .collect::<Result<Vec<_>, String>>()?;
     periods.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let Some(same) = periods.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         let (a, b) = (same[0].1, same[1].1);
@@ -340,8 +373,9 @@ mod tests {
         for (text, line, words) in [
             (text.to_owned(), 2, "a_g = 1.9 g is above 1.5 g; state the unit"),
             (text.replace("lat", "phi"), 1, "no column \"lat\""),
+            (text.replace("_475", "_475y"), 1, "column ag_475y: \"475y\" is no return period in years"),
             (text.replace("F0_475", "F0"), 1, "no column \"f0_475\""),
-            (text.replace("_475", ""), 1, "two return periods T or more"),
+            (text.replace("ag_475", "peak"), 1, "two return periods T or more"),
             (text.replace("_475", "_030"), 1, "columns ag_30 and ag_030 have the same return period"),
             (text.replace("1.9,2.5", "0.9,0"), 2, "must be above 0"),
             (text.replace("1.9", "x"), 2, "a finite number"),
@@ -351,6 +385,13 @@ mod tests {
             assert!(found == line && told.contains(words), "{found} {told}");
         }
         let grid = Grid::read(text, 0.1).unwrap();
+        // the heads of the ministry
+        let heads = ";;TR = 30;;;TR = 475;;\nLON;LAT;ag;Fo;TC*;ag;Fo;TC*\n";
+        let ministry = heads.to_owned() + &text.lines().nth(1).unwrap().replace(',', ";").replace('.', ",");
+        assert_eq!(Grid::read(&ministry, 0.1), Ok(grid.clone()));
+        assert_eq!(Grid::read(&text.replace("F0", "Fo").replace("TC", "Tc*"), 0.1), Ok(grid.clone()));
+        let (line, told) = Grid::read(&ministry.replace("2,4", "x"), 0.1).unwrap_err();
+        assert!(line == 3 && told.contains("found `x`"), "{line} {told}");
         // periods are found as they are written
         let others = text.replace("_30", "_030").replace("_475", "_475.0");
         assert_eq!(Grid::read(&others, 0.1), Ok(grid));

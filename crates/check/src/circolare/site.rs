@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use report::number;
 use rocking_wall::scene::SceneError;
+use rocking_wall::wall::Usual;
 
 use crate::error::CheckError;
 use crate::file::lines_of_grid;
@@ -17,7 +18,17 @@ use super::table::{CheckTable, SiteTable};
 pub(super) struct FromGrid {
     pub(super) file: Option<PathBuf>,
     pub(super) notes: Vec<String>,
+    /// Where `a_g` is not that of a site in its unit.
+    pub(super) warning: Option<String>,
 }
+
+/// Usual `a_g` of T_R = 475 years: the hazard of Italy has 0.04 to 0.28 g.
+const AG: Usual = Usual {
+    name: "a_g of the grid at T_R = 475 years",
+    unit: "g",
+    range: [0.03, 0.35],
+    others: &[("in g/10 or m/s2", 0.1), ("in g and not in g/10", 10.0)],
+};
 
 /// Fills in `ag`, F0 and TC of the limit states that leave them out; a spectrum needs `ag` alone. Files are
 /// beside the one of the table.
@@ -69,7 +80,8 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         "{place}: {how}, straight over log T_R, as NTC 2008, Annex A, is known in the field; its text was \
          not seen. Compare the numbers with those of the ministry."
     ));
-    Ok(Some(FromGrid { file, notes }))
+    let warning = AG.warning(hazard.hazard(475.0).ag).map(|warning| format!("{warning}; state ag_unit"));
+    Ok(Some(FromGrid { file, notes, warning }))
 }
 
 fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHazard, CheckError> {

@@ -1,6 +1,7 @@
 //! The table `[check]`, validated.
 
 use rocking_wall::wall::{ParameterError, Parameters};
+use run::records::motions;
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
@@ -73,13 +74,16 @@ impl Statement {
             return Err(CheckError::value(&["tie", "bar"], message));
         }
         statement.records = file.records(statement.table.records.as_ref())?;
-        if let Some(FromGrid { file, notes }) = from_grid {
+        if let Some(FromGrid { file, notes, warning }) = from_grid {
             statement.records.files.extend(file);
+            statement.records.warnings.extend(warning);
             statement.site_notes = notes;
         }
-        let count = statement.records.named.len();
+        let count = motions(&statement.records.named).len();
         if (1..FEWEST_RECORDS).contains(&count) {
-            let message = format!("records: found {count}; at least {FEWEST_RECORDS} records (NTC 7.3.5)");
+            let message = format!(
+                "records: found {count}, copies aside; at least {FEWEST_RECORDS} records (NTC 7.3.5)"
+            );
             return Err(CheckError::value(&["records"], message));
         }
         Ok(statement)

@@ -55,9 +55,10 @@ pub(crate) fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> Strin
 
 /// A table of markup; without heads if there are none.
 pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> String {
-    let mut text = String::from("<div class=\"scroll\"><table>\n");
+    let mut text = [report::SCROLLS, "<table>\n"].concat();
     if !heads.is_empty() {
         let _ = writeln!(text, "<thead><tr><th>{}</th></tr></thead>", heads.join("</th><th>"));
+        text = text.replace("<th></th>", "<td></td>");
     }
     for row in rows {
         let _ = writeln!(text, "<tr><td>{}</td></tr>", row.join("</td><td>"));

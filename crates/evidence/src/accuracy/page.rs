@@ -70,7 +70,7 @@ fn figure(caption: &str, plot: &Plot) -> String {
 fn figures(key: impl IntoIterator<Item = (String, String)>, figures: impl Iterator<Item = String>) -> String {
     let key: Vec<_> = key.into_iter().map(|(sign, words)| sign + &words).collect();
     let (key, figures) = (key.join("</span>\n<span>"), figures.collect::<String>());
-    format!("<p class=\"key\"><span>{key}</span></p>\n<main class=\"figures\">\n{figures}</main>")
+    format!("<p class=\"key\"><span>{key}</span></p>\n<div class=\"figures\">\n{figures}</div>")
 }
 
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are

@@ -63,7 +63,7 @@ rect:hover { stroke: #000; }";
 pub fn page(maps: &[Map], extremes: &[Comparison]) -> String {
     let drawn = |quantity: RowQuantity, words: &str| {
         let figures: String = maps.iter().filter(|map| map.quantity == quantity).map(figure).collect();
-        format!("{words}<main class=\"figures\">\n{figures}</main>")
+        format!("{words}<div class=\"figures\">\n{figures}</div>")
     };
     let steps = "<p>For <i>automatic</i> the step is the communication step; for <i>newmark</i> it is the \
                  step of the scheme.</p>\n";

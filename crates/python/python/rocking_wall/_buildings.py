@@ -14,7 +14,7 @@ from . import _native
 from ._given import Attribute
 from ._records import Record, motion_of, scaled
 from ._responses import Instant
-from ._tables import Table
+from ._tables import Table, printable
 
 Array = NDArray[np.float64]
 
@@ -93,7 +93,7 @@ class BuildingResponse:
     def __repr__(self) -> str:
         fallen = [name for name, wall in self.walls.items() if wall.falls]
         fate = f"fallen: {', '.join(fallen)}" if fallen else "all walls standing"
-        return f"BuildingResponse({self.title!r}, {self.time[-1]:g} s, {fate})"
+        return printable(f"BuildingResponse({self.title!r}, {self.time[-1]:g} s, {fate})")
 
     @property
     def peaks(self) -> Table:
@@ -138,7 +138,7 @@ class Building:
         return cls(path)
 
     def __repr__(self) -> str:
-        return f"Building({self.title!r}, {len(self.floors)} floors, {len(self.walls)} walls)"
+        return printable(f"Building({self.title!r}, {len(self.floors)} floors, {len(self.walls)} walls)")
 
     def simulate(
         self, record: Record, *, scale: float = 1.0, tail: float = 10.0, tolerance: float = 0.01

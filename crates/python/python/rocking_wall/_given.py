@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import Any, Generic, NoReturn, TypeVar, overload
 
 from . import _native
@@ -35,6 +36,11 @@ class Given:
 
     A parameter to be computed is -1.
     """
+
+    def __getattr__(self, name: str) -> NoReturn:
+        close = get_close_matches(name, dir(type(self)), 1)
+        meant = f"; did you mean {close[0]!r}?" if close else ""
+        raise AttributeError(f"a wall has no {name!r}{meant}", name=name, obj=None)
 
     _native: _native.Wall
 

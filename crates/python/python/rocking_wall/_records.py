@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _native
-from ._tables import drawn
+from ._tables import drawn, printable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -94,7 +94,7 @@ class Record:
         >>> from types import SimpleNamespace
         >>> trace = SimpleNamespace(data=[0.0, 12.5, -3.0], stats=SimpleNamespace(delta=0.01, channel="HNE"))
         >>> Record.from_trace(trace, "cm/s2")
-        Record('HNE', 3 samples of 0.01 s, PGA 0.125 m/s²)
+        Record('HNE', 3 samples of 0.01 s, PGA 0.125 m/s2)
         """
         data, stats = getattr(trace, "data", None), getattr(trace, "stats", None)
         delta = getattr(stats, "delta", None)
@@ -115,7 +115,8 @@ class Record:
         return cls(float(delta), data, unit=unit, name=name, warnings=warnings)
 
     def __repr__(self) -> str:
-        return f"Record({self.name!r}, {len(self.a)} samples of {self.dt:g} s, PGA {self.pga:.4g} m/s²)"
+        size = f"{len(self.a)} samples of {self.dt:g} s"
+        return printable(f"Record({self.name!r}, {size}, PGA {self.pga:.4g} m/s2)")
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -361,7 +362,7 @@ def synthetic_record(
     """Makes filtered noise with an envelope: another `seed` gives another record of the same kind.
 
     >>> synthetic_record(7, pga=2.0)
-    Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s²)
+    Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s2)
     """
     seed = drawn(seed)
     return Record(*_native.synthetic(seed, duration, dt, pga), name=f"synthetic {seed}")

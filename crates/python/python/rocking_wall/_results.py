@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._native import verify_formulas
-from ._tables import Table, Tabular, toml_lines
+from ._tables import Table, Tabular, printable, toml_lines
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,7 +43,7 @@ class Verdict:
     _given: tuple[Any, ...] = field(compare=False, repr=False)
 
     def __repr__(self) -> str:
-        return f"Verdict({self.headline})"
+        return printable(f"Verdict({self.headline})")
 
     def write_report(
         self, path: str | PathLike[str], *, title: str | None = None, **project: Any
@@ -85,7 +85,7 @@ class RockingSpectrum(Tabular):
     def __repr__(self) -> str:
         rows, columns = self.u_ratio_max.shape
         return (
-            f"RockingSpectrum({self.row_name} × {self.column_name}, {rows} × {columns}, "
+            f"RockingSpectrum({self.row_name} x {self.column_name}, {rows} x {columns}, "
             f"{int(self.overturned.sum())} overturned)"
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike, fspath
 from os.path import abspath
 from pathlib import Path
@@ -17,7 +17,7 @@ from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
 from ._given import Attribute
 from ._records import Record, motion_of, read_record
-from ._tables import Table, toml, toml_lines
+from ._tables import Table, printable, toml, toml_lines
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -80,10 +80,11 @@ class Study:
         """Reads a study file, or makes a study of its parts. `help(rocking_wall.options)` lists the keys of
         dictionaries. A NumPy generator in place of a seed draws one.
 
-        :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
-            their names in a column `name` or an index of that name; or walls, or dictionaries of parameters,
-            in a list or by their names. What is missing has its default. Damping and impact are those of the
-            models.
+        :param walls: A DataFrame, a Dataset or other table with a column for each parameter, a row for each
+            wall, and their names in a column `name` or the index; or walls, or dictionaries of parameters, in
+            a list or by their names. What is missing has its default, but no gap of a table in height,
+            thickness or density. Damping and impact are those of the models; ξ and c̄ serve those that have
+            none of their own.
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR (restitution), "CR rigid", CDC
             (constant coefficient) and CDR (constant ratio).
@@ -164,7 +165,7 @@ class Study:
 
     def __repr__(self) -> str:
         walls, records, models = len(self.walls), len(self.records), len(self.models)
-        return f"Study({self.title!r}, {walls} walls, {records} records, {models} damping models)"
+        return printable(f"Study({self.title!r}, {walls} walls, {records} records, {models} damping models)")
 
     def __len__(self) -> int:
         return len(self._native)
@@ -241,20 +242,36 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
     """Returns names, and walls or dictionaries of their parameters."""
     if isinstance(walls, Wall):
         walls = [walls]
+    elif hasattr(walls, "to_dataframe"):
+        # a Dataset of xarray has coordinates beside its columns
+        walls = rows_of(walls.to_dataframe())
     elif hasattr(walls, "columns"):
         walls = rows_of(walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
             walls = rows_of_columns(walls)
         else:
-            return [(str(name), one_wall(wall)) for name, wall in walls.items()]
-    return [(name_of(wall, number), one_wall(wall)) for number, wall in enumerate(walls, 1)]
+            return [(str(name), one_wall(wall, str(name))) for name, wall in walls.items()]
+    if not isinstance(walls, Iterable) or isinstance(walls, str | PathLike):
+        remedy = "give a table, walls, or dictionaries of parameters; a study file goes to Study.from_toml"
+        raise TypeError(f"walls = {walls!r}: {remedy}")
+    return [(name_of(wall, number), one_wall(wall, number)) for number, wall in enumerate(walls, 1)]
 
 
 def rows_of(frame: Any) -> list[dict[str, Any]]:
-    """Returns the rows of a table that have content; names may be an index called `name`."""
-    if "name" in getattr(getattr(frame, "index", None), "names", ()) and "name" not in frame.columns:
-        frame = frame.reset_index()
+    """Returns the rows of a table that have content.
+
+    An index with a name is a column, and one without has the names of the walls; but for numbers from 0 on.
+    """
+    index = getattr(frame, "index", None)
+    levels = list(getattr(index, "names", ()))
+    is_counted = type(index).__name__ == "RangeIndex" and (index.start, index.step) == (0, 1)
+    if levels == [None] and "name" not in frame.columns and not is_counted:
+        frame = frame.rename_axis("name").reset_index()
+    elif levels not in ([], [None]) and not is_counted:
+        twice = [level for level in levels if level in frame.columns]
+        frame = frame.reset_index(twice, drop=True) if twice else frame
+        frame = frame.reset_index() if len(twice) < len(levels) else frame
     # a table of pyarrow has names beside its columns
     columns = list(getattr(frame, "column_names", frame.columns))
     names = [str(name) for name in columns]
@@ -269,6 +286,12 @@ def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
 
     A row without a name is refused.
     """
+    single = [name for name, each in columns.items() if isinstance(each, str) or np.ndim(each) == 0]
+    if single:
+        raise TypeError(
+            f"the column {single[0]!r} of a table of walls is one value; give one wall as [{{...}}], or a "
+            "list for each column"
+        )
     cells = [each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values()]
     if len({len(column) for column in cells}) > 1:
         found = ", ".join(f"{name!r} has {len(column)}" for name, column in zip(columns, cells))
@@ -283,22 +306,32 @@ def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
     return filled
 
 
-def name_of(wall: object, number: int) -> str:
+def name_of(wall: object, number: object) -> str:
     """Returns the name of a wall of a list, or else its number."""
     name = wall.get("name") if isinstance(wall, Mapping) else None
     return str(number if is_missing(name) else name)
 
 
-def one_wall(wall: object) -> Any:
+def one_wall(wall: object, name: object) -> Any:
     """Returns a wall, or its parameters without those that are missing."""
     if isinstance(wall, Wall):
         return wall._native
     if isinstance(wall, Mapping):
+        if not isinstance(name, int) and str(wall.get("name", name)) != str(name):
+            raise ValueError(f"the wall {name!r} is called {wall['name']!r}, too; leave one name out")
+        gaps = [key for key in WITHOUT_GAPS if key in wall and is_missing(wall[key])]
+        if gaps:
+            called = name_of(wall, name)
+            raise ValueError(f"the wall {called!r} has no {gaps[0]}; write it, or leave the row or column out")
         return {name: value for name, value in wall.items() if name != "name" and not is_missing(value)}
     found = type(wall).__name__
     raise TypeError(
         f"a wall of a study is a Wall or a dictionary of parameters, found a value of the type {found}"
     )
+
+
+WITHOUT_GAPS = ("height", "thickness", "density")
+"""Parameters that every wall of a table has if one has it."""
 
 
 def is_missing(value: object) -> bool:
@@ -315,6 +348,8 @@ def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
         records = [records]
     if isinstance(records, Mapping):
         return [(str(name), motion_of(read(record))) for name, record in records.items()]
+    if not isinstance(records, Iterable):
+        motion_of(records, "records")
     return [(getattr(record, "name", ""), motion_of(record)) for record in map(read, records)]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -70,6 +71,12 @@ def shown(value: object) -> str:
     return f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
+def printable(text: str) -> str:
+    """Returns a text that the console can print: cp932, gbk and cp1250 have no ² and no ω."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
+
+
 def toml_lines(values: Mapping[str, object]) -> str:
     """Returns the lines of a table in TOML."""
     return "".join(f"{name} = {toml(value)}\n" for name, value in values.items())
@@ -91,7 +98,10 @@ def toml(value: object) -> str:
         value = value.tolist()
     if isinstance(value, list | tuple):
         return "[" + ", ".join(toml(each) for each in value) + "]"
-    if isinstance(value, str | bool | int | float):
+    if isinstance(value, float):
+        # also nan and inf
+        return repr(value)
+    if isinstance(value, str | bool | int):
         return json.dumps(value, ensure_ascii=False)
     found = type(value).__name__
     raise TypeError(f"expected numbers, texts, lists and dictionaries, found a value of the type {found}")

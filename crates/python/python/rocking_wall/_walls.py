@@ -21,7 +21,7 @@ from ._parameters import Parameters
 from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict
-from ._tables import Table, shown, toml_lines
+from ._tables import Table, printable, shown, toml_lines
 
 
 class Description(dict[str, Any]):
@@ -35,7 +35,7 @@ class Description(dict[str, Any]):
 
     def __repr__(self) -> str:
         lines = [f"{name:<22}{symbol:<8}{shown(value)} {unit}" for name, symbol, value, unit in self._facts]
-        return "\n".join(lines + [f"warning: {warning}" for warning in self["warnings"]])
+        return printable("\n".join(lines + [f"warning: {warning}" for warning in self["warnings"]]))
 
     def _repr_html_(self) -> str:
         rows = (
@@ -145,7 +145,8 @@ class Wall(Given):
         >>> bool(wall.simulate(synthetic_record()).a_bottom.max() > synthetic_record().pga)
         True
         """
-        tables = [(each.mass, each.stiffness, each.period, each.damping_ratio) for each in storeys]
+        given = [Storey(**each) if isinstance(each, Mapping) else each for each in storeys]
+        tables = [(each.mass, each.stiffness, each.period, each.damping_ratio) for each in given]
         return self._of(self._native.on_storeys(tables, bottom, top, drift))
 
     @property
@@ -175,12 +176,13 @@ class Wall(Given):
         tail: float = 10.0,
         stop_time: float | None = None,
         output_step: float | None = None,
-        thresholds: Sequence[float] | None = None,
+        thresholds: Sequence[float] | float | None = None,
         hold: bool = False,
     ) -> Response:
         """Runs the wall under a record, under the motion of its scene, or in free vibration.
 
-        Under a record the wall starts upright unless `u_start` was given.
+        Under a record the wall starts upright unless `u_start` was given. For the peaks alone, `peaks` runs
+        many factors and `simulate_many` many walls and records at once.
 
         :param scale: Factor on the record, and on `top`.
         :param top: Record of the top support, where it has its own.
@@ -199,7 +201,7 @@ class Wall(Given):
             tail=tail,
             stop_time=stop_time,
             output_step=output_step,
-            thresholds=None if thresholds is None else list(thresholds),
+            thresholds=None if thresholds is None else np.atleast_1d(thresholds).tolist(),
             hold=hold,
         )
         for warning in values.pop("warnings"):
@@ -212,18 +214,20 @@ class Wall(Given):
         """Computes the peaks under a record multiplied by each of many factors, side by side.
 
         Each run goes on for `tail` [s] in free vibration, and stops where the wall overturns. It starts as
-        that of `simulate`.
+        that of `simulate`. Factors may have any shape, which is that of the results. `simulate_many` runs
+        many walls and records.
 
         >>> from rocking_wall import synthetic_record
         >>> peaks = Wall(height=3, thickness=0.25).peaks(synthetic_record(), [0.2, 0.5, 1.0])
         >>> peaks.overturned
         array([False, False,  True])
         """
-        of_runs = [0] * np.size(factors)
+        given = np.asarray(factors)
+        of_runs = [0] * given.size
         found = _native.simulate_many(
-            [self._native], [motion_of(record)], of_runs, of_runs, factors, tail, 1
+            [self._native], [motion_of(record)], of_runs, of_runs, given.ravel(), tail, 1
         )
-        return Peaks(np.array(factors, dtype=np.float64), *found)
+        return Peaks(given.astype(np.float64), *(peaks.reshape(given.shape) for peaks in found))
 
     def check(
         self,
@@ -288,7 +292,7 @@ class Wall(Given):
 
         >>> from rocking_wall import sine_cycle
         >>> Wall().rocking_spectrum(sine_cycle(2.0, 1.0), heights=[1, 2, 4], ratios=[5, 10])
-        RockingSpectrum(slenderness × height_m, 2 × 3, 4 overturned)
+        RockingSpectrum(slenderness x height_m, 2 x 3, 4 overturned)
         """
         if heights is not None and radii is not None:
             raise ValueError("give either heights or radii")

@@ -6,7 +6,7 @@ Written by `cargo xtask generate python` from the schema of studies.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, Required, TypedDict
+from typing import Literal, Required, TypedDict, is_typeddict
 
 from numpy.random import Generator
 
@@ -411,3 +411,9 @@ class Distribution(TypedDict, total=False):
     values: Sequence[float]
     weights: Sequence[float]
     within: Sequence[float]
+
+
+_told = [f"{name}: {kind.__doc__}" for name, kind in list(globals().items()) if is_typeddict(kind)]
+__doc__ = "\n\n".join([__doc__, *_told])
+__all__: list[str] = []
+"""Empty, since `help` would tell with each class what every dictionary has."""

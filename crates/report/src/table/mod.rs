@@ -24,7 +24,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value};
 
-use crate::escaped;
+use crate::{SCROLLS, escaped};
 
 pub use cell::{Cell, Column, Digits, between, quoted, significant};
 
@@ -212,12 +212,14 @@ impl Table {
     /// Returns the table as markup, with a class for each row; empty for none.
     pub fn html_with(&self, class: impl Fn(usize) -> &'static str) -> String {
         let class_of = |column: &Column| if column.is_text { "" } else { " class=\"number\"" };
-        let mut text = String::from("<div class=\"scroll\"><table>\n<thead><tr>");
+        let mut text = [SCROLLS, "<table>\n<thead><tr>"].concat();
         for (_, column) in self.shown() {
             // where a table is too wide, a heading of numbers breaks between its lines only
             let space = if column.is_text { " " } else { "\u{a0}" };
             let heading = column.heading.replace(' ', space).replace('\n', " ");
-            let _ = write!(text, "<th{}>{}</th>", class_of(column), escaped(&heading));
+            // an empty head names nothing
+            let cell = if heading.is_empty() { "td" } else { "th" };
+            let _ = write!(text, "<{cell}{}>{}</{cell}>", class_of(column), escaped(&heading));
         }
         text += "</tr></thead>\n<tbody>\n";
         for (index, row) in self.rows.iter().enumerate() {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use crate::hazard::{Hazard, HazardCurve, YEARS, is_open_quake, read};
-use crate::ida::{IntensityMeasure, ToSi};
+use crate::ida::IntensityMeasure;
 use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
 
@@ -51,8 +51,7 @@ enum Source {
     /// A file, and where the study states a unit and a site.
     File {
         file: String,
-        to_si: ToSi,
-        unit: Option<Stated>,
+        unit: Option<(String, Stated)>,
         site: Option<(u32, Stated)>,
     },
 }
@@ -89,15 +88,19 @@ impl HazardEntry {
     ) -> Result<(Hazard, Vec<String>), SceneError> {
         let Self { curve, years, target } = self;
         let (curve, warnings) = match curve {
-            Source::Points(curve) => (curve, Vec::new()),
-            Source::File { file, to_si, unit, site } => {
+            Source::Points(curve) => {
+                let warning = unusual(&curve, measure).map(|warning| format!("hazard: {warning}"));
+                (curve, warning.into_iter().collect())
+            }
+            Source::File { file, unit, site } => {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                match (is_open_quake(&text), unit, &site) {
-                    (true, Some(unit), _) => {
+                let is_open_quake = is_open_quake(&text);
+                match (is_open_quake, &unit, &site) {
+                    (true, Some((_, unit)), _) => {
                         let message = "a table of OpenQuake has units of its own; leave out unit";
-                        return Err(unit.error("unit", message));
+                        return Err(unit.clone().error("unit", message));
                     }
                     (false, _, Some((_, site))) => {
                         let message = "site belongs to a table of OpenQuake; leave it out";
@@ -106,7 +109,9 @@ impl HazardEntry {
                     _ => {}
                 }
                 let site = site.map(|(number, _)| number);
-                let (curve, warnings) = read(&Place::new(&name, &text), measure, to_si, site)?;
+                let unit = unit.as_ref().map(|(unit, _)| unit.as_str());
+                let (curve, mut warnings) = read(&Place::new(&name, &text), measure, unit, site)?;
+                warnings.extend(unusual(&curve, measure).filter(|_| !is_open_quake));
                 inputs.push(path);
                 (curve, warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
             }
@@ -128,18 +133,24 @@ pub(super) fn hazard(
             if let Some(site) = site {
                 return Err(place.error(site.span(), "site belongs to a file of OpenQuake; leave it out"));
             }
-            let in_si = points.get_ref().iter().map(|[x, rate]| [to_si(*x), *rate]).collect();
-            // the message has the numbers of the file
-            let checked = HazardCurve::new(points.get_ref().clone()).and(HazardCurve::new(in_si));
-            Source::Points(checked.map_err(|error| place.error(points.span(), error.to_string()))?)
+            let curve = HazardCurve::converted(points.get_ref().clone(), to_si);
+            Source::Points(curve.map_err(|error| place.error(points.span(), error.to_string()))?)
         }
         (None, Some(file)) => Source::File {
             file: file.get_ref().clone(),
-            to_si,
-            unit: unit.as_ref().map(|unit| Stated::at(unit, place)),
+            unit: unit.as_ref().map(|unit| (unit.get_ref().clone(), Stated::at(unit, place))),
             site: site.as_ref().map(|site| (*site.get_ref(), Stated::at(site, place))),
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
     };
     Ok(HazardEntry { curve, years: years.unwrap_or(YEARS), target: *target })
+}
+
+/// Return period at which the intensities of sites are compared \[years\].
+const PERIOD: f64 = 2475.0;
+
+/// Warns of a curve in another unit than the study states.
+fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
+    let warning = measure.usual().warning(measure.unit().of(curve.intensity(1.0 / PERIOD)))?;
+    Some(format!("at a return period of {PERIOD} years, {warning}; state unit beside it"))
 }

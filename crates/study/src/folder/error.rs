@@ -37,6 +37,12 @@ pub enum FolderError {
         path.display()
     )]
     OtherStudy { path: PathBuf, difference: String },
+    /// A result would replace a file that is none of a study.
+    #[error(
+        "{}: is there and no result of a study, which would replace it; give another folder, or move it",
+        file.display()
+    )]
+    Foreign { file: PathBuf },
     /// Folders that are to be merged hold different studies.
     #[error(
         "{}: holds another study than the first folder ({difference}); merge folders of one study only",

@@ -62,6 +62,6 @@ pub use error::FolderError;
 pub use merge::merge;
 pub use part::{decode, encode};
 pub(crate) use report::MOST_WALLS;
-pub use report::{FILES, Report, finish};
+pub use report::{Report, finish};
 pub(crate) use rows::Rows;
-pub use store::Folder;
+pub use store::{FILES, Folder};

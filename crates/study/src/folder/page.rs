@@ -6,7 +6,7 @@ use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
 use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
 use crate::results::WallResults;
 use report::table::{Cell, Column, Digits, Table};
-use report::{counted, escaped, number, template};
+use report::{SCROLLS, counted, escaped, number, template};
 
 use super::contents::{Contents, Manifest};
 use super::legend::{key, spelled_out};
@@ -166,7 +166,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     if let Some(collapse) = fractions.iter().position(|fraction| *fraction == 1.0) {
         let _ = write!(
             html,
-            "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div class=\"scroll\">{}{}</div>",
+            "<figure><figcaption>Collapse fragility</figcaption>{}</figure>{SCROLLS}{}{}</div>",
             fragility(shown, collapse, top_of_collapses),
             table(shown, collapse),
             collapses(shown)

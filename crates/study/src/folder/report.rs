@@ -26,28 +26,6 @@ use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, with_ends}
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
-/// All files that a study may have beside its parts, none of which may be one of its inputs.
-pub const FILES: [&str; 19] = [
-    "study.json",
-    "levels.csv",
-    "collapses.csv",
-    "fragilities.csv",
-    "fragility_curves.csv",
-    "fragilities.xml",
-    "pelicun.csv",
-    "pelicun.json",
-    "fragilities.svg",
-    "ties.csv",
-    "cloud.csv",
-    "rates.csv",
-    "rate_shares.csv",
-    "vulnerability.csv",
-    "vulnerability.xml",
-    "losses.csv",
-    "samples.csv",
-    "sensitivity.csv",
-    PAGE,
-];
 /// The page, which is there only where all other files are complete, and the files that follow from options
 /// of a report.
 const OPTIONAL: [&str; 9] = [

@@ -344,7 +344,8 @@ fn no_function(manifest: &Manifest, [name, model]: [&str; 2], states: &[State]) 
     };
     let thetas: Vec<_> = states.iter().map(theta).collect();
     // a comment must not have two dashes
-    let text = format!("{id}: theta in {} of {}", unit.name(), thetas.join(", ")).replace("--", "- -");
+    let text = format!("{id}: theta in {} of {}", unit.name(), thetas.join(", "));
+    let text = text.replace("--", "- -").replace("--", "- -");
     format!("    <!-- no function of {} -->\n", escaped(&text))
 }
 

@@ -4,6 +4,7 @@
 //! checksum, and a damaged part counts as missing. Several processes can work on one folder. The final
 //! results are made from the parts alone, so their bytes do not depend on which process computed what.
 
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,28 @@ use super::part;
 const STUDY: &str = "study.json";
 /// The page. It is removed before the tables are written, and comes last: with it they are complete.
 pub(crate) const PAGE: &str = "study.html";
+/// All files that a study may have beside its parts, none of which may be one of its inputs.
+pub const FILES: [&str; 19] = [
+    "study.json",
+    "levels.csv",
+    "collapses.csv",
+    "fragilities.csv",
+    "fragility_curves.csv",
+    "fragilities.xml",
+    "pelicun.csv",
+    "pelicun.json",
+    "fragilities.svg",
+    "ties.csv",
+    "cloud.csv",
+    "rates.csv",
+    "rate_shares.csv",
+    "vulnerability.csv",
+    "vulnerability.xml",
+    "losses.csv",
+    "samples.csv",
+    "sensitivity.csv",
+    PAGE,
+];
 /// Largest description that is read; it has room for millions of walls.
 const MAX_STUDY_BYTES: u64 = 4 << 30;
 const RUNS: &str = "runs";
@@ -55,6 +78,9 @@ impl Folder {
         let earlier = path.join(STUDY).exists().then(|| read(path)).transpose()?;
         if let Some(earlier) = &earlier {
             expect(path, &earlier.contents, &manifest.contents)?;
+        }
+        if let Some(file) = foreign(path).filter(|_| earlier.is_none()) {
+            return Err(FolderError::Foreign { file });
         }
         file::make_folder(&path.join(RUNS))?;
         if earlier.is_some_and(|earlier| earlier != *manifest) {
@@ -212,6 +238,16 @@ impl Folder {
             }
         }
     }
+}
+
+/// Finds a file of the user that a result would replace: where there are no runs, none is a result.
+fn foreign(folder: &Path) -> Option<PathBuf> {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_result = |file: &PathBuf| {
+        let name = file.file_name().and_then(OsStr::to_str).unwrap_or_default();
+        FILES.contains(&name) || name.starts_with("reliability") && !name.ends_with(".toml")
+    };
+    files.filter(|_| !folder.join(RUNS).exists()).filter(is_result).min()
 }
 
 /// Reads the description of the study in a folder.

@@ -162,7 +162,10 @@ pub(crate) fn collapses(manifest: &Manifest, wall: usize, curves: &[Curve]) -> T
         .value("resurrections", |(_, curve)| curve.resurrections())
         .value(manifest.contents.in_unit("last_collapse"), |(_, curve)| last(curve))
         .value("come_back", |(_, curve)| curve.runs().iter().filter(|run| run.comes_back()).count())
-        .value("sensitivity", |(_, curve)| curve.sensitivity())
+        // its error is up to 15 %
+        .value("sensitivity", |(_, curve)| {
+            curve.sensitivity().map(|s| format!("{s:.1e}").parse().unwrap_or(s))
+        })
         .done()
 }
 

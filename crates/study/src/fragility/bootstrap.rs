@@ -4,6 +4,7 @@ use super::dispersion::Estimator;
 use super::fit::Lognormal;
 use super::sample::Sample;
 use report::table::{Digits, between};
+use run::parallel::stop_if_asked;
 use run::sample::{Pcg, unsorted_fractile};
 
 use crate::ida::Exceedance;
@@ -125,7 +126,10 @@ impl Bootstrap {
         };
         let ones = vec![1; self.records];
         let near = fit(&ones, &[]);
-        let samples = self.counted(|counts| ends(counts, fit(counts, &near)));
+        let samples = self.counted(|counts| {
+            stop_if_asked();
+            ends(counts, fit(counts, &near))
+        });
         let resampled = |(state, all): (usize, [f64; 3])| {
             Resampled::curves(all, samples.iter().map(|sample| sample[state]))
         };

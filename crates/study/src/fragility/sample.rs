@@ -30,7 +30,7 @@ impl Sample {
 
     /// Takes what the curves of some records show of a `fraction` of `u_ins`: one exceedance of each, or with
     /// [`Crossing::Fraction`] how many exceed at each level. `shared` holds the levels of all records, if
-    /// they share them; if not, the curves are read at 50 intensities, equally spaced by their logarithms
+    /// they share them, of which those above the highest run do not count; if not, the curves are read at 50 intensities, equally spaced by their logarithms
     /// between the lowest first and the highest last exceedance.
     pub fn of_curves(curves: &[Curve], fraction: f64, crossing: Crossing, shared: Option<&[f64]>) -> Self {
         let exceedances = |crossing| -> Vec<Exceedance> {
@@ -45,7 +45,8 @@ impl Sample {
             Stripe { intensity, exceeded }
         };
         let stripes = if let Some(levels) = shared {
-            levels.iter().copied().map(stripe).collect()
+            let highest = curves.iter().map(Curve::top).fold(0.0, f64::max);
+            levels.iter().copied().filter(|level| *level <= highest).map(stripe).collect()
         } else {
             let ends = |exceedances: Vec<Exceedance>| exceedances.into_iter().map(|one| one.bounds()[0]);
             let low =

@@ -46,7 +46,7 @@ impl HazardCurve {
             };
             if *x <= x_before {
                 return refused(format!(
-                    "intensity {x} must be above {x_before}, that of the point before it"
+                    "intensity {x} must be above {x_before}, that of the point before it; sort the points"
                 ));
             }
             if *rate >= rate_before {
@@ -63,10 +63,31 @@ impl HazardCurve {
         &self.points
     }
 
-    /// Returns the curve with its intensities times a positive factor, such as a unit.
-    #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self { points: self.points.iter().map(|[x, rate]| [factor * x, *rate]).collect() }
+    /// Makes a curve of points whose intensities `to_si` converts. Messages have the numbers as given.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn converted(points: Vec<[f64; 2]>, to_si: impl Fn(f64) -> f64) -> Result<Self, HazardError> {
+        let in_si = points.iter().map(|[x, rate]| [to_si(*x), *rate]).collect();
+        Self::new(points).and(Self::new(in_si))
+    }
+
+    /// Returns the intensity at an annual rate, between the points; beyond them that of the first or last.
+    ///
+    /// ```
+    /// use study::hazard::HazardCurve;
+    ///
+    /// let curve = HazardCurve::new(vec![[0.1, 1e-2], [0.4, 1e-4]])?;
+    /// assert!((curve.intensity(1e-3) - 0.2).abs() < 1e-15);
+    /// assert_eq!([1.0, 1e-9].map(|rate| curve.intensity(rate)), [0.1, 0.4]);
+    /// # Ok::<(), study::hazard::HazardError>(())
+    /// ```
+    pub fn intensity(&self, rate: f64) -> f64 {
+        let last = self.points.len() - 1;
+        let after = self.points.partition_point(|[_, own]| *own > rate).clamp(1, last);
+        let [[from, high], [to, low]] = [self.points[after - 1], self.points[after]];
+        let part = (libm::log(high / rate) / libm::log(high / low)).clamp(0.0, 1.0);
+        from * libm::pow(to / from, part)
     }
 }
 

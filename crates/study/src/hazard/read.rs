@@ -1,19 +1,20 @@
 //! Hazard curves from files: two columns, or a table of `OpenQuake`.
 
+use ground_motion::columns::{Columns, Fault, Name, Numbers, TextRow};
 use rocking_wall::scene::{Place, SceneError};
 
-use crate::ida::{IntensityMeasure, ToSi};
+use crate::ida::IntensityMeasure;
 
 use super::curve::HazardCurve;
 
 /// A curve, intensities in SI units, and what was left out or could not be checked.
 type Read = (HazardCurve, Vec<String>);
 
-const FORMS: &str = "expected a line of names with a measure or \"intensity\" and \"annual_rate\", or a \
-                     hazard-curve CSV of OpenQuake";
+const FORMS: &str = "a line of names with a measure or `intensity` and `annual_rate`, or a hazard-curve CSV \
+                     of OpenQuake";
 
-/// Reads the hazard curve of a study's measure from a file; `to_si` converts the intensities of two columns,
-/// and `site` is the number from 1 of a site of `OpenQuake`, which alone has sites.
+/// Reads the hazard curve of a study's measure from a file; `unit` is that of the intensities of two columns
+/// whose name states none, and `site` is the number from 1 of a site of `OpenQuake`, which alone has sites.
 ///
 /// # Errors
 /// [`SceneError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
@@ -21,139 +22,152 @@ const FORMS: &str = "expected a line of names with a measure or \"intensity\" an
 pub fn read(
     file: &Place<'_>,
     measure: &IntensityMeasure,
-    to_si: ToSi,
+    unit: Option<&str>,
     site: Option<u32>,
 ) -> Result<Read, SceneError> {
-    let lines = file.text().trim_start_matches('\u{feff}').lines().zip(1..);
-    let lines: Vec<_> =
-        lines.map(|(text, line)| (line, text.trim())).filter(|(_, text)| !text.is_empty()).collect();
-    let Some((first, rest)) = lines.split_first() else {
-        return Err(file.error_on(1, format!("the file is empty; {FORMS}")));
-    };
-    if is_open_quake(file.text()) {
-        open_quake(file, *first, rest, measure, site)
-    } else {
-        two_columns(file, *first, rest, measure, to_si)
+    let text = file.text().trim_start_matches('\u{feff}');
+    let fault = |fault: Fault| file.error_on(fault.line(), fault.to_string());
+    let columns = Columns::of_texts(text, FORMS).map_err(fault)?;
+    let rows = columns.rows().collect::<Result<Vec<_>, _>>().map_err(fault)?;
+    let table = Table { file, rows, columns };
+    match comment(text) {
+        Some(comment) => table.open_quake(comment, measure, site),
+        None => table.two_columns(measure, unit),
     }
 }
 
 /// Returns whether the text of a file is a table of `OpenQuake`, which begins with a comment.
 pub fn is_open_quake(text: &str) -> bool {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    let first = lines.find(|line| !line.is_empty());
-    first.is_some_and(|line| line.starts_with('#') && line.contains("investigation_time"))
+    comment(text).is_some()
 }
 
-fn two_columns(
-    file: &Place<'_>,
-    (line, names): (usize, &str),
-    rows: &[(usize, &str)],
-    measure: &IntensityMeasure,
-    to_si: ToSi,
-) -> Result<Read, SceneError> {
-    let cells: Vec<_> = names.split(',').map(str::trim).collect();
-    let [name, "annual_rate"] = cells[..] else {
-        return Err(file.error_on(line, format!("found {names:?}; {FORMS}")));
-    };
-    let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
-    let warning = warning.map_err(|message| file.error_on(line, message))?;
-    let point = |&(line, row): &(usize, &str)| {
-        let numbers: Vec<_> =
-            row.split(',').map(|cell| number(file, cell, line)).collect::<Result<_, _>>()?;
-        let [x, rate] = numbers[..] else {
-            let message = format!("found {} cells, expected an intensity and an annual rate", numbers.len());
-            return Err(file.error_on(line, message));
-        };
-        Ok([to_si(x), rate])
-    };
-    let points = rows.iter().map(point).collect::<Result<Vec<_>, _>>()?;
-    let curve = HazardCurve::new(points).map_err(|error| {
-        let line = error.point.map_or(line, |point| rows[point - 1].0);
-        file.error_on(line, error.to_string())
-    });
-    Ok((curve?, warning.into_iter().collect()))
+/// Returns the comment that begins a table of `OpenQuake`, and its line.
+fn comment(text: &str) -> Option<(usize, &str)> {
+    let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines().map(str::trim));
+    let first = lines.find(|(_, line)| !line.is_empty())?;
+    (first.1.starts_with('#') && first.1.contains("investigation_time")).then_some(first)
 }
 
-/// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
-/// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
-fn open_quake(
-    file: &Place<'_>,
-    (line, comment): (usize, &str),
-    rest: &[(usize, &str)],
-    measure: &IntensityMeasure,
-    site: Option<u32>,
-) -> Result<Read, SceneError> {
-    let fail = |line: usize, message: String| Err(file.error_on(line, message));
-    // an imt may have brackets, but no comma: SA(0.5)
-    let stated = |key: &str| {
-        let found = comment
-            .split_once(&format!("{key}="))
-            .and_then(|(_, after)| after.trim_start_matches('\'').split([',', '\'', '"']).next());
-        let missing = || file.error_on(line, format!("the comment has no {key}=, which OpenQuake writes"));
-        found.ok_or_else(missing)
-    };
-    let years = number(file, stated("investigation_time")?, line)?;
-    if !(years > 0.0 && years.is_finite()) {
-        return fail(line, format!("investigation_time={years} years must be positive and finite"));
+/// The columns of a file, and its rows.
+struct Table<'a> {
+    file: &'a Place<'a>,
+    columns: Columns<'a>,
+    rows: Vec<TextRow<'a>>,
+}
+
+impl Table<'_> {
+    fn fail(&self, line: usize, message: String) -> Result<Read, SceneError> {
+        Err(self.file.error_on(line, message))
     }
-    let warning = same_measure(stated("imt")?, measure).map_err(|message| file.error_on(line, message))?;
-    let mut warnings: Vec<_> = warning.into_iter().collect();
-    let Some(((heading, names), sites)) = rest.split_first() else {
-        return fail(line, "the table ends after its comment".into());
-    };
-    let count = sites.len();
-    if count == 0 {
-        return fail(
-            *heading,
-            "the table has no row below its names; give one with at least one site".into(),
-        );
+
+    fn number(&self, numbers: &mut Numbers, cell: &str, line: usize) -> Result<f64, SceneError> {
+        numbers.real(cell, line).map_err(|fault| self.file.error_on(line, fault.to_string()))
     }
-    let at = site.map_or(1, |site| site as usize);
-    if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
-        let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
-        return fail(
-            *heading,
-            format!("the table has {count} sites{found}; give site = n, from 1 to {count}"),
-        );
-    }
-    let (line, row) = sites[at - 1];
-    let cells: Vec<_> = row.split(',').collect();
-    let (mut points, unit) = (Vec::new(), measure.unit());
-    for (column, name) in names.split(',').enumerate() {
-        let Some(level) = name.trim().strip_prefix("poe-") else { continue };
-        let level = number(file, level, *heading)?;
-        let Some(cell) = cells.get(column) else {
-            return fail(line, format!("the row ends before {level} {}", unit.name()));
+
+    fn two_columns(&self, measure: &IntensityMeasure, unit: Option<&str>) -> Result<Read, SceneError> {
+        let line = self.columns.line();
+        let in_heading = |message: String| self.file.error_on(line, message);
+        let names = self.columns.names();
+        let [name, rate] = names else {
+            let found: Vec<_> = names.iter().map(Name::written).collect();
+            return Err(in_heading(format!("expected {FORMS}, found {found:?}")));
         };
-        let poe = number(file, cell, line)?;
-        if !(0.0..=1.0).contains(&poe) {
-            return fail(
-                line,
-                format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name()),
-            );
+        if rate.written() != "annual_rate" {
+            return Err(in_heading(format!("expected {FORMS}, found {:?}", rate.written())));
         }
-        points.push([level * unit.size(), -libm::log1p(-poe) / years]);
+        let given = measure.to_si(unit).map_err(in_heading)?;
+        // brackets may hold a period, too
+        let own = name.unit().and_then(|own| Some((own, measure.to_si(Some(own)).ok()?)));
+        if let (Some((own, of_name)), Some(unit)) = (own, unit)
+            && of_name(1.0) != given(1.0)
+        {
+            let message = format!("the column states {own}, the study unit = {unit:?}; leave out unit");
+            return Err(in_heading(message));
+        }
+        let (name, to_si) = own.map_or((name.written(), given), |(_, to_si)| (name.text(), to_si));
+        let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
+        let warning = warning.map_err(in_heading)?;
+        let mut numbers = Numbers::new(&self.columns);
+        let point = |row: &TextRow<'_>| {
+            let mut cells = row.cells();
+            let mut next = || self.number(&mut numbers, &cells.next().unwrap_or_default(), row.line);
+            Ok([next()?, next()?])
+        };
+        let points = self.rows.iter().map(point).collect::<Result<_, SceneError>>()?;
+        let curve = HazardCurve::converted(points, to_si).map_err(|error| {
+            let line = error.point.map_or(line, |point| self.rows[point - 1].line);
+            self.file.error_on(line, error.to_string())
+        });
+        Ok((curve?, warning.into_iter().collect()))
     }
-    if points.is_empty() {
-        return fail(*heading, "no column is named poe-LEVEL, as OpenQuake names them".into());
-    }
-    let all = points.len();
-    // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
-    points.retain(|[_, rate]| *rate > 0.0 && rate.is_finite());
-    let equal = points.windows(2).take_while(|pair| pair[0][1] == pair[1][1]).count();
-    points.drain(..equal);
-    if points.len() < all {
-        let left = all - points.len();
-        warnings.push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
-    }
-    let curve = HazardCurve::new(points).map_err(|error| file.error_on(line, error.to_string()))?;
-    Ok((curve, warnings))
-}
 
-/// Reads a number.
-fn number(file: &Place<'_>, cell: &str, line: usize) -> Result<f64, SceneError> {
-    let text = cell.trim();
-    text.parse().map_err(|_| file.error_on(line, format!("{text:?} is not a number")))
+    /// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
+    /// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
+    fn open_quake(
+        &self,
+        (line, comment): (usize, &str),
+        measure: &IntensityMeasure,
+        site: Option<u32>,
+    ) -> Result<Read, SceneError> {
+        // an imt may have brackets, but no comma: SA(0.5)
+        let stated = |key: &str| {
+            let found = comment
+                .split_once(&format!("{key}="))
+                .and_then(|(_, after)| after.trim_start_matches('\'').split([',', '\'', '"']).next());
+            let missing =
+                || self.file.error_on(line, format!("the comment has no {key}=, which OpenQuake writes"));
+            found.ok_or_else(missing)
+        };
+        let (years, imt) = (stated("investigation_time")?, stated("imt")?);
+        let years =
+            years.parse().ok().filter(|years: &f64| *years > 0.0 && years.is_finite()).ok_or_else(|| {
+                let message = format!("investigation_time={years} years must be positive and finite");
+                self.file.error_on(line, message)
+            })?;
+        let warning = same_measure(imt, measure).map_err(|message| self.file.error_on(line, message))?;
+        let mut warnings: Vec<_> = warning.into_iter().collect();
+        let (heading, count) = (self.columns.line(), self.rows.len());
+        if count == 0 {
+            let message = "the table has no row below its names; give one with at least one site";
+            return self.fail(heading, message.into());
+        }
+        let at = site.map_or(1, |site| site as usize);
+        if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
+            let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
+            let message = format!("the table has {count} sites{found}; give site = n, from 1 to {count}");
+            return self.fail(heading, message);
+        }
+        let row = self.rows[at - 1];
+        let (mut points, mut numbers, unit) = (Vec::new(), Numbers::new(&self.columns), measure.unit());
+        for (name, cell) in self.columns.names().iter().zip(row.cells()) {
+            let Some(level) = name.written().strip_prefix("poe-") else { continue };
+            let level: f64 = level.parse().map_err(|_| {
+                self.file.error_on(heading, format!("{level:?} of {:?} is not a number", name.written()))
+            })?;
+            let poe = self.number(&mut numbers, &cell, row.line)?;
+            if !(0.0..=1.0).contains(&poe) {
+                let message = format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name());
+                return self.fail(row.line, message);
+            }
+            points.push([level * unit.size(), -libm::log1p(-poe) / years]);
+        }
+        if points.is_empty() {
+            return self.fail(heading, "no column is named poe-LEVEL, as OpenQuake names them".into());
+        }
+        let all = points.len();
+        // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
+        points.retain(|[_, rate]| *rate > 0.0 && rate.is_finite());
+        let equal = points.windows(2).take_while(|pair| pair[0][1] == pair[1][1]).count();
+        points.drain(..equal);
+        if points.len() < all {
+            let left = all - points.len();
+            warnings
+                .push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
+        }
+        let curve =
+            HazardCurve::new(points).map_err(|error| self.file.error_on(row.line, error.to_string()))?;
+        Ok((curve, warnings))
+    }
 }
 
 /// Refuses the name of another measure; warns where a name does not tell the periods.
@@ -184,8 +198,6 @@ fn same_measure(name: &str, measure: &IntensityMeasure) -> Result<Option<String>
 mod tests {
     use super::*;
 
-    const G: ToSi = |x| 9.806_65 * x;
-
     const OPEN_QUAKE: &str = "#,,,,\"generated_by='OpenQuake engine 3.16.3', checksum=1, kind='mean', \
         investigation_time=50.0, imt='SA(0.5)'\"\n\
         lon,lat,depth,poe-0.0500000,poe-0.1000000,poe-0.2000000,poe-0.4000000,poe-0.8000000\n\
@@ -196,7 +208,7 @@ mod tests {
     fn tables_of_openquake_have_rates() {
         let measure = IntensityMeasure::Sa { period: 0.5 };
         let file = Place::new("oq.csv", OPEN_QUAKE);
-        let read = |site| read(&file, &measure, G, site);
+        let read = |site| read(&file, &measure, None, site);
         let (curve, warnings) = read(Some(1)).unwrap();
         let given = [[0.1, 0.5], [0.2, 0.1], [0.4, 0.02]];
         assert_eq!(curve.points().len(), 3, "{warnings:?}");
@@ -214,26 +226,60 @@ mod tests {
             assert!(read(site).unwrap_err().to_string().contains(words));
         }
         let empty = OPEN_QUAKE.split_inclusive('\n').take(2).collect::<String>();
-        let told = super::read(&Place::new("oq.csv", &empty), &measure, G, None).unwrap_err().to_string();
+        let told = super::read(&Place::new("oq.csv", &empty), &measure, None, None).unwrap_err().to_string();
         assert!(told.contains("line 2") && told.contains("has no row"), "{told}");
-        let other = super::read(&file, &IntensityMeasure::Pga, G, Some(1));
+        let other = super::read(&file, &IntensityMeasure::Pga, None, Some(1));
         let told = other.unwrap_err().to_string();
         assert!(told.contains("line 1") && told.contains("\"SA(0.5)\", the study of PGA"), "{told}");
     }
 
     #[test]
+    fn tables_of_openquake_are_read_as_excel_saves_them() {
+        let saved = OPEN_QUAKE.replace(',', ";").replace('.', ",").replace("poe-0,", "poe-0.");
+        let saved = saved.replace("; ", ", ").replace("50,0", "50.0").replace("0,5)", "0.5)");
+        let measure = IntensityMeasure::Sa { period: 0.5 };
+        let read = |text| read(&Place::new("oq.csv", text), &measure, None, Some(2)).unwrap();
+        assert!(saved.contains("13,0;42,0;0,0;9,0E-01"), "{saved}");
+        assert_eq!(read(&saved), read(OPEN_QUAKE));
+    }
+
+    #[test]
     fn two_columns_have_a_unit_and_their_measure() {
-        let read = |text| read(&Place::new("a.csv", text), &IntensityMeasure::Pga, G, None);
+        let of = |text, unit| read(&Place::new("a.csv", text), &IntensityMeasure::Pga, unit, None);
+        let read = |text| of(text, None);
         let table = read("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-3\n").unwrap();
         assert_eq!(table.0.points(), [[0.980_665, 1e-2], [1.961_33, 2e-3]]);
-        assert_eq!(read("intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n").unwrap(), table);
+        for text in [
+            "intensity, annual_rate\n0.1, 1e-2\n0.2, 2e-3\n",
+            "PGA;annual_rate\r\n0,1;0,01\r\n0,2;0,002\r\n",
+            "\u{feff}PGA\tannual_rate\n0,1\t1E-2\n0,2\t2E-3\n",
+            "PGA annual_rate\n0.1 1e-2\n0.2 2e-3\n",
+            "\"PGA\",\"annual_rate\"\n\"0,1\",\"0,01\"\n\"0,2\",\"0,002\"\n",
+            "# my site\nPGA,annual_rate\n0.1,1e-2\n# strong\n0.2,2e-3\n,\n,\n",
+            "PGA [g],annual_rate\n0.1,1e-2\n0.2,2e-3\n",
+        ] {
+            assert_eq!(read(text).unwrap(), table, "{text}");
+            assert_eq!(of(text, Some("g")).unwrap(), table, "{text}");
+        }
+        let gal = "PGA [cm/s2],annual_rate\n98.0665,1e-2\n196.133,2e-3\n";
+        for unit in [None, Some("gal")] {
+            let points = of(gal, unit).unwrap().0.points().to_vec();
+            assert!((points[1][0] / 1.961_33 - 1.0).abs() < 1e-15, "{points:?}");
+        }
+        let told = of(gal, Some("g")).unwrap_err().to_string();
+        assert!(told.contains("line 1") && told.contains("the column states cm/s2, the study"), "{told}");
         for (text, line, words) in [
-            ("", 1, "is empty"),
-            ("a,b\n", 1, "found \"a,b\""),
+            ("", 1, "found an empty file"),
+            ("a,b\n", 1, "found \"b\""),
+            ("PGA;annual_rate;return_period\n1;1;1\n", 1, "found [\"PGA\", \"annual_rate\", \"ret"),
             ("AvgSA,annual_rate\n0.1,1e-2\n", 1, "the study of PGA"),
-            ("PGA,annual_rate\n0.1,x\n", 2, "\"x\" is not a number"),
+            ("PGA [cm],annual_rate\n0.1,1e-2\n", 1, "\"PGA [cm]\", the study of PGA"),
+            ("PGA,annual_rate\n0.1,x\n", 2, "a finite number, found `x`"),
+            ("PGA,annual_rate\n0.1,1e-2\n\n0.2,\n", 4, "a finite number, found ``"),
             ("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-2\n", 4, "must be below 0.01"),
-            ("PGA,annual_rate\n0.1,1e-2,3\n", 2, "found 3 cells"),
+            ("PGA,annual_rate\n1.6,5e-6\n0.8,5e-5\n", 3, "intensity 0.8 must be above 1.6"),
+            ("PGA;annual_rate\n0,1;0,01\n0.2;0.002\n", 3, "`,` before the decimals, as on line 2"),
+            ("PGA,annual_rate\n0.1,1e-2,3\n", 2, "found 3"),
         ] {
             let told = read(text).unwrap_err().to_string();
             assert!(told.contains(&format!("line {line}")) && told.contains(words), "{told}");

@@ -1,7 +1,8 @@
 //! Intensity measures.
 
 use ground_motion::spectrum::AVERAGE_PERIODS;
-use ground_motion::{GroundMotion, GroundMotionError, Spectrum};
+use ground_motion::{GroundMotion, GroundMotionError, STANDARD_GRAVITY, Spectrum};
+use rocking_wall::wall::Usual;
 
 use super::unit::IntensityUnit;
 
@@ -115,6 +116,26 @@ impl IntensityMeasure {
             Self::Arias => IntensityUnit::MetrePerSecond,
             Self::Cav => IntensityUnit::GravitySecond,
         }
+    }
+
+    /// Returns the intensities that sites have at a return period of 2475 years, in the unit of results, and
+    /// the units in which others are given: from the quietest to the strongest, with a margin.
+    pub(crate) fn usual(&self) -> Usual {
+        const CM: &[(&str, f64)] = &[("in m", 100.0), ("in mm", 0.1)];
+        const G: f64 = 1.0 / STANDARD_GRAVITY;
+        const ACCELERATIONS: &[(&str, f64)] = &[("in m/s2", G), ("in cm/s2", 0.01 * G)];
+        let (name, range, others): (_, _, &[_]) = match self {
+            Self::Pga => ("PGA", [0.004, 2.0], ACCELERATIONS),
+            Self::Code { .. } => ("a_g", [0.004, 2.0], ACCELERATIONS),
+            Self::Sa { .. } => ("Sa", [0.0005, 5.0], ACCELERATIONS),
+            Self::AvgSa { .. } => ("AvgSA", [0.0005, 5.0], ACCELERATIONS),
+            Self::Pgv => ("PGV", [0.3, 400.0], &[("in m/s", 100.0), ("in mm/s", 0.1)]),
+            Self::Pgd => ("PGD", [0.03, 1000.0], CM),
+            Self::Arias => ("Arias", [1e-4, 50.0], &[("in cm/s", 0.01), ("in mm/s", 0.001)]),
+            Self::Cav => ("CAV", [0.01, 30.0], &[("in m/s", G), ("in cm/s", 0.01 * G)]),
+            Self::Housner => ("Housner", [0.5, 2000.0], CM),
+        };
+        Usual { name, unit: self.unit().name(), range, others }
     }
 
     /// Returns Sa of a motion over the spectrum of the ground acceleration that it is worth, at each period;

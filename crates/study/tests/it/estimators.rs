@@ -229,6 +229,19 @@ fn the_misfit_is_the_largest_distance() {
     assert_eq!(sample.misfit(curve), expected);
 }
 
+/// Levels that steps to the first overturning have not reached with any record do not count.
+#[test]
+fn levels_above_all_runs_do_not_count() {
+    let run = |level: u32, last: u32| {
+        let overturning = (level == last).then_some(1.0);
+        Run { intensity: f64::from(level), overturning, ..Run::default() }
+    };
+    let curves = [2, 4].map(|last| Curve::new((1..=last).map(|level| run(level, last)).collect()));
+    let levels: Vec<_> = (1..=50).map(f64::from).collect();
+    let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels));
+    assert_eq!(sample.counts(), [(1.0, [2, 0]), (2.0, [2, 1]), (3.0, [2, 1]), (4.0, [2, 2])]);
+}
+
 /// The covariance of (ln θ, β), and the interval of β, are those of the resamples; of exact intensities they
 /// are near the closed forms β²/n and β²/2n.
 #[test]

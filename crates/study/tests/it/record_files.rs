@@ -66,5 +66,5 @@ fn a_table_of_walls_without_a_column_is_warned_of() {
                 records = { files = [\"records/a.AT2\"] }\nwalls = [{ table = \"walls.csv\" }]\n";
     fs::write(&path, text).unwrap();
     let warnings = LoadedStudy::read(&path).unwrap().warnings.join("\n");
-    assert!(warnings.contains("walls.csv: 2 of 2 walls have no thickness"), "{warnings}");
+    assert!(warnings.contains("study.toml: 2 of 2 walls have no thickness"), "{warnings}");
 }

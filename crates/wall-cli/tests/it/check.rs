@@ -375,7 +375,7 @@ fn many_walls_are_checked() {
     assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
     std::fs::write(folder.join("walls.csv"), "name,height\na,1\nb,0.9\n").unwrap();
     let warned = text(&wall(&folder, &["check", "walls.toml"]).stderr);
-    assert_has(&warned, &["walls.csv: 2 of 2 walls have no thickness; the default of"]);
+    assert_has(&warned, &["walls.toml: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "the table [check] is missing"]);
     refused(&folder, &["check", "walls.toml", "--find", "height"], &["takes one wall"]);

@@ -26,6 +26,7 @@ mod simulate;
 mod specimen;
 mod spectrum;
 mod standard_output;
+mod study_inputs;
 mod study_parts;
 mod validate;
 mod verify;
