@@ -129,6 +129,8 @@ def test_messages_say_what_is_meant():
     assert "\n" not in str(caught.value)
     with pytest.raises(TypeError, match="records must be a Record, found a value of the type int"):
         study(wall, records=3)
+    with pytest.raises(TypeError, match="records must be a Record, found a value of the type int"):
+        wall.check(3)
     one, listed = (wall.simulate(record, thresholds=given).demands for given in (0.5, [0.5]))
     assert repr(one) == repr(listed)
     assert wall.on_storeys([{"period": 0.3}]) == wall.on_storeys([rw.Storey(period=0.3)])

@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 use rocking_wall::wall::Parameters;
-use run::walls::{NamedWall, assumed, wall_parameters};
+use run::wall_parameters::{check_parameter, wall_parameters};
+use run::walls::{NamedWall, assumed};
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};
@@ -59,13 +60,8 @@ fn unused_names(wall: &Wall) -> Vec<&'static str> {
 fn of_parameters(name: &str, parameters: &Bound<'_, PyDict>) -> PyResult<NamedWall> {
     for (key, _) in parameters {
         let key: String = key.extract()?;
-        if ![KINEMATICS, POINTS].contains(&key.as_str()) && wall_parameters().all(|known| known != key) {
-            let all: Vec<_> = wall_parameters().chain([KINEMATICS, POINTS]).collect();
-            return Err(PyTypeError::new_err(format!(
-                "wall {name:?}: {key:?} is not a parameter of a wall of a study: {}",
-                all.join(", ")
-            )));
-        }
+        check_parameter(&key, &[KINEMATICS, POINTS])
+            .map_err(|message| PyTypeError::new_err(format!("wall {name:?}: {message}")))?;
     }
     let mut scene = Scene::default();
     let refuse = |error: PyErr| refused(format!("wall {name:?}: {}", error.value(parameters.py())));

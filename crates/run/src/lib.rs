@@ -14,6 +14,7 @@
 //! | [`polarity`] | motions with both signs |
 //! | [`shaking`] | runs of one wall through one record, multiplied by factors |
 //! | [`walls`] | walls by their names, from study files, scenes and tables |
+//! | [`mod@wall_parameters`] | the parameters that a wall of a study may state |
 //! | [`records`] | records by their names, from files, folders and patterns |
 //! | [`capacity`] | the static capacity curve: table, JSON, CSV, plot |
 //! | [`demands`] | demands as lines of text |
@@ -41,6 +42,7 @@ pub mod records;
 pub mod rotations;
 pub mod sample;
 pub mod shaking;
+pub mod wall_parameters;
 mod wall_table;
 pub mod wall_text;
 pub mod walls;

@@ -1,7 +1,6 @@
 //! Records by their names: the table `[records]` of a study or a check, with files, folders and patterns.
 
 use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use ground_motion::{
@@ -179,18 +178,11 @@ pub fn all_records(
     Ok(records)
 }
 
-/// Groups the records that are one motion, by their steps and samples.
+/// Groups the records that are one motion: their steps and samples are equal.
 pub fn motions(records: &[NamedRecord]) -> Vec<Vec<&NamedRecord>> {
     let mut groups: Vec<Vec<&NamedRecord>> = Vec::new();
-    let mut places = BTreeMap::new();
     for record in records {
-        let mut hasher = DefaultHasher::new();
-        let motion = &record.motion;
-        let numbers = motion.samples().iter().copied().chain([motion.step()]);
-        // zeros of both signs are equal
-        numbers.for_each(|number| (number + 0.0).to_bits().hash(&mut hasher));
-        let place = *places.entry(hasher.finish()).or_insert(groups.len());
-        match groups.get_mut(place).filter(|group| group[0].motion == *motion) {
+        match groups.iter_mut().find(|group| group[0].motion == record.motion) {
             Some(group) => group.push(record),
             None => groups.push(vec![record]),
         }

@@ -4,10 +4,11 @@
 use std::path::Path;
 
 use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
-use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
+use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text};
 use rocking_wall::wall::Parameters;
 
-use crate::walls::{NamedWall, wall_parameters};
+use crate::wall_parameters::{check_parameter, wall_parameters};
+use crate::walls::NamedWall;
 
 /// Largest table that is read.
 const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -88,19 +89,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
 
 /// Refuses columns that are no parameters, and a table without names of walls.
 fn check_names(names: &[&str]) -> Result<(), String> {
-    let known = || wall_parameters().chain([KINEMATICS, NAME]);
-    for &column in names {
-        if known().all(|name| name != column) {
-            let alone = column.split(['[', '(']).next().unwrap_or_default().trim();
-            let meant = suggestion(&alone.to_lowercase(), known());
-            let all: Vec<_> = known().filter(|name| *name != NAME).collect();
-            let all = all.join(", ");
-            return Err(format!(
-                "{column:?} is not a parameter of a wall of a study{meant}; write one of these alone, their \
-                 units are fixed: {all}"
-            ));
-        }
-    }
+    names.iter().try_for_each(|column| check_parameter(column, &[KINEMATICS, NAME]))?;
     if names.contains(&NAME) { Ok(()) } else { Err("a table of walls needs a column \"name\"".to_owned()) }
 }
 

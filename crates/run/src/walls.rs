@@ -12,15 +12,8 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
+use crate::wall_parameters::{OF_MODELS, WALL_GROUPS, is_of_models};
 use crate::wall_table;
-
-/// Groups of parameters that a wall of a study may state.
-pub(crate) const WALL_GROUPS: [&str; 6] = ["geometry", "force_law", "damping", "impact", "tie", "solver"];
-/// Parameters of these groups that the models of a study set.
-const OF_MODELS: [(&str, &str); 2] = [
-    ("damping_model", "damping_model is set by the study's models; state xi and c_bar only"),
-    ("impact", "impact is set by the study's models; state restitution_source and restitution only"),
-];
 
 /// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,10 +155,6 @@ fn without_model(group: &str) -> Schema {
     parameters
 }
 
-pub(crate) fn is_of_models(name: &str) -> bool {
-    OF_MODELS.iter().any(|(of_models, _)| *of_models == name)
-}
-
 /// Keys of a study or a check other than those of its walls.
 const OTHER_KEYS: [&str; 13] = [
     "title",
@@ -285,13 +274,6 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
     Ok(WallEntry { name: spec.name.clone(), source, floors: None })
 }
 
-/// Returns the names of the parameters that a wall of a study may state.
-pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
-    let groups = GROUPS.iter().filter(|(group, _)| WALL_GROUPS.contains(group));
-    let names = groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| !is_of_models(name));
-    names.chain(Bar::NUMBERS.map(|number| number.usual.name))
-}
-
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
 /// looked up beside its file. Adds the files that are read, and warnings about defaults.
 ///
@@ -318,11 +300,8 @@ pub fn read_walls(
     Ok(walls)
 }
 
-/// The name of a wall, and what the study ignores of its scene.
-pub type Ignored = (String, &'static str);
-
-/// Reads the walls of an entry. Adds the files that it names to `inputs`, and what the study ignores of a
-/// scene.
+/// Reads the walls of an entry. Adds the files that it names to `inputs`, and warnings about what a study
+/// ignores of a scene.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
@@ -331,7 +310,7 @@ pub fn walls(
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    ignored: &mut Vec<Ignored>,
+    warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         key: None,
@@ -359,7 +338,7 @@ pub fn walls(
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
                 let warning = "the study ignores the motion of its scene and uses its records";
-                ignored.push((name.clone(), warning));
+                warnings.push(format!("wall {name:?}: {warning}"));
             }
             let floors = entry.floors.or(scene.floors);
             Ok(vec![NamedWall { floors, ..NamedWall::new(name, scene.parameters).stating(stated) }])

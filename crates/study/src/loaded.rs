@@ -9,7 +9,7 @@ use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
 use run::records::{NamedRecord, all_records, copies, record_files};
 use run::wall_text::{wall_of_text, wall_text};
-use run::walls::{Ignored, NamedWall, assumed, check_unique, defaults, walls};
+use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
@@ -64,17 +64,17 @@ impl LoadedStudy {
         let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
         let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
-        let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
+        let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
         for (place, entry) in std::mem::take(&mut file.walls).into_iter().enumerate() {
-            let found = walls(entry, folder, &name, &mut inputs, &mut ignored)?;
+            let found = walls(entry, folder, &name, &mut inputs, &mut warnings)?;
             all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
         open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
-        let study = Self::assemble(&name, text, file, (all, records), &ignored)?;
+        let study = Self::assemble(&name, text, file, (all, records))?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings: [study.warnings, warnings].concat(), ..study })
     }
@@ -92,7 +92,7 @@ impl LoadedStudy {
         let mut file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
-        let study = Self::assemble(name, text, file, (walls, records), &[])?;
+        let study = Self::assemble(name, text, file, (walls, records))?;
         Ok(Self { warnings: [warnings, study.warnings].concat(), ..study })
     }
 
@@ -146,7 +146,7 @@ impl LoadedStudy {
         };
         let records = sent.records.into_iter().map(record).collect::<Result<_, SceneError>>()?;
         // they were told where it was sent
-        let study = Self::assemble(name, sent.text, file, (walls, records), &[])?;
+        let study = Self::assemble(name, sent.text, file, (walls, records))?;
         Ok(Self { warnings: Vec::new(), ..study })
     }
 
@@ -155,7 +155,6 @@ impl LoadedStudy {
         text: String,
         mut file: StudyFile,
         (given, records): (Vec<NamedWall>, Vec<NamedRecord>),
-        ignored: &[Ignored],
     ) -> Result<Self, SceneError> {
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         for class in &file.report.classes {
@@ -173,7 +172,7 @@ impl LoadedStudy {
         // of samples the first of each wall
         let every = walls.len().checked_div(sampled.len()).unwrap_or(1).max(1);
         warnings.extend(defaults(name, walls.iter().step_by(every)));
-        warn(walls.iter().step_by(every), ignored, (&file.models, &file.measure), &mut warnings);
+        warn(walls.iter().step_by(every), (&file.models, &file.measure), &mut warnings);
         let StudyFile { title, models, measure, select, levels, report, target, .. } = file;
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
@@ -281,11 +280,10 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
 }
 
-/// Adds the warnings of each wall, by its name: what is ignored of its scene, improbable numbers, parameters
-/// without effect. Then those of the intensity measure and the models.
+/// Adds the warnings of each wall, by its name: improbable numbers, parameters without effect. Then those of
+/// the intensity measure and the models.
 fn warn<'a>(
     walls: impl Iterator<Item = &'a NamedWall>,
-    ignored: &[Ignored],
     (models, measure): (&[Model], &IntensityMeasure),
     warnings: &mut Vec<String>,
 ) {
@@ -297,8 +295,7 @@ fn warn<'a>(
             unused(parameters, models).into_iter().chain(about_work).chain(Warning::unusual(parameters));
         let of_floors = floors.as_ref().zip(made.as_ref());
         let of_floors = of_floors.into_iter().flat_map(|(floors, wall)| floors.warnings(wall));
-        let own = ignored.iter().filter(|(wall, _)| wall == name).map(|(_, warning)| (*warning).to_owned());
-        let all = own.chain(found.map(|warning| warning.to_string())).chain(of_floors);
+        let all = found.map(|warning| warning.to_string()).chain(of_floors);
         warnings.extend(all.map(|warning| format!("wall {name:?}: {warning}")));
     }
     let unusual = measure

@@ -81,9 +81,9 @@ impl Statement {
         }
         let count = motions(&statement.records.named).len();
         if (1..FEWEST_RECORDS).contains(&count) {
-            let message = format!(
-                "records: found {count}, copies aside; at least {FEWEST_RECORDS} records (NTC 7.3.5)"
-            );
+            let copied = if count < statement.records.named.len() { " that differ" } else { "" };
+            let message =
+                format!("records: found {count}{copied}; at least {FEWEST_RECORDS} records (NTC 7.3.5)");
             return Err(CheckError::value(&["records"], message));
         }
         Ok(statement)

@@ -293,6 +293,15 @@ def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.f
     raise TypeError(f"{name} must be a Record, found a value of the type {type(record).__name__}: {remedy}")
 
 
+def listed(records: Any) -> list[Any]:
+    """Returns records as a list, also one alone."""
+    if isinstance(records, Record):
+        return [records]
+    if not np.iterable(records):
+        motion_of(records, "records")
+    return list(records)
+
+
 def scaled(
     motion: tuple[float, NDArray[np.float64]], factor: float, name: str
 ) -> tuple[float, NDArray[np.float64]]:

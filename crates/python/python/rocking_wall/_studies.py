@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
 from ._given import Attribute
-from ._records import Record, motion_of, read_record
+from ._records import Record, listed, motion_of, read_record
 from ._tables import Table, printable, toml, toml_lines
 from ._walls import Wall
 
@@ -263,7 +263,7 @@ def rows_of(frame: Any) -> list[dict[str, Any]]:
 
     An index with a name is a column, and one without has the names of the walls; but for numbers from 0 on.
     """
-    index = getattr(frame, "index", None)
+    index: Any = getattr(frame, "index", None)
     levels = list(getattr(index, "names", ()))
     is_counted = type(index).__name__ == "RangeIndex" and (index.start, index.step) == (0, 1)
     if levels == [None] and "name" not in frame.columns and not is_counted:
@@ -286,7 +286,7 @@ def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
 
     A row without a name is refused.
     """
-    single = [name for name, each in columns.items() if isinstance(each, str) or np.ndim(each) == 0]
+    single = [name for name, each in columns.items() if isinstance(each, str) or not np.iterable(each)]
     if single:
         raise TypeError(
             f"the column {single[0]!r} of a table of walls is one value; give one wall as [{{...}}], or a "
@@ -322,7 +322,7 @@ def one_wall(wall: object, name: object) -> Any:
         gaps = [key for key in WITHOUT_GAPS if key in wall and is_missing(wall[key])]
         if gaps:
             called = name_of(wall, name)
-            raise ValueError(f"the wall {called!r} has no {gaps[0]}; write it, or leave the row or column out")
+            raise ValueError(f"the wall {called!r} has no {gaps[0]}; write it, or leave row or column out")
         return {name: value for name, value in wall.items() if name != "name" and not is_missing(value)}
     found = type(wall).__name__
     raise TypeError(
@@ -344,13 +344,11 @@ def is_missing(value: object) -> bool:
 
 def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
     """Returns names and motions of records, which are read where they are paths."""
-    if isinstance(records, Record | str | PathLike):
+    if isinstance(records, str | PathLike):
         records = [records]
     if isinstance(records, Mapping):
         return [(str(name), motion_of(read(record))) for name, record in records.items()]
-    if not isinstance(records, Iterable):
-        motion_of(records, "records")
-    return [(getattr(record, "name", ""), motion_of(record)) for record in map(read, records)]
+    return [(getattr(record, "name", ""), motion_of(record)) for record in map(read, listed(records))]
 
 
 def read(record: object) -> object:

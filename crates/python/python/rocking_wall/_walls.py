@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._given import Given
 from ._parameters import Parameters
-from ._records import Record, motion_of, scaled
+from ._records import Record, listed, motion_of, scaled
 from ._responses import Peaks, Response
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict
 from ._tables import Table, printable, shown, toml_lines
@@ -258,7 +258,7 @@ class Wall(Given):
         >>> round(verdict.numbers["governs"]["onset"]["ratio"], 9)
         0.95157
         """
-        records = [records] if isinstance(records, Record) else records
+        records = listed(records)
         table = {"code": code, **statements}
         if len(records) > 0:
             # their motions are handed over beside the text
@@ -379,7 +379,7 @@ class Wall(Given):
         >>> wall.tie([synthetic_record()], stiffness=[0, 1e4, 1e6]).force.argmin()
         np.int64(0)
         """
-        given = [records] if isinstance(records, Record) else records
+        given = listed(records)
         if scale != 1.0 and len(given) == 0:
             raise ValueError("scale needs records beside it")
         if (level is None) != (check is None):

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use crate::hazard::{Hazard, HazardCurve, YEARS, is_open_quake, read};
+use crate::hazard::{Hazard, HazardCurve, YEARS, read, unusual};
 use crate::ida::IntensityMeasure;
 use rocking_wall::scene::{Place, SceneError, read_text};
 use rocking_wall::tables;
@@ -48,30 +48,7 @@ pub struct HazardEntry {
 #[derive(Clone, Debug)]
 enum Source {
     Points(HazardCurve),
-    /// A file, and where the study states a unit and a site.
-    File {
-        file: String,
-        unit: Option<(String, Stated)>,
-        site: Option<(u32, Stated)>,
-    },
-}
-
-/// Where a study states a key.
-#[derive(Clone, Debug)]
-struct Stated {
-    file: String,
-    line: usize,
-}
-
-impl Stated {
-    fn at<T>(value: &Spanned<T>, place: &Place<'_>) -> Self {
-        Self { file: place.name().to_owned(), line: place.line(value.span()) }
-    }
-
-    fn error(self, key: &str, message: &str) -> SceneError {
-        let Self { file, line } = self;
-        SceneError::Line { file, line, key: Some(key.to_owned()), message: message.to_owned() }
-    }
+    File { file: String, unit: Option<String>, site: Option<u32> },
 }
 
 impl HazardEntry {
@@ -87,35 +64,21 @@ impl HazardEntry {
         inputs: &mut Vec<PathBuf>,
     ) -> Result<(Hazard, Vec<String>), SceneError> {
         let Self { curve, years, target } = self;
-        let (curve, warnings) = match curve {
+        let (name, (curve, warnings)) = match curve {
             Source::Points(curve) => {
-                let warning = unusual(&curve, measure).map(|warning| format!("hazard: {warning}"));
-                (curve, warning.into_iter().collect())
+                let warning = unusual(&curve, measure);
+                ("hazard".to_owned(), (curve, warning.into_iter().collect()))
             }
             Source::File { file, unit, site } => {
                 let path = folder.join(file);
                 let name = path.display().to_string();
                 let text = read_text(&path, "a hazard curve (CSV)", MAX_FILE_BYTES)?;
-                let is_open_quake = is_open_quake(&text);
-                match (is_open_quake, &unit, &site) {
-                    (true, Some((_, unit)), _) => {
-                        let message = "a table of OpenQuake has units of its own; leave out unit";
-                        return Err(unit.clone().error("unit", message));
-                    }
-                    (false, _, Some((_, site))) => {
-                        let message = "site belongs to a table of OpenQuake; leave it out";
-                        return Err(site.clone().error("site", message));
-                    }
-                    _ => {}
-                }
-                let site = site.map(|(number, _)| number);
-                let unit = unit.as_ref().map(|(unit, _)| unit.as_str());
-                let (curve, mut warnings) = read(&Place::new(&name, &text), measure, unit, site)?;
-                warnings.extend(unusual(&curve, measure).filter(|_| !is_open_quake));
                 inputs.push(path);
-                (curve, warnings.iter().map(|warning| format!("{name}: {warning}")).collect())
+                let read = read(&Place::new(&name, &text), measure, unit.as_deref(), site)?;
+                (name, read)
             }
         };
+        let warnings = warnings.iter().map(|warning: &String| format!("{name}: {warning}")).collect();
         Ok((Hazard { curve, years, target }, warnings))
     }
 }
@@ -138,19 +101,10 @@ pub(super) fn hazard(
         }
         (None, Some(file)) => Source::File {
             file: file.get_ref().clone(),
-            unit: unit.as_ref().map(|unit| (unit.get_ref().clone(), Stated::at(unit, place))),
-            site: site.as_ref().map(|site| (*site.get_ref(), Stated::at(site, place))),
+            unit: unit.as_ref().map(|unit| unit.get_ref().clone()),
+            site: site.as_ref().map(|site| *site.get_ref()),
         },
         _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
     };
     Ok(HazardEntry { curve, years: years.unwrap_or(YEARS), target: *target })
-}
-
-/// Return period at which the intensities of sites are compared \[years\].
-const PERIOD: f64 = 2475.0;
-
-/// Warns of a curve in another unit than the study states.
-fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
-    let warning = measure.usual().warning(measure.unit().of(curve.intensity(1.0 / PERIOD)))?;
-    Some(format!("at a return period of {PERIOD} years, {warning}; state unit beside it"))
 }

@@ -8,7 +8,7 @@ use rocking_wall::scene::{Described, Place, SceneError, Schema, object, suggesti
 use rocking_wall::tables;
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{Bar, COMPUTED};
-use run::walls::wall_parameters;
+use run::wall_parameters::wall_parameters;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 

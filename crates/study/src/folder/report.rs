@@ -21,24 +21,11 @@ use super::population::Population;
 use super::risk::Risk;
 use super::rows::Rows;
 use super::samples::Sampled;
-use super::store::{Folder, PAGE};
+use super::store::{Folder, OPTIONAL, PAGE};
 use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, with_ends};
 
 /// Most walls that the page and the summary show one by one.
 pub(crate) const MOST_WALLS: usize = 40;
-/// The page, which is there only where all other files are complete, and the files that follow from options
-/// of a report.
-const OPTIONAL: [&str; 9] = [
-    PAGE,
-    "rates.csv",
-    "rate_shares.csv",
-    "losses.csv",
-    "vulnerability.csv",
-    "vulnerability.xml",
-    "samples.csv",
-    "sensitivity.csv",
-    "fragilities.svg",
-];
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 

@@ -31,18 +31,21 @@ pub const FILES: [&str; 19] = [
     "fragilities.xml",
     "pelicun.csv",
     "pelicun.json",
-    "fragilities.svg",
     "ties.csv",
     "cloud.csv",
+    PAGE,
     "rates.csv",
     "rate_shares.csv",
+    "losses.csv",
     "vulnerability.csv",
     "vulnerability.xml",
-    "losses.csv",
     "samples.csv",
     "sensitivity.csv",
-    PAGE,
+    "fragilities.svg",
 ];
+/// The page, which is there only where all other files are complete, and the files that follow from options
+/// of a report.
+pub(super) const OPTIONAL: &[&str] = FILES.as_slice().split_at(10).1;
 /// Largest description that is read; it has room for millions of walls.
 const MAX_STUDY_BYTES: u64 = 4 << 30;
 const RUNS: &str = "runs";

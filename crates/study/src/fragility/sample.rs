@@ -30,8 +30,9 @@ impl Sample {
 
     /// Takes what the curves of some records show of a `fraction` of `u_ins`: one exceedance of each, or with
     /// [`Crossing::Fraction`] how many exceed at each level. `shared` holds the levels of all records, if
-    /// they share them, of which those above the highest run do not count; if not, the curves are read at 50 intensities, equally spaced by their logarithms
-    /// between the lowest first and the highest last exceedance.
+    /// they share them, of which those above the highest run do not count; if not, the curves are read at 50
+    /// intensities, equally spaced by their logarithms between the lowest first and the highest last
+    /// exceedance.
     pub fn of_curves(curves: &[Curve], fraction: f64, crossing: Crossing, shared: Option<&[f64]>) -> Self {
         let exceedances = |crossing| -> Vec<Exceedance> {
             curves.iter().map(|curve| curve.exceedance(fraction, crossing, shared.is_some())).collect()

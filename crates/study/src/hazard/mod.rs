@@ -25,7 +25,7 @@ mod read;
 
 pub use curve::{HazardCurve, HazardError};
 pub use rate::{AgainstTarget, Rate, probability};
-pub use read::{is_open_quake, read};
+pub use read::{read, unusual};
 
 use serde::{Deserialize, Serialize};
 

@@ -26,148 +26,149 @@ pub fn read(
     site: Option<u32>,
 ) -> Result<Read, SceneError> {
     let text = file.text().trim_start_matches('\u{feff}');
-    let fault = |fault: Fault| file.error_on(fault.line(), fault.to_string());
-    let columns = Columns::of_texts(text, FORMS).map_err(fault)?;
-    let rows = columns.rows().collect::<Result<Vec<_>, _>>().map_err(fault)?;
-    let table = Table { file, rows, columns };
-    match comment(text) {
-        Some(comment) => table.open_quake(comment, measure, site),
-        None => table.two_columns(measure, unit),
-    }
+    let read = || {
+        let columns = Columns::of_texts(text, FORMS).map_err(in_file)?;
+        let rows: Vec<_> = columns.rows().collect::<Result<_, _>>().map_err(in_file)?;
+        match (comment(text), unit, site) {
+            (Some((line, _)), Some(_), _) => Err((
+                line,
+                "a table of OpenQuake has units of its own; leave out unit of [hazard]".to_owned(),
+            )),
+            (Some(comment), ..) => open_quake(comment, &columns, &rows, measure, site),
+            (None, _, Some(_)) => {
+                let message = "site of [hazard] belongs to a table of OpenQuake; leave it out";
+                Err((columns.line(), message.to_owned()))
+            }
+            (None, ..) => two_columns(&columns, &rows, measure, unit),
+        }
+    };
+    read().map_err(|(line, message)| file.error_on(line, message))
 }
 
-/// Returns whether the text of a file is a table of `OpenQuake`, which begins with a comment.
-pub fn is_open_quake(text: &str) -> bool {
-    comment(text).is_some()
+/// The line of what is wrong, and the message.
+type LineFault = (usize, String);
+
+fn in_file(fault: Fault) -> LineFault {
+    (fault.line(), fault.to_string())
+}
+
+/// Return period at which the intensities of sites are compared \[years\].
+const PERIOD: f64 = 2475.0;
+
+/// Warns of a curve in another unit than the study states.
+pub fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
+    let warning = measure.usual().warning(measure.unit().of(curve.intensity(1.0 / PERIOD)))?;
+    Some(format!("at a return period of {PERIOD} years, {warning}; state its unit"))
 }
 
 /// Returns the comment that begins a table of `OpenQuake`, and its line.
 fn comment(text: &str) -> Option<(usize, &str)> {
-    let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines().map(str::trim));
+    let mut lines = (1..).zip(text.lines().map(str::trim));
     let first = lines.find(|(_, line)| !line.is_empty())?;
     (first.1.starts_with('#') && first.1.contains("investigation_time")).then_some(first)
 }
 
-/// The columns of a file, and its rows.
-struct Table<'a> {
-    file: &'a Place<'a>,
-    columns: Columns<'a>,
-    rows: Vec<TextRow<'a>>,
+fn two_columns(
+    columns: &Columns<'_>,
+    rows: &[TextRow<'_>],
+    measure: &IntensityMeasure,
+    unit: Option<&str>,
+) -> Result<Read, LineFault> {
+    let (line, names) = (columns.line(), columns.names());
+    let [name, rate] = names else {
+        let found: Vec<_> = names.iter().map(Name::written).collect();
+        return Err((line, format!("expected {FORMS}, found {found:?}")));
+    };
+    if rate.written() != "annual_rate" {
+        return Err((line, format!("expected {FORMS}, found {:?}", rate.written())));
+    }
+    let given = measure.to_si(unit).map_err(|message| (line, message))?;
+    // brackets may hold a period, too
+    let own = name.unit().and_then(|own| Some((own, measure.to_si(Some(own)).ok()?)));
+    if let (Some((own, of_name)), Some(unit)) = (own, unit)
+        && of_name(1.0) != given(1.0)
+    {
+        let message = format!("the column states {own}, the study unit = {unit:?}; leave out unit");
+        return Err((line, message));
+    }
+    let (name, to_si) = own.map_or((name.written(), given), |(_, to_si)| (name.text(), to_si));
+    let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
+    let warning = warning.map_err(|message| (line, message))?;
+    let mut numbers = Numbers::new(columns);
+    let point = |row: &TextRow<'_>| {
+        let mut cells = row.cells();
+        let mut next = || numbers.real(&cells.next().unwrap_or_default(), row.line).map_err(in_file);
+        Ok([next()?, next()?])
+    };
+    let points = rows.iter().map(point).collect::<Result<_, LineFault>>()?;
+    let curve = HazardCurve::converted(points, to_si)
+        .map_err(|error| (error.point.map_or(line, |point| rows[point - 1].line), error.to_string()))?;
+    let unusual = unusual(&curve, measure);
+    Ok((curve, warning.into_iter().chain(unusual).collect()))
 }
 
-impl Table<'_> {
-    fn fail(&self, line: usize, message: String) -> Result<Read, SceneError> {
-        Err(self.file.error_on(line, message))
+/// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
+/// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
+fn open_quake(
+    (line, comment): (usize, &str),
+    columns: &Columns<'_>,
+    rows: &[TextRow<'_>],
+    measure: &IntensityMeasure,
+    site: Option<u32>,
+) -> Result<Read, LineFault> {
+    // an imt may have brackets, but no comma: SA(0.5)
+    let stated = |key: &str| {
+        let found = comment
+            .split_once(&format!("{key}="))
+            .and_then(|(_, after)| after.trim_start_matches('\'').split([',', '\'', '"']).next());
+        found.ok_or_else(|| (line, format!("the comment has no {key}=, which OpenQuake writes")))
+    };
+    let years = stated("investigation_time")?;
+    let positive = years.parse().ok().filter(|years: &f64| *years > 0.0 && years.is_finite());
+    let wrong = || (line, format!("investigation_time={years} years must be positive and finite"));
+    let years = positive.ok_or_else(wrong)?;
+    let warning = same_measure(stated("imt")?, measure).map_err(|message| (line, message))?;
+    let mut warnings: Vec<_> = warning.into_iter().collect();
+    let (heading, count) = (columns.line(), rows.len());
+    if count == 0 {
+        let message = "the table has no row below its names; give one with at least one site";
+        return Err((heading, message.into()));
     }
-
-    fn number(&self, numbers: &mut Numbers, cell: &str, line: usize) -> Result<f64, SceneError> {
-        numbers.real(cell, line).map_err(|fault| self.file.error_on(line, fault.to_string()))
+    let at = site.map_or(1, |site| site as usize);
+    if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
+        let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
+        return Err((
+            heading,
+            format!("the table has {count} sites{found}; give site = n, from 1 to {count}"),
+        ));
     }
-
-    fn two_columns(&self, measure: &IntensityMeasure, unit: Option<&str>) -> Result<Read, SceneError> {
-        let line = self.columns.line();
-        let in_heading = |message: String| self.file.error_on(line, message);
-        let names = self.columns.names();
-        let [name, rate] = names else {
-            let found: Vec<_> = names.iter().map(Name::written).collect();
-            return Err(in_heading(format!("expected {FORMS}, found {found:?}")));
-        };
-        if rate.written() != "annual_rate" {
-            return Err(in_heading(format!("expected {FORMS}, found {:?}", rate.written())));
+    let (row, unit) = (rows[at - 1], measure.unit());
+    let (mut points, mut numbers) = (Vec::new(), Numbers::new(columns));
+    for (name, cell) in columns.names().iter().zip(row.cells()) {
+        let Some(level) = name.written().strip_prefix("poe-") else { continue };
+        let no_level = |_| (heading, format!("{level:?} of {:?} is not a number", name.written()));
+        let level: f64 = level.parse().map_err(no_level)?;
+        let poe = numbers.real(&cell, row.line).map_err(in_file)?;
+        if !(0.0..=1.0).contains(&poe) {
+            let message = format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name());
+            return Err((row.line, message));
         }
-        let given = measure.to_si(unit).map_err(in_heading)?;
-        // brackets may hold a period, too
-        let own = name.unit().and_then(|own| Some((own, measure.to_si(Some(own)).ok()?)));
-        if let (Some((own, of_name)), Some(unit)) = (own, unit)
-            && of_name(1.0) != given(1.0)
-        {
-            let message = format!("the column states {own}, the study unit = {unit:?}; leave out unit");
-            return Err(in_heading(message));
-        }
-        let (name, to_si) = own.map_or((name.written(), given), |(_, to_si)| (name.text(), to_si));
-        let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
-        let warning = warning.map_err(in_heading)?;
-        let mut numbers = Numbers::new(&self.columns);
-        let point = |row: &TextRow<'_>| {
-            let mut cells = row.cells();
-            let mut next = || self.number(&mut numbers, &cells.next().unwrap_or_default(), row.line);
-            Ok([next()?, next()?])
-        };
-        let points = self.rows.iter().map(point).collect::<Result<_, SceneError>>()?;
-        let curve = HazardCurve::converted(points, to_si).map_err(|error| {
-            let line = error.point.map_or(line, |point| self.rows[point - 1].line);
-            self.file.error_on(line, error.to_string())
-        });
-        Ok((curve?, warning.into_iter().collect()))
+        points.push([level * unit.size(), -libm::log1p(-poe) / years]);
     }
-
-    /// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
-    /// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
-    fn open_quake(
-        &self,
-        (line, comment): (usize, &str),
-        measure: &IntensityMeasure,
-        site: Option<u32>,
-    ) -> Result<Read, SceneError> {
-        // an imt may have brackets, but no comma: SA(0.5)
-        let stated = |key: &str| {
-            let found = comment
-                .split_once(&format!("{key}="))
-                .and_then(|(_, after)| after.trim_start_matches('\'').split([',', '\'', '"']).next());
-            let missing =
-                || self.file.error_on(line, format!("the comment has no {key}=, which OpenQuake writes"));
-            found.ok_or_else(missing)
-        };
-        let (years, imt) = (stated("investigation_time")?, stated("imt")?);
-        let years =
-            years.parse().ok().filter(|years: &f64| *years > 0.0 && years.is_finite()).ok_or_else(|| {
-                let message = format!("investigation_time={years} years must be positive and finite");
-                self.file.error_on(line, message)
-            })?;
-        let warning = same_measure(imt, measure).map_err(|message| self.file.error_on(line, message))?;
-        let mut warnings: Vec<_> = warning.into_iter().collect();
-        let (heading, count) = (self.columns.line(), self.rows.len());
-        if count == 0 {
-            let message = "the table has no row below its names; give one with at least one site";
-            return self.fail(heading, message.into());
-        }
-        let at = site.map_or(1, |site| site as usize);
-        if !(1..=count).contains(&at) || (site.is_none() && count > 1) {
-            let found = site.map_or_else(String::new, |site| format!(", and not site {site}"));
-            let message = format!("the table has {count} sites{found}; give site = n, from 1 to {count}");
-            return self.fail(heading, message);
-        }
-        let row = self.rows[at - 1];
-        let (mut points, mut numbers, unit) = (Vec::new(), Numbers::new(&self.columns), measure.unit());
-        for (name, cell) in self.columns.names().iter().zip(row.cells()) {
-            let Some(level) = name.written().strip_prefix("poe-") else { continue };
-            let level: f64 = level.parse().map_err(|_| {
-                self.file.error_on(heading, format!("{level:?} of {:?} is not a number", name.written()))
-            })?;
-            let poe = self.number(&mut numbers, &cell, row.line)?;
-            if !(0.0..=1.0).contains(&poe) {
-                let message = format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name());
-                return self.fail(row.line, message);
-            }
-            points.push([level * unit.size(), -libm::log1p(-poe) / years]);
-        }
-        if points.is_empty() {
-            return self.fail(heading, "no column is named poe-LEVEL, as OpenQuake names them".into());
-        }
-        let all = points.len();
-        // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
-        points.retain(|[_, rate]| *rate > 0.0 && rate.is_finite());
-        let equal = points.windows(2).take_while(|pair| pair[0][1] == pair[1][1]).count();
-        points.drain(..equal);
-        if points.len() < all {
-            let left = all - points.len();
-            warnings
-                .push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
-        }
-        let curve =
-            HazardCurve::new(points).map_err(|error| self.file.error_on(row.line, error.to_string()))?;
-        Ok((curve, warnings))
+    if points.is_empty() {
+        return Err((heading, "no column is named poe-LEVEL, as OpenQuake names them".into()));
     }
+    let all = points.len();
+    // the certain and the impossible have no rate; at its ends a table repeats what its digits cannot tell
+    points.retain(|[_, rate]| *rate > 0.0 && rate.is_finite());
+    let equal = points.windows(2).take_while(|pair| pair[0][1] == pair[1][1]).count();
+    points.drain(..equal);
+    if points.len() < all {
+        let left = all - points.len();
+        warnings.push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
+    }
+    let curve = HazardCurve::new(points).map_err(|error| (row.line, error.to_string()))?;
+    Ok((curve, warnings))
 }
 
 /// Refuses the name of another measure; warns where a name does not tell the periods.

@@ -129,11 +129,11 @@ impl IntensityMeasure {
             Self::Code { .. } => ("a_g", [0.004, 2.0], ACCELERATIONS),
             Self::Sa { .. } => ("Sa", [0.0005, 5.0], ACCELERATIONS),
             Self::AvgSa { .. } => ("AvgSA", [0.0005, 5.0], ACCELERATIONS),
-            Self::Pgv => ("PGV", [0.3, 400.0], &[("in m/s", 100.0), ("in mm/s", 0.1)]),
-            Self::Pgd => ("PGD", [0.03, 1000.0], CM),
+            Self::Pgv => ("PGV", [0.5, 400.0], &[("in m/s", 100.0), ("in mm/s", 0.1)]),
+            Self::Pgd => ("PGD", [0.1, 1000.0], CM),
             Self::Arias => ("Arias", [1e-4, 50.0], &[("in cm/s", 0.01), ("in mm/s", 0.001)]),
             Self::Cav => ("CAV", [0.01, 30.0], &[("in m/s", G), ("in cm/s", 0.01 * G)]),
-            Self::Housner => ("Housner", [0.5, 2000.0], CM),
+            Self::Housner => ("Housner", [1.0, 2000.0], CM),
         };
         Usual { name, unit: self.unit().name(), range, others }
     }

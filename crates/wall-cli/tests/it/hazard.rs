@@ -138,8 +138,8 @@ fn a_hazard_that_cannot_be_is_refused() {
     fs::write(folder.join("empty.csv"), table).unwrap();
     let study = STUDY.replace("\"code\"", "\"PGA\"");
     for (hazard, words) in [
-        ("{ file = \"bad.csv\", site = 1 }", &["study.toml, line 7", "site belongs to a table"][..]),
-        ("{ file = \"empty.csv\", unit = \"g\" }", &["study.toml, line 7", "leave out unit"]),
+        ("{ file = \"bad.csv\", site = 1 }", &["bad.csv, line 1", "site of [hazard] belongs to a table"][..]),
+        ("{ file = \"empty.csv\", unit = \"g\" }", &["empty.csv, line 1", "leave out unit of [hazard]"]),
         ("{ file = \"empty.csv\" }", &["empty.csv, line 2", "no row"]),
         ("{}", &["line 7", "hazard needs points, or a file"]),
         ("{ points = [[0.1, 1e-2]] }", &["line 7", "hazard.points needs at least 2 values, found 1"]),

@@ -33,8 +33,8 @@ fn hazards_in_another_unit_are_warned_of() {
     let points = [(0.02, 0.08), (0.1, 0.007), (0.4, 3.5e-4), (1.6, 5e-6)];
     for (factor, unit, words) in [
         (1.0, "", ""),
-        (9.80665, "", "if it is in m/s2, give 0.374286 g; state unit"),
-        (980.665, "", "if it is in cm/s2, give 0.374286 g; state unit"),
+        (9.80665, "", "if it is in m/s2, give 0.374286 g; state its unit"),
+        (980.665, "", "if it is in cm/s2, give 0.374286 g; state its unit"),
         (9.80665, ", unit = \"m/s2\"", ""),
         (0.01, "", "PGA = 0.00374286 g is unusual"),
     ] {
@@ -76,7 +76,7 @@ fn copies_of_a_record_are_warned_of() {
         )
     };
     fs::write(folder.join("wall.toml"), check("\"records/a*\", \"records/b.AT2\"")).unwrap();
-    refused(&folder, &["check", "wall.toml"], &["records: found 1, copies aside; at least 3 records"]);
+    refused(&folder, &["check", "wall.toml"], &["records: found 1 that differ; at least 3 records"]);
 }
 
 /// NRML is well-formed whatever a wall is called: no comment holds two dashes.
@@ -114,7 +114,10 @@ fn grids_have_a_unit_and_heads() {
     let right = told(&named, [0.02, 0.05], "");
     assert!(!right.0.contains("ag_unit"), "{}", right.0);
     let (tenth, _) = told(&named, [0.2, 0.5], "");
-    assert_has(&tenth, &["at T_R = 475 years = 0.5 g is unusual", "in g/10 or m/s2, give 0.05 g; state ag_unit"]);
+    assert_has(
+        &tenth,
+        &["at T_R = 475 years = 0.5 g is unusual", "in g/10 or m/s2, give 0.05 g; state ag_unit"],
+    );
     assert_has(&told(&named, [0.02, 0.25], ", ag_unit = \"g/10\"").0, &["0.025 g is unusual"]);
     let heads = format!(";;{}\nLON;LAT;{}", ministry[0], ministry[1]);
     assert_eq!(told(&heads, [0.2, 0.5], ", ag_unit = \"g/10\"").1, right.1);

@@ -144,7 +144,7 @@ fn samples_of_uncertain_parameters_are_walls() {
     // without uncertain parameters their files go
     let certain = study.split("[uncertain]").next().unwrap();
     fs::write(folder.join("certain.toml"), certain).unwrap();
-    fs::create_dir_all(folder.join("certain")).unwrap();
+    succeed(&folder, &["study", "ida", "certain.toml", "-o", "certain"]);
     fs::write(folder.join("certain/samples.csv"), "").unwrap();
     succeed(&folder, &["study", "ida", "certain.toml", "-o", "certain"]);
     assert!(!folder.join("certain/samples.csv").exists());
