@@ -7,12 +7,12 @@ mod state;
 use std::cell::Cell;
 use std::sync::Arc;
 
-use fmu_export::{Experiment, Failure, Input, Kind, Log, Step as CommunicationStep, VariableId};
+use fmu_export::{Experiment, Failure, Input, Kind, Log, Step as CommunicationStep, VariableId, check_real};
 
 use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
 use crate::solver::{Demands, Segment};
-use crate::variables::{RealVariable, real_calculated, real_output, real_parameter};
+use crate::variables::{RealVariable, real_calculated, real_local, real_output, real_parameter};
 use crate::wall::{Ends, Parameters, Support, Wall};
 
 use model_exchange::Exchange;
@@ -110,13 +110,20 @@ impl Unit {
             RealVariable::ATop => Some(&mut self.inputs.top),
             RealVariable::Drift => Some(&mut self.inputs.drift),
             // a_g is held over a step
-            RealVariable::AG | real_output!() | real_parameter!() | real_calculated!() => None,
+            RealVariable::AG | real_output!() | real_local!() | real_parameter!() | real_calculated!() => {
+                None
+            }
         }
     }
 
     /// Makes one communication step, through the samples of the scene's own motion. A step that may end early
     /// ends just after overturning; the time of its end is then returned. On an error the unit is as it was.
     fn advance(&mut self, mut step: CommunicationStep, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
+        use RealVariable as V;
+        let Inputs { bottom, top, drift, .. } = &self.inputs;
+        for (of, Input { value, rate, .. }) in [(V::ABottom, bottom), (V::ATop, top), (V::Drift, drift)] {
+            check_real(of.variable(), value + rate * step.duration)?;
+        }
         // a step in one segment that fails leaves the wall as it was, and needs no copy
         let may_go_back = step.may_end_early || self.excitation.is_some();
         let before = may_go_back.then(|| *self.simulation.progress());

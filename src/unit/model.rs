@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::simulation::Outputs;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
-    integer_parameter, real_calculated, real_input, real_output, real_parameter,
+    integer_parameter, real_calculated, real_input, real_local, real_output, real_parameter,
 };
 use crate::wall::{Kinematics, Parameters, Support};
 
@@ -73,7 +73,7 @@ impl Model for Unit {
             V::Omega1 => wall.omega1(),
             V::XiUsed => wall.damping_ratio(),
             V::RestitutionUsed => wall.restitution(),
-            real_output!() => output(&self.outputs(), variable).unwrap_or(f64::NAN),
+            real_output!() | real_local!() => output(&self.outputs(), variable).unwrap_or(f64::NAN),
             real_parameter!() => self.parameters.real(variable).unwrap_or(f64::NAN),
         }
     }
@@ -101,7 +101,7 @@ impl Model for Unit {
             V::Drift => self.inputs.drift.set(value),
             V::U | V::UDot => self.place(variable, value),
             real_parameter!() => assert!(self.parameters.set_real(variable, value), "it is a parameter"),
-            real_output!() | real_calculated!() => {
+            real_output!() | real_local!() | real_calculated!() => {
                 unreachable!("the layer refuses to set {}", variable.variable().name)
             }
         }
@@ -132,7 +132,7 @@ impl Model for Unit {
             }
             // these change at communication points and events alone
             V::UMax | V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::TieBreakTime => Some(0.0),
-            real_output!() => {
+            real_output!() | real_local!() => {
                 let support_rate = self.inputs.rate(|input| input.last_rate);
                 let motion = [velocity, acceleration];
                 output(&self.simulation.derivative(self.support(), motion, support_rate), variable)
@@ -151,13 +151,13 @@ impl Model for Unit {
             V::ABottom => ([0.0; 2], [1.0, 0.0, 0.0]),
             V::ATop => ([0.0; 2], [0.0, 1.0, 0.0]),
             V::Drift => ([0.0; 2], [0.0, 0.0, 1.0]),
-            real_output!() | real_parameter!() | real_calculated!() => return None,
+            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
         };
         let along = self.simulation.derivative(self.support(), motion, Support { bottom, top, drift });
         match unknown {
             // these depend on the past, not on the present state and inputs alone
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax | V::TieBreakTime => Some(0.0),
-            real_output!() => output(&along, unknown),
+            real_output!() | real_local!() => output(&along, unknown),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }

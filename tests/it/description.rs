@@ -1,6 +1,6 @@
 //! Compares the model description with the promised names, and the documentation with the description.
 
-use fmu_export::{Kind, Variable, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
@@ -36,6 +36,9 @@ fn the_names_others_rely_on_are_there_in_their_order() {
         tie_ultimate tie_elongation tie_elongation_negative tie_broken tie_break_time";
     let names: Vec<_> = variables().iter().map(|variable| variable.name).collect();
     assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
+    // FMPy plots every output, and stops above 17
+    let outputs = variables().iter().filter(|variable| variable.causality == Causality::Output).count();
+    assert_eq!(outputs, 15);
     let references: Vec<_> = variables().iter().map(|variable| variable.reference).collect();
     assert!(references.iter().copied().eq(1..=65), "{references:?}");
 }

@@ -12,16 +12,21 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use crate::{edited_states, instantiated};
 
-/// Outputs that remember what has been.
+/// Outputs and local variables that remember what has been.
 const MEMORY: [V; 5] = [V::ImpulseBottom, V::ImpulseTop, V::OverturnTime, V::UMax, V::TieBreakTime];
 /// Communication step [s].
 const STEP: f64 = 1e-5;
 const INPUTS: [V; 4] = [V::AG, V::ABottom, V::ATop, V::Drift];
 
-/// Outputs that depend on the present state and inputs.
+/// Outputs and local variables.
+fn results() -> impl Iterator<Item = V> {
+    let is_one = |variable: &V| matches!(variable.variable().causality, Causality::Output | Causality::Local);
+    V::ALL.iter().copied().filter(is_one)
+}
+
+/// Those that depend on the present state and inputs.
 fn outputs() -> Vec<V> {
-    let is_output = |variable: &V| variable.variable().causality == Causality::Output;
-    V::ALL.iter().copied().filter(|variable| is_output(variable) && !MEMORY.contains(variable)).collect()
+    results().filter(|variable| !MEMORY.contains(variable)).collect()
 }
 
 fn unit(interface: Interface, reals: &[(V, f64)], choices: &[(I, i32)]) -> Unit {
@@ -185,7 +190,7 @@ fn output_derivatives_go_on_along_the_last_step() {
         let at = unit.clone();
         step(&mut unit);
         let mut compared = 0;
-        for &output in V::ALL.iter().filter(|output| output.variable().causality == Causality::Output) {
+        for output in results() {
             if output.variable().variability == Variability::Discrete {
                 assert_eq!(at.output_derivative(output), Some(0.0));
                 continue;

@@ -95,7 +95,7 @@ def test_logging_outlives_an_instance(unpacked2):
 def test_every_limit_is_checked_and_named(unpacked):
     checked = 0
     for variable in unpacked.description.modelVariables:
-        if variable.type != "Real" or variable.causality != "parameter":
+        if variable.type != "Real" or variable.causality not in ("parameter", "input"):
             continue
         low, high = (float(limit) for limit in (variable.min, variable.max))
         for value in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf)):
@@ -105,7 +105,7 @@ def test_every_limit_is_checked_and_named(unpacked):
                 unit.slave.reset()
                 unit.set(**{variable.name: limit})
         checked += 1
-    assert checked == 23
+    assert checked == 27
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])

@@ -59,7 +59,7 @@ def test_the_archive_is_complete(floor_fmu, tmp_path):
         library = archive.extract("binaries/linux64/floor.so", tmp_path)
     assert names == sorted(names)
     assert {"modelDescription.xml", "model.png", "documentation/index.html"} <= set(names)
-    assert "documentation/licenses/notices.txt" in names
+    assert "documentation/licenses/license.txt" in names
     assert re.fullmatch(r"\{[0-9a-f]{32}\}", xml.get("guid"))
     assert problems(library, portable=False) == []
 

@@ -1,6 +1,8 @@
 """Tests FMUs of one scene: only used variables, the motion inside, and no instance without the scene."""
 
 import json
+import math
+import re
 import shutil
 import subprocess
 import zipfile
@@ -107,6 +109,35 @@ def test_a_tied_scene_lists_what_its_tie_does(request, base, wall, tmp_path):
     assert result["tie_broken"][-1] and not result["tie_broken"][0]
     expected = json.loads(shown)["demands"]["tie_break_time_negative"]
     assert result["tie_break_time"][-1] == pytest.approx(expected)
+
+
+NAMED = re.compile(r"<tr><td><code>(\w+)</code></td>")
+
+
+@pytest.mark.parametrize("scene", [scene.stem for scene in SCENES])
+def test_a_scene_documents_what_it_has(packages, fmu, scene):
+    """The page lists the variables of the unit, and a parapet without a tie says nothing of ties."""
+    names = {variable.name for variable in read_model_description(str(packages[scene])).modelVariables}
+    texts = []
+    for path in (packages[scene], fmu):
+        with zipfile.ZipFile(path) as archive:
+            assert "documentation/licenses/license.txt" in archive.namelist()
+            texts.append(archive.read("documentation/index.html").decode())
+    page, general = texts
+    assert set(NAMED.findall(page)) == names < set(NAMED.findall(general))
+    for tag in ("tr", "li", "table", "div", "ul"):
+        assert page.count(f"<{tag}") == page.count(f"</{tag}>") > 0, tag
+    tables = page.split("<table")[1:]
+    assert all("<td>" in table for table in tables)
+    assert ("tie" in re.findall(r"[a-z]+", page)) == ("tie_stiffness" in names)
+
+
+def test_the_step_is_at_most_that_of_the_record(packages):
+    for scene, most in (("shaken_parapet", 0.005), ("plain_parapet", math.inf)):
+        description = read_model_description(str(packages[scene]))
+        experiment = description.defaultExperiment
+        step, stop = float(experiment.stepSize), float(experiment.stopTime)
+        assert step == min(most, stop / 1000), scene
 
 
 def test_reference_results_stay_with_the_general_unit(fmu, packages):

@@ -54,12 +54,13 @@ const MAX_DEPTH: usize = 8;
 /// What goes into an FMU.
 #[derive(Clone, Debug, Default)]
 pub struct Package {
-    /// The model description; a `model.png` and a folder `extra` beside it go in as well.
+    /// The model description; a `model.png` and a folder `extra` beside it go in as well. What is in `extra`
+    /// has names such as `org.example.notes`.
     pub description: PathBuf,
     /// The libraries, which were built from this description: each goes into the folders of the machines that
     /// it is for. FMI 3.0 also takes a WebAssembly component.
     pub libraries: Vec<PathBuf>,
-    /// Folder that becomes `documentation/`.
+    /// Folder that becomes `documentation/`; a folder `licenses` in it has an entry, such as `license.txt`.
     pub documentation: PathBuf,
     /// Folder that becomes `resources/`.
     pub resources: Option<PathBuf>,
@@ -93,7 +94,7 @@ impl Package {
     /// # Errors
     /// A description that contradicts itself, files that cannot be read, a library for a machine that FMI has
     /// no folder for, of another version of FMI or model, no `index.html`, or one that asks for a condition
-    /// that is not there.
+    /// that is not there; licences without an entry, and names in `extra` that FMI does not allow.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = read_text(&self.description)?;
         let invalid = |path: &Path, fault| DescriptionError::Invalid { path: path.to_path_buf(), fault };
@@ -133,7 +134,27 @@ impl Package {
         if extra.exists() {
             add_folder(&mut archive, "extra", &extra, MAX_DEPTH)?;
         }
+        self.check_names(&archive)?;
         Ok(archive)
+    }
+
+    /// Checks the names that FMI 3.0 asks for in `documentation/licenses` and `extra`.
+    fn check_names(&self, archive: &Archive) -> Result<(), PackError> {
+        let inside = |folder| archive.names().filter_map(move |name| name.strip_prefix(folder));
+        let entry = |name| matches!(name, "license.spdx" | "license.txt" | "license.html");
+        let licenses = || inside("documentation/licenses/");
+        if licenses().next().is_some() && !licenses().any(entry) {
+            let problem = "has no license.spdx, license.txt or license.html, where FMI 3.0 begins to read";
+            return Err(PackError::file(&self.documentation.join("licenses"), problem));
+        }
+        let own = |name: &&str| !name.split('/').next().is_some_and(|first| first.contains('.'));
+        match inside("extra/").find(own) {
+            None => Ok(()),
+            Some(name) => {
+                let path = self.description.with_file_name("extra").join(name);
+                Err(PackError::file(&path, "name what is in extra by a domain, as in org.example.notes"))
+            }
+        }
     }
 
     /// Adds a library, which must be of this version of FMI and of the model with this guid.

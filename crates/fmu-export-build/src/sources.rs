@@ -13,8 +13,8 @@ use crate::archive::Archive;
 use crate::{Additions, Description, Fault};
 
 /// Where a unit keeps them.
-const DESCRIPTION: &str = "extra/fmu-export/modelDescription.xml";
-const ADDITIONS: &str = "extra/fmu-export/fmi3.xml";
+const DESCRIPTION: &str = "resources/fmu-export/modelDescription.xml";
+const ADDITIONS: &str = "resources/fmu-export/fmi3.xml";
 
 /// The FMI 2.0 description of an FMI 3.0 unit, and what that leaves open.
 #[derive(Clone, Debug)]

@@ -8,7 +8,10 @@ use fmu_export_build::{Description, Reduction, ReductionError};
 use rocking_wall::scene;
 
 use super::error::SceneFmuError;
+use super::page;
 
+/// The page that importers open.
+const PAGE: &str = "documentation/index.html";
 /// Reference results, after the layered standard fmi-ls-ref.
 const REFERENCES: &str = "extra/org.fmi-standard.fmi-ls-ref";
 
@@ -56,8 +59,9 @@ impl General {
     }
 
     /// Makes a unit of it: with the file `payload` in `resources`, by the name given, and a guid that states
-    /// its fingerprint; with the variables and names of `reduction`, in the same version of FMI; without the
-    /// reference results, which are those of the general FMU. Returns its files and its description.
+    /// its fingerprint; with the variables and names of `reduction`, in the same version of FMI, and a page
+    /// of documentation on these; without the reference results, which are those of the general FMU. Returns
+    /// its files and its description.
     ///
     /// # Errors
     /// As [`Description::reduced`]; and a variable that FMI 3.0 has another use for.
@@ -70,6 +74,12 @@ impl General {
         let guid = format!("{{{guid}-{}}}", scene::fingerprint(payload.as_bytes()));
         let reduced = description.reduced(reduction, &guid)?;
         archive.remove_folder(REFERENCES);
+        if let Some(page) = archive.remove(PAGE) {
+            let has = |of: &Description, name: &str| of.variable_names().any(|variable| variable == name);
+            let page = String::from_utf8_lossy(&page);
+            let page = page::without(&page, |name| has(&description, name) && !has(&reduced, name));
+            archive.insert(PAGE, page);
+        }
         match &sources {
             None => archive.insert("modelDescription.xml", reduced.to_xml()),
             Some(sources) => sources.describe(&reduced, &mut archive).map_err(ReductionError::from)?,

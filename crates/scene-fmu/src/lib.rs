@@ -4,6 +4,7 @@
 
 mod error;
 mod general;
+mod page;
 
 use fmu_export_build::archive::Archive;
 use fmu_export_build::{DefaultExperiment, Reduction};
@@ -15,7 +16,7 @@ use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
 pub use error::SceneFmuError;
 pub use general::General;
 
-/// Communication steps of a scene's default experiment: FMPy records at most 1000 samples.
+/// Least communication steps of a scene's default experiment; FMPy records at most 1000 samples.
 const STEPS: f64 = 1000.0;
 
 /// The FMU of a scene.
@@ -31,14 +32,16 @@ pub struct SceneFmu {
     pub general_variables: usize,
 }
 
-/// Makes the FMU of a scene from the general one.
+/// Makes the FMU of a scene from the general one. The step of its default experiment is at most that of the
+/// scene's own motion.
 ///
 /// # Errors
 /// [`SceneFmuError`] of a scene in full rotations or without a wall, or where the description cannot be
 /// reduced.
 pub fn of_scene(scene: &Scene, general: General) -> Result<SceneFmu, SceneFmuError> {
-    let stop = scene.stop_time;
-    of_scene_in(scene, general, experiment(stop, stop / STEPS))
+    let motions = scene.excitation.iter().flat_map(|motion| [Some(motion.bottom()), motion.top()]);
+    let step = motions.flatten().map(GroundMotion::step).fold(scene.stop_time / STEPS, f64::min);
+    of_scene_in(scene, general, experiment(scene.stop_time, step))
 }
 
 /// Returns the default experiment of a unit that runs from 0 to `stop` in steps of `step` \[s\].

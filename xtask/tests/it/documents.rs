@@ -152,6 +152,15 @@ fn the_readme_of_the_export_layer_is_its_example() {
         let text = read(&format!("examples/fmu/{file}"));
         assert!(page.contains(&format!("```{language}\n{text}```\n")), "README.md has another {file}");
     }
+    // the signatures are those of the traits
+    let traits = read("crates/fmu-export/src/model.rs").replace("(&self, _", "(&self, ");
+    let traits = traits.replace("&mut self, _", "&mut self, ").replace(", _", ", ");
+    let signatures: Vec<_> =
+        page.lines().filter(|line| line.starts_with("fn ") && !line.contains('{')).collect();
+    assert!(signatures.len() > 10, "{signatures:?}");
+    for signature in signatures {
+        assert!(traits.contains(&format!("    {signature}")), "model.rs has no {signature}");
+    }
     let lines = |name: &str| read(&format!("examples/fmu/{name}")).lines().count();
     assert!(lines("modelDescription.xml") + lines("build.rs") + lines("src/lib.rs") < 150, "it is long");
 }

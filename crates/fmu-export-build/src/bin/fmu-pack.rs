@@ -13,10 +13,11 @@ Puts an FMU together; the same files give the same bytes.
 fmu-pack --description FILE --binary LIBRARY... --documentation DIR [--resources DIR] [--fmi 3] --output FILE
 
   --description FILE    the modelDescription.xml; its guid is filled in, and a model.png and a folder extra/
-                        beside it go in too
+                        beside it go in too; what is in extra/ has names such as org.example.notes
   --binary LIBRARY      a shared library of Linux, Windows or macOS, and for FMI 3.0 also a WebAssembly
                         component; may be repeated, one for each platform
-  --documentation DIR   becomes documentation/ and needs an index.html
+  --documentation DIR   becomes documentation/ and needs an index.html; licences in its folder licenses/ need
+                        a license.txt, license.html or license.spdx beside them, the entry of FMI 3.0
   --resources DIR       becomes resources/
   --fmi 3               an FMI 3.0 unit instead of FMI 2.0; a fmi3.xml beside the description says what that
                         leaves open: attributes of CoSimulation, and terminals

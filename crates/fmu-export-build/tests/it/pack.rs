@@ -60,7 +60,7 @@ impl Build {
             ("modelDescription.xml", BLOCK),
             ("model.png", "an icon"),
             ("documentation/index.html", "a page"),
-            ("documentation/licenses/notices.txt", "notices"),
+            ("documentation/licenses/license.txt", "notices"),
             ("documentation/.gitignore", "*"),
             ("resources/scene.toml", "a scene"),
             ("extra/org.example/notes.txt", "notes"),
@@ -114,7 +114,7 @@ fn an_fmu_has_its_files_in_their_places() {
         [
             "binaries/linux64/block.so",
             "documentation/index.html",
-            "documentation/licenses/notices.txt",
+            "documentation/licenses/license.txt",
             "extra/org.example/notes.txt",
             "model.png",
             "modelDescription.xml",
@@ -142,11 +142,11 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
             "binaries/aarch64-darwin/block.dylib",
             "binaries/x86_64-darwin/block.dylib",
             "documentation/index.html",
-            "documentation/licenses/notices.txt",
-            "extra/fmu-export/fmi3.xml",
-            "extra/fmu-export/modelDescription.xml",
+            "documentation/licenses/license.txt",
             "extra/org.example/notes.txt",
             "modelDescription.xml",
+            "resources/fmu-export/fmi3.xml",
+            "resources/fmu-export/modelDescription.xml",
             "terminalsAndIcons/icon.png"
         ]
     );
@@ -198,6 +198,15 @@ fn bad_input_gives_one_message_exit_code_2_and_no_file() {
     refused(&["--binary", library.to_str().unwrap()], "another library is binaries/linux64/block.so already");
     fs::write(build.path("fmi3.xml"), "\n<fmi2/>").unwrap();
     refused(&["--fmi", "3"], "fmi3.xml:2: expected <fmi3>, found <fmi2>");
+    fs::create_dir_all(build.path("extra/notes")).unwrap();
+    fs::write(build.path("extra/notes/notes.txt"), "notes").unwrap();
+    refused(&[], "extra/notes/notes.txt: name what is in extra by a domain, as in org.example.notes");
+    fs::remove_dir_all(build.path("extra")).unwrap();
+    let licenses = build.path("documentation/licenses");
+    fs::rename(licenses.join("license.txt"), licenses.join("notices.txt")).unwrap();
+    let no_entry = "licenses: has no license.spdx, license.txt or license.html, where FMI 3.0 begins to read";
+    refused(&[], no_entry);
+    fs::rename(licenses.join("notices.txt"), licenses.join("license.html")).unwrap();
     fs::remove_file(build.path("documentation/index.html")).unwrap();
     refused(&[], "has no index.html, the page that importers open");
     fs::write(build.path("modelDescription.xml"), BLOCK.replace("start=\"3\"", "start=\"30\"")).unwrap();
