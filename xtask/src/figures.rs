@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 use crate::bench;
 use crate::command::{Result, at, cargo, output, read, root, target, write};
 use crate::images::{self, wall};
-use crate::reliability;
 
 const DOCUMENT: &str = "docs/accuracy.md";
 const VALIDATION: &str = "docs/validation.md";
@@ -46,7 +45,6 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
     verification()?;
-    reliability::run()?;
     images::run()
 }
 

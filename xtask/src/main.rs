@@ -20,7 +20,6 @@ mod playground;
 mod portable;
 mod python;
 mod release;
-mod reliability;
 mod test;
 mod wheel;
 
@@ -51,10 +50,8 @@ The jobs of the project: cargo xtask JOB [OPTIONS]
   fuzz        feed mutated inputs to five readers for a minute each, and call the FMI functions 10^6 times at
               random, and 50,000 times under AddressSanitizer (nightly)
   figures     [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests; write
-              docs/accuracy.md, docs/validation.md, docs/verification.md, docs/reliability.md (under recorded
-              motions too if ROCKING_WALL_RECORDS names their folder), the pages, and docs/images
-              --peers [RECORD.AT2]: only the other tools; or only --images, --reliability, --validation,
-              --verification
+              docs/accuracy.md, docs/validation.md, docs/verification.md, the pages, and docs/images
+              --peers [RECORD.AT2]: only the other tools; or only --images, --validation, --verification
   book        build the book of docs/ with mdBook into target/book/book
   coupling    measure walls on floors: schemes, steps, run time; write docs/coupling.md and
               fmu_out/coupling.csv
@@ -82,7 +79,6 @@ fn main() -> ExitCode {
         ["figures"] => figures::run(None),
         ["figures", "--peers", record @ ..] if record.len() <= 1 => figures::peers(record.first().copied()),
         ["figures", "--images"] => images::run(),
-        ["figures", "--reliability"] => reliability::run(),
         ["figures", "--validation"] => figures::validation(),
         ["figures", "--verification"] => figures::verification(),
         ["figures", record] => figures::run(Some(record)),

@@ -20,8 +20,9 @@ pub struct Fitting {
     crossing: Crossing,
     dispersion: Dispersion,
     is_cloud: bool,
-    keeps_resamples: bool,
     bootstrap: Bootstrap,
+    /// β of modelling \[-\].
+    modelling: f64,
 }
 
 /// Curves of one wall with every model and record, and a fragility of every model and limit state.
@@ -59,8 +60,9 @@ impl Fitting {
             crossing: report.collapse,
             is_cloud: false,
             dispersion: report.beta,
-            keeps_resamples: !report.classes.is_empty() || report.hazard.is_some(),
-            bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
+            bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed)
+                .corrected(report.small_sample),
+            modelling: report.modelling_uncertainty,
         }
     }
 
@@ -82,6 +84,16 @@ impl Fitting {
         self.signs
     }
 
+    /// Returns the β of modelling, with which [`Summary::widened`] makes probabilities of a fit.
+    pub fn modelling(&self) -> f64 {
+        self.modelling
+    }
+
+    /// Returns the probability below which a number says nothing, by the number of records.
+    pub fn least_probability(&self) -> f64 {
+        self.bootstrap.least_probability()
+    }
+
     /// Fits the fragilities of a wall. `curves` has models outermost, records innermost.
     ///
     /// # Panics
@@ -92,11 +104,8 @@ impl Fitting {
             &all[Crossing::ALL.iter().position(|(_, crossing)| *crossing == self.crossing).unwrap_or(0)];
         let summaries = self.summaries(&curves, &self.fractions);
         let state = |(state, summaries): (usize, Vec<Summary>)| {
-            let of_model = |(model, mut summary): (usize, Summary)| {
-                if !self.keeps_resamples {
-                    summary.resamples = Vec::new();
-                }
-                let fit = |samples: &Vec<Vec<Sample>>| fit(&samples[model][state]);
+            let of_model = |(model, summary): (usize, Summary)| {
+                let fit = |samples: &Vec<Vec<Sample>>| self.bootstrap.correct(fit(&samples[model][state]));
                 let [a, b, c] = &all;
                 // the single run of a record in a cloud tells no crossing
                 let none = [Err(FitError::Cloud); 3];

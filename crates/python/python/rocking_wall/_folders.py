@@ -41,15 +41,17 @@ class StudyResults(Tabular):
     of intensities end with the unit of the measure."""
     fragilities: Table
     """The fragility of every wall, damping model and limit state: medians, θ and β of lognormal curves, with
-    95 % intervals. A number above the levels is infinite; one of which only bounds are known is NaN."""
+    95 % intervals, of medians by percentiles, of θ and β studentised. A number above the levels is infinite;
+    one of which only bounds are known is NaN."""
     curves: Table
     """The curve of every wall, then of every class, for each damping model and limit state: θ, and β with
     its parts due to records, walls and modelling. `wall` is the name of the wall or class."""
     rates: Table | None
     """The annual rate of each of these curves between the points of the hazard curve, with the ends of its
-    95 % interval over resampled records (`annual_rate_low`, `_high`), return period and probability. What may
-    lie outside the points stands apart: `beyond_last_point_continued` if the curve goes on as it ends, and
-    `annual_rate_most` with the most that is possible. None for a study without `hazard`."""
+    95 % interval over resampled records (`annual_rate_low`, `_high`, studentised), return period and
+    probability; of a class `annual_rate_of_walls` is the mean of its walls. What may lie outside the points
+    stands apart: `beyond_last_point_continued` if the curve goes on as it ends, and `annual_rate_most` with
+    the most that is possible. None for a study without `hazard`."""
     rate_shares: Table | None
     """The part of each rate from each segment of the hazard curve; None for a study without `hazard`."""
     vulnerability: Table | None

@@ -360,11 +360,12 @@ class Report(TypedDict, total=False):
       or at each level the fraction of the records; by default the fraction on a grid, else the first.
     - fractions: Limit states as fractions of u_ins; default [0.1, 0.4, 0.6, 1.0].
     - loss_ratios: Loss as a part of the value of a wall, for each of the fractions (-).
-    - modelling_uncertainty: Dispersion due to modelling, for the fragilities of risk engines [-], at least 0,
-      at most 2; default 0.
+    - modelling_uncertainty: Dispersion due to modelling, in all probabilities that are taken from fragilities
+      [-], at least 0, at most 2; default 0.
     - reference: Model by whose medians the others are divided; by default the first.
     - resamples: Number of resamples of the bootstrap, at least 100, at most 100000; default 1000.
     - seed: Seed of the resamples, at least 0; default 1.
+    - small_sample: Whether β is multiplied by 4n/(4n − 3), n records, which removes its bias; default False.
     """
 
     beta: Literal["own", "common", "ordered"]
@@ -375,6 +376,7 @@ class Report(TypedDict, total=False):
     reference: str
     resamples: int
     seed: int | Generator
+    small_sample: bool
 
 
 class Uncertain(TypedDict, total=False):

@@ -35,6 +35,9 @@ pub struct ReportOptions {
     pub resamples: u32,
     /// Seed of the resamples.
     pub seed: u64,
+    /// Whether β is corrected for the number of records.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub small_sample: bool,
     /// Standard deviation of the logarithm of the intensity, due to modelling \[-\].
     pub modelling_uncertainty: f64,
     /// Classes of walls.
@@ -94,7 +97,10 @@ tables! {
         /// Seed of the resamples.
         #[key(default = 1)]
         seed: Option<u64>,
-        /// Dispersion due to modelling, for the fragilities of risk engines \[-\].
+        /// Whether β is multiplied by 4n/(4n − 3), n records, which removes its bias.
+        #[key(default = false)]
+        small_sample: Option<bool>,
+        /// Dispersion due to modelling, in all probabilities that are taken from fragilities \[-\].
         #[key(minimum = 0, maximum = MOST_UNCERTAINTY, default = 0)]
         modelling_uncertainty: Option<f64>,
         /// Loss as a part of the value of a wall, for each of the fractions (-).
@@ -209,6 +215,7 @@ pub(super) fn report(
         collapse: spec.collapse.as_ref().map_or(own_crossing, |word| *word.get_ref()),
         resamples: spec.resamples.unwrap_or(RESAMPLES),
         seed: spec.seed.unwrap_or(1),
+        small_sample: spec.small_sample.unwrap_or(false),
         modelling_uncertainty: spec.modelling_uncertainty.unwrap_or(0.0),
         classes: read_classes(classes, place)?,
         hazard: None,

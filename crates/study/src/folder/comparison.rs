@@ -41,10 +41,11 @@ impl Comparison {
         let step = 100.0 * ticks.get(1).map_or(end, |tick| tick.0) / end;
         let mut html = format!(
             "<section><h2>Median collapse intensity of every wall, {}</h2>\
-             <p class=\"subtitle\">Marks: {}; lines: their 95&nbsp;% intervals.</p>\
+             <p class=\"subtitle\">Marks: {}; lines: their 95&nbsp;% intervals, {}.</p>\
              <div class=\"forest\" style=\"--step:{step:.3}%;--high:{}px\">",
             escaped(&manifest.contents.axis()),
             if manifest.contents.is_cloud { "θ of the regressions" } else { "medians over the records" },
+            manifest.contents.interval_of_medians(),
             LANE * manifest.contents.models.len()
         );
         for (wall, medians) in manifest.contents.walls.iter().zip(&self.0) {

@@ -126,6 +126,11 @@ impl Manifest {
 }
 
 impl Contents {
+    /// Says how the intervals of medians are made; those of a cloud are its θ.
+    pub(crate) fn interval_of_medians(&self) -> &'static str {
+        if self.is_cloud { "studentised" } else { "by percentiles" }
+    }
+
     /// Collects the contents of a study.
     pub fn of(study: &Study) -> Self {
         let models = study.models();

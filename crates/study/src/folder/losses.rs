@@ -110,7 +110,7 @@ impl<'a> Losses<'a> {
         let table = shown.table();
         if !table.rows.is_empty() {
             let words = format!(
-                "average annual loss, of the value of the wall, with {:.0} % intervals of the records; \"at \
+                "average annual loss, of the value of the wall, with {:.0} % intervals of the records, studentised; \"at \
                  most\" adds what may lie outside the hazard curve",
                 100.0 * CONFIDENCE
             );

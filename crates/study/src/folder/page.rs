@@ -99,7 +99,7 @@ fn reading(manifest: &Manifest) -> String {
             "Each record is run once, at its own level; points at the right edge are walls that overturned. \
              The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
              likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
-             them: θ = exp((ln d − a)/b), β = σ/b. Intervals contain 95&nbsp;% of {} resamples of the \
+             them: θ = exp((ln d − a)/b), β = σ/b. Intervals, 95&nbsp;%, are those of {} studentised resamples of the \
              records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
              counts the walls that overturned.",
             report.resamples,
@@ -127,7 +127,7 @@ fn reading(manifest: &Manifest) -> String {
         if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
     let dispersions = match report.beta {
         Dispersion::Own => {
-            "Each limit state has its own β; † marks curves that cross that of the next limit state."
+            "Each limit state has its own β; † marks curves that cross that of the next limit state by more than 0.01 of P."
         }
         Dispersion::Common => {
             "All limit states of a wall and model share one β, so that their curves do not cross (Shinozuka \
@@ -140,8 +140,8 @@ fn reading(manifest: &Manifest) -> String {
     format!(
         "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum likelihood to \
          {observed}. {counted} {dispersions} Misfit is the largest distance of a curve from the fractions of \
-         the records. Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all their \
-         results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels leave \
+         the records. Intervals, 95&nbsp;%, are those of {} resamples of the records, drawn with all their \
+         results, so that ratios are paired: of medians by percentiles, of θ and β studentised. Ratios are to {}. “open” marks a number that the levels leave \
          open, with its bound. Fractiles of IDA curves are those of the intensity at which a record first \
          exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
         report.resamples,
@@ -244,7 +244,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let mut summaries = (0..report.fractions.len()).map(|state| results.summary(state, model));
         match report.beta {
             Dispersion::Common if results.is_contradicted(model) => " *",
-            Dispersion::Own if summaries.any(|one| one.crossing.is_some()) => " †",
+            Dispersion::Own if summaries.any(|one| one.crossing.is_some_and(|one| one.matters())) => " †",
             _ => "",
         }
     };

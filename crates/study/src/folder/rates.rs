@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{CONFIDENCE, Interval};
-use crate::hazard::{Hazard, Rate, probability};
+use crate::hazard::{AgainstTarget, Hazard, Rate, probability};
 use crate::ida::IntensityUnit;
 use report::escaped;
 use report::table::{Column, Digits, Table};
@@ -14,11 +14,13 @@ use super::contents::Manifest;
 use super::error::FolderError;
 use super::rows::Rows;
 use super::shown::Shown;
-use super::subject::{State, Subject};
+use super::subject::{Fragilities, State, Subject};
 use super::tables::OF_INTENSITY;
 
 /// Part of the rates that may lie beyond the last point without a word.
 const MOST_BEYOND: f64 = 0.05;
+/// Part by which the rate of a class may differ from the mean of its walls' rates without a word.
+const MOST_APART: f64 = 0.1;
 
 /// The files under construction.
 pub(crate) struct Rates<'a> {
@@ -29,6 +31,8 @@ pub(crate) struct Rates<'a> {
     shown: Shown<'a>,
     /// Number of rates, and of those of which much lies beyond the last point.
     beyond: [usize; 2],
+    /// Number of rates of classes, and of those that are not about the mean of their walls' rates.
+    apart: [usize; 2],
 }
 
 /// A row: limit state, curve and rate.
@@ -38,7 +42,11 @@ struct Row {
     curve: [f64; 2],
     rate: Rate,
     interval: [f64; 2],
+    /// The least and the most of the rate, with the interval and with what lies outside the hazard curve.
+    ends: [f64; 2],
     resamples: usize,
+    /// Of a class, the mean of its walls' rates.
+    of_walls: Option<f64>,
 }
 
 impl<'a> Rates<'a> {
@@ -50,17 +58,23 @@ impl<'a> Rates<'a> {
     ) -> Result<Self, FolderError> {
         let files = [Rows::new(&folder.join("rates.csv"))?, Rows::new(&folder.join("rate_shares.csv"))?];
         let shown = Shown::new(manifest, "share of the rate up to there");
-        Ok(Self { manifest, hazard, files, shown, beyond: [0; 2] })
+        Ok(Self { manifest, hazard, files, shown, beyond: [0; 2], apart: [0; 2] })
     }
 
     /// Adds a wall or a class.
     pub(crate) fn add(&mut self, subject: &Subject<'_>) -> Result<(), FolderError> {
         let (hazard, contents) = (self.hazard, &self.manifest.contents);
-        let rows = subject.states().filter_map(|(model, state)| Row::of(hazard, model, state));
+        let rows = subject.models.iter().enumerate().flat_map(|(model, one)| {
+            let row = move |place| Row::of(hazard, model, one, place);
+            (0..one.states.len()).filter_map(row)
+        });
         let rows: Vec<Row> = rows.collect();
-        for Row { rate, .. } in &rows {
+        for Row { rate, of_walls, .. } in &rows {
             self.beyond[0] += 1;
             self.beyond[1] += usize::from(rate.beyond[1] > MOST_BEYOND * rate.within());
+            self.apart[0] += usize::from(of_walls.is_some());
+            let is_apart = |mean: f64| (rate.within() - mean).abs() > MOST_APART * mean;
+            self.apart[1] += usize::from(of_walls.is_some_and(is_apart));
         }
         let table = rates(self.manifest, hazard, subject, &rows);
         self.files[0].add(&table)?;
@@ -82,10 +96,11 @@ impl<'a> Rates<'a> {
         [points[0][0], points[points.len() - 1][0]].map(|x| self.manifest.contents.unit.of(x))
     }
 
-    /// Says how many rates may lie beyond the hazard curve for a good part.
-    pub(crate) fn warning(&self) -> Option<String> {
+    /// Says how many rates may lie beyond the hazard curve for a good part, and how many classes are not
+    /// lognormal.
+    pub(crate) fn warnings(&self) -> Vec<String> {
         let ([all, much], [_, last]) = (self.beyond, self.ends());
-        (much > 0).then(|| {
+        let beyond = (much > 0).then(|| {
             format!(
                 "{much} of {all} rates may have more than {:.0} % beyond the last point of the hazard curve, \
                  at {} {}; give points of higher intensities",
@@ -93,15 +108,25 @@ impl<'a> Rates<'a> {
                 OF_INTENSITY.of(last),
                 self.manifest.contents.unit.name()
             )
-        })
+        });
+        let [classes, apart] = self.apart;
+        let apart = (apart > 0).then(|| {
+            format!(
+                "{apart} of {classes} rates of classes differ by more than {:.0} % from the mean of their \
+                 walls' rates, as walls that differ have together no lognormal curve; annual_rate_of_walls \
+                 in rates.csv is that mean, the rate of the class",
+                100.0 * MOST_APART
+            )
+        });
+        beyond.into_iter().chain(apart).collect()
     }
 
     /// Completes the files; returns their paths, what is to be said, and the section of the page.
     pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
         let (contents, [from, to]) = (&self.manifest.contents, self.ends().map(|x| OF_INTENSITY.of(x)));
         let mut words = format!(
-            "annual rates from {} of {from} to {to} {}, {:.0} % intervals of the records; \"at most\" \
-             adds what may lie outside",
+            "annual rates from {} of {from} to {to} {}, {:.0} % intervals of the records, studentised; \
+             \"at most\" adds what may lie outside",
             contents.measure,
             contents.unit.name(),
             100.0 * CONFIDENCE
@@ -109,10 +134,10 @@ impl<'a> Rates<'a> {
         if let Some(target) = self.hazard.target {
             let _ = write!(words, "; target {target:e} a year");
         }
-        let warning = self.warning().map_or_else(String::new, |warning| format!(" {}.", escaped(&warning)));
+        let warnings: String = self.warnings().iter().map(|one| format!(" {}.", escaped(one))).collect();
         let table = self.shown.table();
         let html = format!(
-            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warning}</p>{}\
+            "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warnings}</p>{}\
              <h3>Share of the rate of the last limit state, by intensity</h3>{}</section>\n",
             escaped(&words),
             table.html(),
@@ -124,15 +149,20 @@ impl<'a> Rates<'a> {
 }
 
 impl Row {
-    /// Takes a limit state; `None` without a curve.
-    fn of(hazard: &Hazard, model: usize, State { fraction, curve, resamples, .. }: &State) -> Option<Self> {
+    /// Takes a limit state, given by its place; `None` without a curve.
+    fn of(hazard: &Hazard, model: usize, all: &Fragilities, place: usize) -> Option<Self> {
+        let State { fraction, curve, resamples, .. } = &all.states[place];
         let curve = (*curve)?;
+        let of_walls = all.mean_of_walls(place, |theta, beta| hazard.curve.rate(theta, beta).within());
         let rate = hazard.curve.rate(curve[0], curve[1]);
         let known = resamples.iter().filter(|pair| pair.iter().all(|value| value.is_finite()));
-        let rates: Vec<_> = known.map(|[theta, beta]| hazard.curve.rate(*theta, *beta).within()).collect();
+        let rates: Vec<Rate> = known.map(|[theta, beta]| hazard.curve.rate(*theta, *beta)).collect();
+        let range = |of: fn(&Rate) -> f64| Interval::new(of(&rate), rates.iter().map(of), CONFIDENCE).range;
+        let interval = range(Rate::within);
+        // without resamples the rate itself is what is known
+        let ends = [range(Rate::least)[0].min(rate.least()), range(Rate::most)[1].max(rate.most())];
         let resamples = rates.len();
-        let interval = Interval::new(rate.within(), rates, CONFIDENCE).range;
-        Some(Self { model, fraction: *fraction, curve, rate, interval, resamples })
+        Some(Self { model, fraction: *fraction, curve, rate, interval, ends, resamples, of_walls })
     }
 }
 
@@ -159,6 +189,7 @@ fn rates(manifest: &Manifest, hazard: &Hazard, subject: &Subject<'_>, rows: &[Ro
         .value("beyond_last_point_continued", |row| row.rate.beyond_continued)
         .value("beyond_last_point_most", |row| row.rate.beyond[1])
         .number("annual_rate_most", "at most", two, |row| row.rate.most())
+        .value("annual_rate_of_walls", |row| row.of_walls)
         .number("return_period_years", "return period\n[years]", three, |row| 1.0 / row.rate.within())
         .value("return_period_years_least", |row| 1.0 / row.rate.most())
         .value("years", |_| years)
@@ -168,7 +199,7 @@ fn rates(manifest: &Manifest, hazard: &Hazard, subject: &Subject<'_>, rows: &[Ro
         .value("probability_most", |row| probability(row.rate.most(), years))
         .value("target", |_| hazard.target)
         .text("target_met", if hazard.target.is_some() { "target met" } else { "" }, |row| {
-            hazard.target.map_or("", |target| row.rate.against(target).word())
+            hazard.target.map_or("", |target| AgainstTarget::of(row.ends, target).word())
         })
         .done()
 }

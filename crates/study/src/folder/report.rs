@@ -82,6 +82,8 @@ struct Output<'a> {
     summary: Table,
     /// Walls and models whose curves contradict a common β or cross.
     doubts: Vec<[usize; 2]>,
+    /// The most by which curves cross.
+    excess: f64,
     resurrected: usize,
     /// Runs that exceed `u_ins` and come back.
     come_back: usize,
@@ -112,6 +114,7 @@ impl<'a> Output<'a> {
             population: Population::new(folder.manifest()),
             summary: Table::default(),
             doubts: Vec::new(),
+            excess: 0.0,
             resurrected: 0,
             come_back: 0,
             sensitive: [0; 2],
@@ -151,6 +154,9 @@ impl<'a> Output<'a> {
         let models = 0..manifest.contents.models.len();
         let doubted = models.filter(|model| is_doubted(manifest, *model, results));
         self.doubts.extend(doubted.map(|model| [wall, model]));
+        let states = (0..manifest.report.fractions.len()).flat_map(|state| results.summaries(state));
+        let crossings = states.filter_map(|summary| summary.crossing);
+        self.excess = crossings.map(|crossing| crossing.excess).fold(self.excess, f64::max);
         let runs = results.all_curves().iter().flat_map(Curve::runs);
         self.come_back += runs.filter(|run| run.comes_back()).count();
         for sensitivity in results.all_curves().iter().filter_map(Curve::sensitivity) {
@@ -171,7 +177,7 @@ impl<'a> Output<'a> {
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
         let summary = self.summary(manifest, is_large);
-        let warnings: Vec<_> = self.warning(manifest).into_iter().chain(self.risk.warning()).collect();
+        let warnings: Vec<_> = self.warning(manifest).into_iter().chain(self.risk.warnings()).collect();
         let (mut files, about_risk, rates) = self.risk.finish()?;
         if let Some(sampled) = self.sampled {
             let (paths, section) = sampled.finish(self.folder.path())?;
@@ -199,10 +205,11 @@ impl<'a> Output<'a> {
         let (contents, report) = (&manifest.contents, &manifest.report);
         let Some(collapse) = collapse(manifest) else { return String::new() };
         let mut text = format!(
-            "{}; collapse {} in {}, 95 % intervals of {} resamples of {}\n",
+            "{}; collapse {} in {}, 95 % intervals {} of {} resamples of {}\n",
             counted(self.runs, "run"),
             contents.measure,
             contents.unit.name(),
+            contents.interval_of_medians(),
             report.resamples,
             counted(contents.records.len(), "record")
         );
@@ -279,8 +286,9 @@ impl<'a> Output<'a> {
                  steps on the page and beta_alone in fragilities.csv"
             ),
             Dispersion::Own | Dispersion::Ordered => format!(
-                "curves of limit states cross in {named}, see crossing in fragilities.csv; in [report], \
-                 beta = \"ordered\" fits curves that do not cross"
+                "curves of limit states cross by up to {:.2} of P in {named}, see crossing_excess in \
+                 fragilities.csv; in [report], beta = \"ordered\" fits curves that do not cross",
+                self.excess
             ),
         };
         (!self.doubts.is_empty()).then_some(told)
@@ -304,6 +312,6 @@ fn is_doubted(manifest: &Manifest, model: usize, results: &WallResults) -> bool 
     }
     (0..report.fractions.len()).map(|state| results.summary(state, model)).any(|one| match report.beta {
         Dispersion::Common => one.contradicted,
-        Dispersion::Own | Dispersion::Ordered => one.crossing.is_some(),
+        Dispersion::Own | Dispersion::Ordered => one.crossing.is_some_and(|one| one.matters()),
     })
 }

@@ -39,8 +39,8 @@ pub(crate) struct Risk<'a> {
     shares: Vec<Vec<(usize, f64)>>,
     /// Functions of walls in classes, one for each model where it has all curves.
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
-    /// Resamples of each class, of each model and limit state.
-    resamples: Vec<Vec<Vec<ClassResamples>>>,
+    /// Resamples of each class, of each model and limit state, studentised and as fitted.
+    resamples: Vec<Vec<Vec<[ClassResamples; 2]>>>,
     /// Classes, and the curves of their last limit state.
     shown: Shown<'a>,
     rates: Option<Rates<'a>>,
@@ -78,7 +78,7 @@ impl<'a> Risk<'a> {
                 geometry.push(key);
             }
         }
-        let of_class = vec![vec![ClassResamples::default(); names.len()]; manifest.contents.models.len()];
+        let of_class = vec![vec![Default::default(); names.len()]; manifest.contents.models.len()];
         let rates = report.hazard.as_ref().map(|hazard| Rates::new(folder, manifest, hazard));
         let losses = report.loss_ratios.as_ref().map(|ratios| Losses::new(folder, manifest, ratios));
         Ok(Self {
@@ -106,7 +106,9 @@ impl<'a> Risk<'a> {
             for (model, resamples) in self.resamples[class].iter_mut().enumerate() {
                 for (resamples, place) in resamples.iter_mut().zip(self.manifest.report.rising()) {
                     let summary = results.summary(place, model);
-                    resamples.add(share, summary.theta.estimate, &summary.resamples);
+                    for (own, of) in resamples.iter_mut().zip([&summary.resamples, &summary.drawn]) {
+                        own.add(share, summary.theta.estimate, of);
+                    }
                 }
             }
         }
@@ -131,9 +133,12 @@ impl<'a> Risk<'a> {
                 }
                 let members = walls.iter().map(|wall| self.members[wall][model].clone());
                 let members: Option<Vec<_>> = members.collect();
-                let shares = class.shares(walls.len());
-                let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
-                models.push(Fragilities::of_class(self.manifest, function, resamples));
+                models.push(Fragilities::of_class(
+                    self.manifest,
+                    class.shares(walls.len()),
+                    members,
+                    resamples,
+                ));
             }
             let (name, parameters) = (&*class.name, "");
             self.write(&Subject { name, class: Some(walls.len()), parameters, models })?;
@@ -158,8 +163,8 @@ impl<'a> Risk<'a> {
     }
 
     /// Says what the annual rates leave out.
-    pub(crate) fn warning(&self) -> Option<String> {
-        self.rates.as_ref()?.warning()
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        self.rates.as_ref().map(Rates::warnings).unwrap_or_default()
     }
 
     /// Writes a wall or a class, and what follows from its curves where the study asks for it.
@@ -286,7 +291,7 @@ impl<'a> Risk<'a> {
         let highest = report.rising().last().map_or(1.0, |place| report.fractions[*place]);
         format!(
             "<section><h2>Classes of walls</h2><p class=\"subtitle\">β² is the sum of the squares of its \
-             parts; intervals are those of the records, {:.0} %.</p>{}\
+             parts; intervals are those of the records, {:.0} %, studentised.</p>{}\
              <h3>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {highest})</h3>{}</section>\n",
             100.0 * CONFIDENCE,
             table.html(),

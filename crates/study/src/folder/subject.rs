@@ -24,6 +24,8 @@ pub(crate) struct Fragilities {
     /// The curves, where every limit state has one.
     pub(crate) function: Option<FragilityFunction>,
     pub(crate) states: Vec<State>,
+    /// Of a class with curves, its walls with their shares.
+    members: Vec<(f64, FragilityFunction)>,
 }
 
 /// What is known of a limit state. Every β has all its parts.
@@ -50,12 +52,13 @@ impl<'a> Subject<'a> {
             let curve = |&place: &usize| results.summary(place, model).fitted.ok();
             let curves: Option<Vec<Lognormal>> = places.iter().map(curve).collect();
             let state = |&place: &usize| {
-                let summary = results.summary(place, model);
-                State::of_wall(report.fractions[place], summary, report.modelling_uncertainty)
+                let summary = results.summary(place, model).clone().widened(report.modelling_uncertainty);
+                State::of_wall(report.fractions[place], summary)
             };
             Fragilities {
                 function: curves.map(|curves| FragilityFunction::new(&curves, report.modelling_uncertainty)),
                 states: places.iter().map(state).collect(),
+                members: Vec::new(),
             }
         };
         let models = (0..manifest.contents.models.len()).map(of_model).collect();
@@ -66,52 +69,57 @@ impl<'a> Subject<'a> {
     pub(crate) fn is_shown(&self, manifest: &Manifest) -> bool {
         self.class.is_some() || manifest.contents.walls.len() <= MOST_WALLS
     }
-
-    /// Lists its limit states, model by model, with the places of the models.
-    pub(crate) fn states(&self) -> impl Iterator<Item = (usize, &State)> {
-        let models = self.models.iter().enumerate();
-        models.flat_map(|(model, one)| one.states.iter().map(move |state| (model, state)))
-    }
 }
 
 impl Fragilities {
-    /// Takes a class from its function, if its walls have all curves, and the resamples of each limit state.
+    /// Takes a class from its walls, if they have all curves, and the resamples of each limit state.
     pub(crate) fn of_class(
         manifest: &Manifest,
-        function: Option<FragilityFunction>,
-        resamples: &[ClassResamples],
+        shares: Vec<f64>,
+        walls: Option<Vec<FragilityFunction>>,
+        resamples: &[[ClassResamples; 2]],
     ) -> Self {
         let report = &manifest.report;
+        let function = walls.as_ref().map(|walls| FragilityFunction::of_class(&shares, walls));
         let state = |(k, place): (usize, usize)| {
-            let resamples = resamples[k].curves(report.modelling_uncertainty);
+            let resamples = resamples[k].each_ref().map(|own| own.curves(report.modelling_uncertainty));
             let curve = function.as_ref().map(|function| [function.states[k].median, function.dispersion(k)]);
             State::of_class(report.fractions[place], curve, resamples)
         };
-        Self { states: report.rising().into_iter().enumerate().map(state).collect(), function }
+        let states = report.rising().into_iter().enumerate().map(state).collect();
+        Self { states, function, members: shares.into_iter().zip(walls.into_iter().flatten()).collect() }
+    }
+
+    /// Returns the mean over the walls of a class of what follows from θ and β of a limit state.
+    pub(crate) fn mean_of_walls(&self, state: usize, of: impl Fn(f64, f64) -> f64) -> Option<f64> {
+        let of_wall = |(share, wall): &(f64, FragilityFunction)| {
+            share * of(wall.states[state].median, wall.dispersion(state))
+        };
+        (!self.members.is_empty()).then(|| self.members.iter().map(of_wall).sum())
     }
 }
 
 impl State {
-    fn of_wall(fraction: f64, summary: &Summary, beta_modelling: f64) -> Self {
-        let total = |beta: f64| beta.hypot(beta_modelling);
+    fn of_wall(fraction: f64, summary: Summary) -> Self {
         Self {
             fraction,
-            curve: summary.fitted.ok().map(|curve| [curve.median, total(curve.dispersion)]),
-            resamples: summary.resamples.iter().map(|[theta, beta]| [*theta, total(*beta)]).collect(),
+            curve: summary.fitted.ok().map(|curve| [curve.median, curve.dispersion]),
             theta: summary.theta,
-            beta: summary.beta.mapped(total),
+            beta: summary.beta,
             covariance: summary.covariance(),
             misfit: summary.misfit,
+            resamples: summary.resamples,
         }
     }
 
-    fn of_class(fraction: f64, curve: Option<[f64; 2]>, resamples: Vec<[f64; 2]>) -> Self {
+    /// Takes a class from its curve and its resamples, studentised and as fitted.
+    fn of_class(fraction: f64, curve: Option<[f64; 2]>, [resamples, drawn]: [Vec<[f64; 2]>; 2]) -> Self {
         let known = if curve.is_some() { &resamples[..] } else { &[] };
         let [theta, beta] = [0, 1].map(|part| {
             let estimate = curve.map_or(f64::NAN, |curve| curve[part]);
             Interval::new(estimate, known.iter().map(|pair| pair[part]), CONFIDENCE)
         });
-        let covariance = covariance(known);
+        let covariance = curve.and_then(|_| covariance(&drawn));
         Self { fraction, curve, theta, beta, covariance, misfit: None, resamples }
     }
 }

@@ -205,8 +205,9 @@ fn fragilities(manifest: &Manifest, wall: usize, results: &WallResults) -> Table
     table = table
         .value("misfit", |(.., one)| one.summary.misfit)
         .value(manifest.contents.in_unit("crossing"), |(.., one)| {
-            one.summary.crossing.map(|at| manifest.contents.unit.of(at))
-        });
+            one.summary.crossing.map(|one| manifest.contents.unit.of(one.intensity))
+        })
+        .value("crossing_excess", |(.., one)| one.summary.crossing.map(|one| one.excess));
     for (place, (name, _)) in Crossing::ALL.into_iter().enumerate() {
         let theta = |curve: &Lognormal| manifest.contents.unit.of(curve.median);
         table = table

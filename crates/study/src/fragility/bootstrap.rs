@@ -1,7 +1,10 @@
 //! Uncertainty of medians and their ratios due to the choice of records.
 
+use std::f64::consts::LN_10;
+
 use super::dispersion::Estimator;
-use super::fit::Lognormal;
+use super::fit::{FitError, Lognormal};
+use super::normal::cumulative;
 use super::sample::Sample;
 use report::table::{Digits, between};
 use run::parallel::stop_if_asked;
@@ -20,6 +23,8 @@ pub struct Bootstrap {
     seed: u64,
     /// Records that are drawn together.
     group: usize,
+    /// Whether β is corrected for the number of records.
+    corrects: bool,
 }
 
 /// An estimate and its bootstrap interval.
@@ -42,14 +47,16 @@ pub struct Interval {
 pub struct Resampled {
     /// Least and most of the estimate from all records.
     pub estimate: [f64; 2],
-    /// Least and most of each resample.
+    /// Least and most of each resample; of curves, studentised.
     pub samples: Vec<[f64; 2]>,
+    /// Of curves, each resample as it was fitted.
+    pub drawn: Vec<f64>,
 }
 
 impl Bootstrap {
     /// Prepares `samples` resamples of `records` records. The same seed gives the same draws.
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
-        Self { records, samples, seed, group: 1 }
+        Self { records, samples, seed, group: 1, corrects: false }
     }
 
     /// Draws groups of so many records that follow each other, such as a record and its reverse.
@@ -60,6 +67,39 @@ impl Bootstrap {
     pub fn in_groups(self, group: usize) -> Self {
         assert!(self.records.is_multiple_of(group), "whole groups of records");
         Self { group, ..self }
+    }
+
+    /// Corrects β for the number of records n, or leaves it as fitted.
+    ///
+    /// The standard deviation of n normal numbers, with the divisor n, has a mean of 1 − 3/(4n) times the true
+    /// one, to the order of 1/n.
+    #[must_use]
+    pub fn corrected(self, corrects: bool) -> Self {
+        Self { corrects, ..self }
+    }
+
+    /// Returns a curve, with 4n/(4n − 3) times its β where that is [asked for](Self::corrected).
+    pub(crate) fn correct(&self, fitted: Result<Lognormal, FitError>) -> Result<Lognormal, FitError> {
+        let n = (self.records / self.group) as f64;
+        let factor = if self.corrects { 4.0 * n / (4.0 * n - 3.0) } else { 1.0 };
+        fitted.map(|curve| Lognormal { dispersion: factor * curve.dispersion, ..curve })
+    }
+
+    /// Returns the least probability of which n records tell the order of magnitude, at least 1e-4.
+    ///
+    /// Of n lognormal intensities z = ln(x/θ)/β has the variance (1 + z²/2)/n, and ln Φ(z) a slope of about
+    /// |z|. At this probability, rounded up to one digit, ln P has a standard error of ln 10:
+    ///
+    /// ```text
+    /// z² (1 + z²/2) = n ln² 10
+    /// ```
+    pub(crate) fn least_probability(&self) -> f64 {
+        let n = (self.records / self.group) as f64;
+        let square = (1.0 + 2.0 * n * LN_10 * LN_10).sqrt() - 1.0;
+        let least = cumulative(-square.sqrt()).max(1e-4);
+        let digit = libm::pow(10.0, libm::floor(libm::log10(least)));
+        // 1e-4 is one of its digit, to a rounding
+        (least / digit - 1e-9).ceil() * digit
     }
 
     /// Returns how many records are drawn together.
@@ -97,7 +137,8 @@ impl Bootstrap {
             let least: Vec<_> = state.exceedances().iter().map(least).collect();
             let ends = [&least, state.exceedances()].map(Sorted::new);
             let of = |counts: &[u32]| ends.each_ref().map(|sorted| sorted.median(counts));
-            Resampled { estimate: of(&vec![1; self.records]), samples: self.counted(of) }
+            let (estimate, samples) = (of(&vec![1; self.records]), self.counted(of));
+            Resampled { estimate, samples, drawn: Vec::new() }
         };
         states.iter().map(of_state).collect()
     }
@@ -130,24 +171,46 @@ impl Bootstrap {
             stop_if_asked();
             ends(counts, fit(counts, &near))
         });
-        let resampled = |(state, all): (usize, [f64; 3])| {
-            Resampled::curves(all, samples.iter().map(|sample| sample[state]))
-        };
+        let resampled =
+            |(state, all): (usize, [f64; 3])| self.curves(all, samples.iter().map(|sample| sample[state]));
         ends(&ones, near.clone()).into_iter().enumerate().map(resampled).collect()
+    }
+
+    /// Takes θ and β from its least and most and from β, of all records and of each resample, and studentises
+    /// the resamples: what a resample has beside all records, all records have beside the truth.
+    ///
+    /// ```text
+    /// ln θˢ = ln θ − (β/β*) ln(θ*/θ)        βˢ = β (β/β*)^k,   k² = n (n + 1)/((n − 1)(n − 2))
+    /// ```
+    /// The resamples of n lognormal intensities have ln β* with a variance of about (n − 2)/(2 n (n + 1)),
+    /// by the mean of their kurtosis, 3 (n − 1)/(n + 1); that of ln β is 1/(2 (n − 1)). k makes up for it. A
+    /// resample without a curve keeps its bounds of θ. Efron and Tibshirani, chapters 12 and 13.
+    pub(super) fn curves(
+        &self,
+        [least, most, beta]: [f64; 3],
+        samples: impl Iterator<Item = [f64; 3]> + Clone,
+    ) -> [Resampled; 2] {
+        let n = (self.records / self.group).max(3) as f64;
+        let power = (n * (n + 1.0) / ((n - 1.0) * (n - 2.0))).sqrt();
+        let studentised = samples.clone().map(|[low, high, own]| {
+            let narrower = beta / own;
+            if !(narrower > 0.0 && narrower.is_finite()) {
+                return [low, high, f64::NAN];
+            }
+            let theta = most * libm::exp(-narrower * libm::log(high / most));
+            [theta, theta, beta * libm::pow(narrower, power)]
+        });
+        let drawn = |part: usize| samples.clone().map(|sample| sample[part]).collect();
+        let thetas = studentised.clone().map(|[least, most, _]| [least, most]).collect();
+        let betas = studentised.map(|[.., beta]| [beta; 2]).collect();
+        [
+            Resampled { estimate: [least, most], samples: thetas, drawn: drawn(1) },
+            Resampled { estimate: [beta; 2], samples: betas, drawn: drawn(2) },
+        ]
     }
 }
 
 impl Resampled {
-    /// Takes θ and β from its least and most and from β, of all records and of each resample.
-    pub(super) fn curves(
-        [least, most, beta]: [f64; 3],
-        samples: impl Iterator<Item = [f64; 3]> + Clone,
-    ) -> [Self; 2] {
-        let thetas = samples.clone().map(|[least, most, _]| [least, most]).collect();
-        let betas = samples.map(|[.., beta]| [beta; 2]).collect();
-        [Self { estimate: [least, most], samples: thetas }, Self { estimate: [beta; 2], samples: betas }]
-    }
-
     /// Divides by another estimate, resample by resample.
     pub(super) fn over(&self, other: &Self) -> Self {
         let quotient = |[least, most]: [f64; 2], over: [f64; 2]| [least / over[1], most / over[0]];
@@ -155,6 +218,7 @@ impl Resampled {
         Self {
             estimate: quotient(self.estimate, other.estimate),
             samples: samples.map(|(one, over)| quotient(*one, *over)).collect(),
+            drawn: Vec::new(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::bootstrap::{Bootstrap, Interval, Resampled};
 use super::cloud::{Cloud, Regression};
-use super::dispersion::{Dispersion, Estimator};
+use super::dispersion::{CurveCrossing, Dispersion, Estimator};
 use super::fit::{FitError, Lognormal, fit_from, log_likelihood};
 use super::sample::Sample;
 use super::term::Term;
@@ -27,16 +27,18 @@ pub struct Summary {
     pub alone: Result<Lognormal, FitError>,
     /// Whether the limit states of the model contradict a common β.
     pub contradicted: bool,
-    /// Intensity at which the curve crosses that of the next limit state.
-    pub crossing: Option<f64>,
+    /// Where the curve crosses that of the next limit state.
+    pub crossing: Option<CurveCrossing>,
     /// Largest distance of the curve from the fractions of the records that exceed.
     pub misfit: Option<f64>,
     /// θ of the curve; its bounds where there is none.
     pub theta: Interval,
     /// β of the curve; not a number where there is none.
     pub beta: Interval,
-    /// θ and β of each resample; not numbers where it has no curve.
+    /// θ and β of each resample, studentised; not numbers where it has no curve.
     pub resamples: Vec<[f64; 2]>,
+    /// θ and β of each resample as fitted; not numbers where it has no curve.
+    pub drawn: Vec<[f64; 2]>,
     /// Median over that of the reference.
     pub median_ratio: Interval,
     /// θ over that of the reference.
@@ -110,10 +112,13 @@ impl Fragility {
         median: Resampled,
         [theta, beta]: [Resampled; 2],
     ) -> Self {
-        let pair = |([_, theta], [_, beta]): (&[f64; 2], &[f64; 2])| {
-            if beta.is_nan() { [f64::NAN; 2] } else { [*theta, *beta] }
-        };
+        let pair = |(theta, beta): (f64, f64)| if beta.is_nan() { [f64::NAN; 2] } else { [theta, beta] };
+        let [thetas, betas] = [&theta, &beta].map(|of| of.samples.iter().map(|[_, most]| *most));
+        let resamples = thetas.zip(betas).map(pair).collect();
+        let drawn = theta.drawn.iter().copied().zip(beta.drawn.iter().copied()).map(pair).collect();
         let one = Interval::new(1.0, [1.0], CONFIDENCE);
+        let mut interval = beta.interval(CONFIDENCE);
+        interval.estimate = fitted.map_or(f64::NAN, |curve| curve.dispersion);
         let summary = Summary {
             records,
             censored,
@@ -124,8 +129,9 @@ impl Fragility {
             crossing: None,
             misfit: None,
             theta: theta.interval(CONFIDENCE),
-            beta: beta.interval(CONFIDENCE),
-            resamples: theta.samples.iter().zip(&beta.samples).map(pair).collect(),
+            beta: interval,
+            resamples,
+            drawn,
             median_ratio: one,
             theta_ratio: one,
         };
@@ -138,6 +144,9 @@ impl Fragility {
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
         let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
+        let correct =
+            |fitted: Vec<_>| -> Vec<_> { fitted.into_iter().map(|curve| bootstrap.correct(curve)).collect() };
+        let (fitted, alone) = (correct(fitted), correct(alone));
         let crossings = estimator.crossings(&fitted);
         let medians = bootstrap.medians(states);
         let resampled = medians.into_iter().zip(bootstrap.fitted(states, estimator));
@@ -167,19 +176,33 @@ impl Fragility {
                     [curve.median, curve.median, curve.dispersion]
                 })
             };
-            let curves = Resampled::curves(ends(own.ok()), resampled.iter().map(|fit| ends(*fit)));
+            let curves = bootstrap.curves(ends(own.ok()), resampled.iter().map(|fit| ends(*fit)));
             let counts = [cloud.records(), cloud.collapsed()];
-            Self::new(own.map(|fit| fit.fragility(fraction)), counts, curves[0].clone(), curves)
+            let fitted = bootstrap.correct(own.map(|fit| fit.fragility(fraction)));
+            Self::new(fitted, counts, curves[0].clone(), curves)
         };
         fractions.iter().map(state).collect()
     }
 }
 
 impl Summary {
+    /// Adds a β of modelling to that of the records, in the curve and in its resamples: their squares add up.
+    ///
+    /// Whatever takes probabilities from the curve takes it so.
+    #[must_use]
+    pub fn widened(mut self, modelling: f64) -> Self {
+        let total = |beta: f64| beta.hypot(modelling);
+        self.fitted = self.fitted.map(|curve| Lognormal { dispersion: total(curve.dispersion), ..curve });
+        self.beta = self.beta.mapped(total);
+        let resamples = self.resamples.iter_mut().chain(&mut self.drawn);
+        resamples.for_each(|[_, beta]| *beta = total(*beta));
+        self
+    }
+
     /// Returns the variance of ln θ, the covariance of ln θ and β, and the variance of β, over the resamples;
     /// `None` without a curve.
     pub fn covariance(&self) -> Option<[f64; 3]> {
-        self.fitted.ok().and_then(|_| covariance(&self.resamples))
+        self.fitted.ok().and_then(|_| covariance(&self.drawn))
     }
 }
 

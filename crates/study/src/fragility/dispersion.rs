@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fit::{FitError, Lognormal, fit_from};
 use super::linear::{cholesky, solve};
+use super::normal::cumulative;
 use super::term::{Likelihood, Term};
 
 /// How the dispersions of the limit states of a wall are fitted.
@@ -28,6 +29,22 @@ pub struct Estimator {
     pub dispersion: Dispersion,
     /// Places of the limit states, the first to be exceeded first.
     rising: Vec<usize>,
+}
+
+/// Where the curve of a limit state crosses that of a later one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveCrossing {
+    /// Intensity.
+    pub intensity: f64,
+    /// The most by which the probability of the later limit state is the larger one \[-\].
+    pub excess: f64,
+}
+
+impl CurveCrossing {
+    /// Returns whether it is worth a warning: probabilities out of order by more than 0.01.
+    pub fn matters(&self) -> bool {
+        self.excess > 0.01
+    }
 }
 
 /// z of the probability 1 − 1e-4: what lies beyond does not matter to a curve.
@@ -77,8 +94,8 @@ impl Estimator {
         fitted
     }
 
-    /// Returns for each limit state the intensity at which its curve crosses that of the next one.
-    pub(super) fn crossings(&self, curves: &[Result<Lognormal, FitError>]) -> Vec<Option<f64>> {
+    /// Returns for each limit state where its curve crosses that of the next one.
+    pub(super) fn crossings(&self, curves: &[Result<Lognormal, FitError>]) -> Vec<Option<CurveCrossing>> {
         let mut crossings = vec![None; curves.len()];
         let known: Vec<_> = self.rising.iter().filter_map(|&k| Some((k, curves[k].ok()?))).collect();
         for pair in known.windows(2) {
@@ -89,15 +106,34 @@ impl Estimator {
 }
 
 impl Lognormal {
-    /// Returns the intensity at which this curve crosses that of a limit state that is exceeded later: from
-    /// there on, or up to there, the later one has the larger probability. What lies beyond probabilities of
-    /// 1e-4 and 1 − 1e-4 does not count.
-    pub fn crossing(&self, next: &Self) -> Option<f64> {
+    /// Returns where this curve crosses that of a limit state that is exceeded later: from there on, or up to
+    /// there, the later one has the larger probability. What lies beyond probabilities of 1e-4 and 1 − 1e-4
+    /// does not count.
+    pub fn crossing(&self, next: &Self) -> Option<CurveCrossing> {
         // ln θ₁ + β₁ z = ln θ₂ + β₂ z
         let (shift, widening) = (libm::log(next.median / self.median), self.dispersion - next.dispersion);
         // within a rounding of a bound on which the ordered fit lies
         let crosses = shift < TAIL * widening.abs() * (1.0 - 1e-6);
-        crosses.then(|| self.median * libm::exp(self.dispersion * (shift / widening).clamp(-TAIL, TAIL)))
+        crosses.then(|| CurveCrossing {
+            intensity: self.median * libm::exp(self.dispersion * (shift / widening).clamp(-TAIL, TAIL)),
+            excess: self.excess(next, shift),
+        })
+    }
+
+    /// Returns the most by which the probability of a later limit state is the larger one. There both
+    /// densities are the same, with y = ln(x/θ₁) and s = ln(θ₂/θ₁):
+    ///
+    /// ```text
+    /// (1/β₁² − 1/β₂²) y² + 2 (s/β₂²) y − s²/β₂² − 2 ln(β₂/β₁) = 0
+    /// ```
+    fn excess(&self, next: &Self, s: f64) -> f64 {
+        let [own, other] = [self, next].map(|curve| curve.dispersion.powi(-2));
+        let (a, b) = (own - other, s * other);
+        let c = -s * s * other - 2.0 * libm::log(next.dispersion / self.dispersion);
+        let q = -b - (b * b - a * c).max(0.0).sqrt().copysign(b);
+        let difference = |y: f64| cumulative((y - s) / next.dispersion) - cumulative(y / self.dispersion);
+        // a place that is not a number counts for nothing
+        [q / a, c / q].map(difference).into_iter().fold(0.0, f64::max)
     }
 }
 

@@ -36,7 +36,7 @@ pub use bootstrap::{Bootstrap, Interval, Resampled};
 pub use class::{ClassResamples, FragilityFunction, StateCurve};
 pub use cloud::{Cloud, Regression};
 pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};
-pub use dispersion::{Dispersion, Estimator, TAIL};
+pub use dispersion::{CurveCrossing, Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::{cumulative, quantile};
 pub use sample::{Sample, median, steps};

@@ -26,11 +26,11 @@ pub struct Rate {
 /// Whether a rate keeps to a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AgainstTarget {
-    /// Even the most that the rate can be is not above the target.
+    /// Even the most that the rate can be, within the interval of the records, is not above the target.
     Met,
     /// Even the least is above it.
     Missed,
-    /// What lies outside the points of the hazard curve decides.
+    /// The choice of the records decides, or what lies outside the points of the hazard curve.
     Open,
 }
 
@@ -138,20 +138,20 @@ impl Rate {
         let sum = self.within();
         self.segments.iter().map(|part| part / sum).collect()
     }
-
-    /// Holds the rate against a target \[1/year\].
-    pub fn against(&self, target: f64) -> AgainstTarget {
-        if self.most() <= target {
-            AgainstTarget::Met
-        } else if self.least() > target {
-            AgainstTarget::Missed
-        } else {
-            AgainstTarget::Open
-        }
-    }
 }
 
 impl AgainstTarget {
+    /// Holds the least and the most that a rate can be against a target \[1/year\].
+    pub fn of([least, most]: [f64; 2], target: f64) -> Self {
+        if most <= target {
+            Self::Met
+        } else if least > target {
+            Self::Missed
+        } else {
+            Self::Open
+        }
+    }
+
     /// Returns the word of tables: `yes`, `no` or `open`.
     pub fn word(self) -> &'static str {
         match self {
@@ -217,9 +217,10 @@ mod tests {
         assert!((rate.beyond_continued / 3.038_573_345_53e-4 - 1.0).abs() < 1e-11);
         // half of the walls stand at θ, the last point
         assert_eq!(rate.beyond, [0.5 / 2475.0, 1.0 / 2475.0]);
-        assert_eq!(rate.against(1e-4), AgainstTarget::Missed);
-        assert_eq!(rate.against(7e-4), AgainstTarget::Open);
-        assert_eq!(rate.against(9e-4), AgainstTarget::Met);
+        let ends = [rate.least(), rate.most()];
+        assert_eq!(AgainstTarget::of(ends, 1e-4), AgainstTarget::Missed);
+        assert_eq!(AgainstTarget::of(ends, 7e-4), AgainstTarget::Open);
+        assert_eq!(AgainstTarget::of(ends, 9e-4), AgainstTarget::Met);
         assert!((rate.shares().iter().sum::<f64>() - 1.0).abs() < 1e-15);
         assert!((probability(1.860_702_745_8e-3, 50.0) - 0.088_838_516_0).abs() < 1e-10);
     }

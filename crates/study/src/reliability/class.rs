@@ -38,6 +38,8 @@ pub(super) struct Found {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Class {
     pub(super) members: Vec<Member>,
+    /// The probability below which a number says nothing \[-\].
+    pub(super) least: f64,
     /// Names, and the reasons.
     pub(super) refused: Vec<(String, String)>,
     /// Walls whose hinge the check has elsewhere than the runs, with both places.
@@ -51,6 +53,7 @@ impl Class {
             Ok(found) => found,
             Err(reason) => return self.refused.push((wall.name.clone(), reason.clone())),
         };
+        self.least = found.least;
         self.hinges.extend(found.hinges.map(|hinges| (wall.name.clone(), hinges)));
         let all = found.answers.iter().filter_map(|answer| {
             Some(Found {

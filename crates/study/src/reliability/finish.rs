@@ -64,10 +64,13 @@ pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
         // writing to a String cannot fail
         let _ = writeln!(
             text,
-            "{name}: {} that just pass{} fall with a probability of {median:.4} in the median ({least:.4} to \
-             {most:.4} from 5 to 95 %); P > {target} for {above}",
+            "{name}: {} that just pass{} fall with a probability of {} in the median ({} to {} from 5 to \
+             95 %); P > {target} for {above}",
             counted(falls.len(), "wall"),
             if falls.len() == 1 { "es" } else { "" },
+            table::probability(median, class.least),
+            table::probability(least, class.least),
+            table::probability(most, class.least),
         );
     }
     text

@@ -35,7 +35,8 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
              a<sub>g</sub>. There the probability P of an event is read from its fragility over the \
              a<sub>g</sub> that a record is worth: the geometric mean of its 5&nbsp;% spectrum over \
              S<sub>e</sub>/a<sub>g</sub> of the site. θ/a<sub>g,code</sub> is the margin of the median. \
-             Intervals hold 95&nbsp;% of {} resamples of the records.</p><ul>{told}</ul>",
+             Intervals are those of {} resamples of the records, 95&nbsp;%, \
+             studentised.</p><ul>{told}</ul>",
             counted(contents.walls.len(), "wall"),
             counted(contents.records.len(), "record"),
             counted(contents.models.len(), "damping model"),
@@ -125,12 +126,12 @@ fn worst(class: &Class, models: &[&str]) -> Table {
         falls.truncate(WORST);
         falls.into_iter().map(move |(member, found)| (model, member, found))
     });
-    let three = Digits::Significant(3);
+    let (three, least) = (Digits::Significant(3), class.least);
     let mut table = Table::over(rows)
         .text("", "model", |(model, ..)| models[*model].to_owned())
         .text("", "wall", |(_, member, _)| member.name.clone())
         .text("", "check", |(.., found)| found.check)
-        .number("", "P(fall)", Digits::Decimals(4), |(.., found)| found.probability)
+        .number("", "P(fall)", three, |(.., found)| table::probability(found.probability, least))
         .number("", "θ/a_g,code", three, |(.., found)| found.margin);
     for (place, name) in QUANTITIES.into_iter().enumerate() {
         table = table.number("", name, Digits::AtMost(3), move |(_, member, _)| member.quantities[place]);

@@ -13,8 +13,6 @@ use crate::hazard::HazardCurve;
 const THREE: Digits = Digits::Significant(3);
 /// Digits of the numbers that the code or the user gives.
 const GIVEN: Digits = Digits::AtMost(3);
-/// Digits of a probability.
-const OF_PROBABILITY: Digits = Digits::Decimals(4);
 /// Fractiles that tables for people have; files have all.
 const SHOWN: [usize; 3] = [0, 2, 4];
 
@@ -51,9 +49,12 @@ pub(super) fn wall(
     }
     for (part, end) in ["", "_low", "_high"].into_iter().enumerate() {
         let heading = ["P", "from", "to"][part];
-        table = table.number(format!("probability{end}"), heading, OF_PROBABILITY, move |(one, ..)| {
-            interval(one.probability, part)
-        });
+        let ends = |of: Interval| [of.estimate, of.range[0], of.range[1]];
+        table = table
+            .value(format!("probability{end}"), move |(one, ..)| interval(one.probability, part))
+            .number("", heading, THREE, |(one, ..)| {
+                one.probability.map(|of| probability(ends(of)[part], found.least))
+            });
     }
     if let Some(hazard) = hazard {
         // the wall has ζ = 1 at the site: its θ is as far above a_g of the site as here above a_g,code
@@ -97,14 +98,20 @@ pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
         .text("check", "check with ζ = 1", |((_, check, _), _)| *check)
         .text("event", "event", |((.., event), _)| (*event).to_owned())
         .number("walls", "walls", THREE, |(_, [margins, _])| margins.len());
-    let drawn = [("margin", "θ/a_g,code", THREE), ("probability", "P", OF_PROBABILITY)];
-    for (which, (name, symbol, digits)) in drawn.into_iter().enumerate() {
+    for (which, (name, symbol)) in [("margin", "θ/a_g,code"), ("probability", "P")].into_iter().enumerate() {
         for (place, part) in FRACTILES.into_iter().enumerate() {
             let percent = format!("{:.0}", 100.0 * part);
             let heading = heading(place, format!("{symbol}\n{percent} %"));
-            table = table.number(format!("{name}_{percent}"), heading, digits, move |(_, sorted)| {
-                fractile(&sorted[which], part)
-            });
+            let of = move |sorted: &[Vec<f64>; 2]| fractile(&sorted[which], part);
+            table = table.value(format!("{name}_{percent}"), move |(_, sorted)| of(sorted)).number(
+                "",
+                heading,
+                THREE,
+                move |(_, sorted)| -> Cell<'static> {
+                    let told = |value| Cell::from(probability(value, class.least));
+                    if which == 0 { of(sorted).into() } else { of(sorted).map_or(Cell::Empty, told) }
+                },
+            );
         }
     }
     table
@@ -112,6 +119,11 @@ pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
             probabilities.iter().filter(|found| **found > target).count()
         })
         .done()
+}
+
+/// Writes a probability, as a bound where the records cannot say more.
+pub(super) fn probability(value: f64, least: f64) -> String {
+    if value < least { format!("< {least:.0e}") } else { format!("{value:.4}") }
 }
 
 /// The heading of a fractile, empty for one that people are not shown.

@@ -43,7 +43,7 @@ pub struct Event {
     pub check: Option<&'static str>,
     /// |u|/`u_ins` that is exceeded \[-\].
     pub fraction: f64,
-    /// The fragilities, model by model, over `a_g` \[m/s²\].
+    /// The fragilities, model by model, over `a_g` \[m/s²\], with the β of modelling.
     pub fragilities: Vec<Summary>,
     /// `a_g` at which the mean demand of 7 records and more, or the largest of fewer, reaches the fraction,
     /// model by model; infinite above the levels \[m/s²\].
@@ -80,6 +80,8 @@ pub struct WallReliability {
     pub answers: Vec<Answer>,
     /// The numbers of the code that would give the target, model by model.
     pub turned: Vec<Vec<Turned>>,
+    /// The probability below which a number says nothing \[-\].
+    pub least: f64,
     /// Where the hinge of a strip is in the runs and in the check, where it differs \[-\].
     pub hinges: Option<[f64; 2]>,
 }
@@ -108,7 +110,9 @@ impl WallReliability {
         let fractions: Vec<f64> = limits.iter().map(|(_, fraction)| *fraction).collect();
         let (records, models) = (fitting.records(), curves.len() / fitting.records());
         let of_model = |model: usize| &curves[model * records..(model + 1) * records];
-        let fitted = fitting.summaries(curves, &fractions);
+        let fitted = fitting.summaries(curves, &fractions).into_iter();
+        let widened = |summary: Summary| summary.widened(fitting.modelling());
+        let fitted = fitted.map(|of_models| of_models.into_iter().map(widened).collect());
         let events = limits.into_iter().zip(fitted).map(|((check, fraction), fragilities)| Event {
             name: check.map_or_else(|| FALL.into(), |check| format!("beyond d_{check}")),
             check,
@@ -130,7 +134,8 @@ impl WallReliability {
         let differs =
             parameters.mechanism == Mechanism::VerticalSpanning && (hinges[0] - hinges[1]).abs() > SAME_HINGE;
         let answers = answers(models, &checks, &events);
-        Ok(Self { checks, governs, events, answers, turned, hinges: differs.then_some(hinges) })
+        let (least, hinges) = (fitting.least_probability(), differs.then_some(hinges));
+        Ok(Self { checks, governs, events, answers, turned, least, hinges })
     }
 }
 

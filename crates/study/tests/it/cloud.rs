@@ -55,14 +55,17 @@ fn a_regression_finds_what_the_runs_were_drawn_from() {
     }
 }
 
-/// A resample has the regression of the records that were drawn, each as often as it was: of the same draws
-/// to the rounding of a sum in another order, some 1e-15 times the condition of the fit.
+/// A resample follows from the regression of the records that were drawn, each as often as it was: that of
+/// the same draws to the rounding of a sum in another order, some 1e-15 times the condition of the fit.
 #[test]
 fn resamples_are_regressions_of_what_was_drawn() {
     let curves = drawn(15, [-1.5, 1.8, 0.5]);
     let cloud = Cloud::of_curves(&curves);
     assert!((3..12).contains(&cloud.collapsed()) && cloud.records() == 15 && cloud.still() == 0);
+    let all = cloud.fit().unwrap().fragility(0.5);
     let [summaries] = &compare_clouds(&[cloud], &[0.5], 0, &Bootstrap::new(15, 50, 9))[..] else { panic!() };
+    // (15 · 16/(14 · 13))^½
+    let power = 1.148_338_5_f64;
     let mut random = Pcg::new(9);
     let mut compared = 0;
     for [theta, beta] in &summaries[0].resamples {
@@ -71,9 +74,13 @@ fn resamples_are_regressions_of_what_was_drawn() {
             assert!(theta.is_nan() && beta.is_nan());
             continue;
         };
-        let expected = fit.fragility(0.5);
-        assert!((theta / expected.median - 1.0).abs() < 1e-10, "{theta} {expected:?}");
-        assert!((beta / expected.dispersion - 1.0).abs() < 1e-10, "{beta} {expected:?}");
+        // studentised: as far below all records as those drawn are above them, in units of β
+        let own = fit.fragility(0.5);
+        let z = (own.median / all.median).ln() / own.dispersion;
+        let expected = all.median * (-all.dispersion * z).exp();
+        assert!((theta / expected - 1.0).abs() < 1e-10, "{theta} {expected}");
+        let expected = all.dispersion * (all.dispersion / own.dispersion).powf(power);
+        assert!((beta / expected - 1.0).abs() < 1e-6, "{beta} {expected}");
         compared += 1;
     }
     assert!(compared > 40, "{compared}");

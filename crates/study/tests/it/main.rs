@@ -9,6 +9,7 @@ mod calibration;
 mod cloud;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
+mod coverage;
 mod estimators;
 mod fragility;
 mod ida;

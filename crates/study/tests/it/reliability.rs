@@ -115,6 +115,36 @@ fn tables_follow_from_the_analysis_and_the_check() {
     assert_eq!(compared, 36);
 }
 
+/// A β of modelling is in β, in P and its interval, and in the rate, as in `rates.csv`; margins stay.
+#[test]
+fn modelling_uncertainty_is_in_every_probability() {
+    let hazard = "hazard = { points = [[0.05, 3e-2], [0.2, 2e-3], [3.0, 1e-6]] }\n";
+    let plain = text(MEASURE).replace(MEASURE, &format!("{MEASURE}{hazard}"));
+    let path = run("modelled", &load("modelled", &plain).unwrap());
+    let narrow = rows(&path.join(FILES[0]));
+    let wide = plain.replace("resamples = 200", "resamples = 200, modelling_uncertainty = 0.3");
+    let loaded = load("modelled", &wide).unwrap();
+    let folder = Folder::of_study(&path, &loaded).unwrap();
+    study::folder::finish(&folder, 2).unwrap();
+    finish(&folder, &Reliability::of(&loaded).unwrap(), 2).unwrap();
+    let rates = rows(&path.join("rates.csv"));
+    for (before, row) in narrow.iter().zip(rows(&path.join(FILES[0]))) {
+        let beta = number(before, "beta").hypot(0.3);
+        assert!((number(&row, "beta") / beta - 1.0).abs() < 1e-14 && row["margin"] == before["margin"]);
+        let probability = |margin: f64| cumulative(-margin.ln() / beta);
+        assert!((number(&row, "probability") - probability(number(&row, "margin"))).abs() < 1e-12);
+        // a wider curve is nearer to one half
+        let from_half = |row: &BTreeMap<String, String>| (number(row, "probability_low") - 0.5).abs();
+        assert!(from_half(&row) < from_half(before), "{before:?} {row:?}");
+        let is_same = |one: &&BTreeMap<String, String>| {
+            ["wall", "model"].iter().all(|name| one[*name] == row[*name])
+                && number(one, "u_max_over_u_ins") == number(&row, "u_over_u_ins")
+        };
+        let of_rates = rates.iter().find(is_same).map(|one| number(one, "beta"));
+        assert!(row["event"] != "fall" || of_rates == Some(number(&row, "beta")), "{of_rates:?} {row:?}");
+    }
+}
+
 /// With the number that is found the wall just passes where the probability of a fall is the target.
 #[test]
 fn numbers_of_the_code_give_the_target() {

@@ -227,14 +227,20 @@ fn contradictions_of_a_common_beta_and_crossings_are_warned_of() {
     assert_has(&message, &words);
     let alike = warned_of_study("not_contradicted", &study("[0.9, 1]", "common"));
     assert!(!alike.contains("beta"), "{alike}");
-    let crossing = warned_of_study("crossing", &study("[0.001, 0.01, 0.1, 1]", "own"));
-    let words = ["warning: curves of limit states cross in 1 of 1 fits: wall \"parapet\" with CR rigid, see"];
+    let crossing = warned_of_study("crossing", &study("[0.05, 0.4, 1]", "own"));
+    let words = [
+        "warning: curves of limit states cross by up to 0.",
+        " of P in 1 of 1 fits: wall \"parapet\" with CR rigid, see",
+    ];
     assert_has(&crossing, &words);
     assert_has(
         &crossing,
-        &["crossing in fragilities.csv", "beta = \"ordered\" fits curves that do not cross"],
+        &["crossing_excess in fragilities.csv", "beta = \"ordered\" fits curves that do not cross"],
     );
-    let ordered = warned_of_study("ordered", &study("[0.001, 0.01, 0.1, 1]", "ordered"));
+    // by 0.001 of P is not worth a word
+    let slight = warned_of_study("slight", &study("[0.001, 0.01, 0.1, 1]", "own"));
+    assert!(!slight.contains("cross"), "{slight}");
+    let ordered = warned_of_study("ordered", &study("[0.05, 0.4, 1]", "ordered"));
     assert!(!ordered.contains("cross"), "{ordered}");
 }
 
