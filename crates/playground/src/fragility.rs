@@ -85,7 +85,7 @@ impl Fragility {
         let table = Table::over(rows)
             .text("", "limit state", |(name, _)| *name)
             .text("", "median PGA (g)", |(_, cells)| cells[0].clone())
-            .text("", "95 % interval", |(_, cells)| cells[1].clone())
+            .text("", "95 % interval,\nstudentised", |(_, cells)| cells[1].clone())
             .text("", "dispersion β", |(_, cells)| cells[2].clone())
             .done();
         json!({ "table": table.html(), "figure": self.chart(&states, &summaries).figure() })

@@ -110,8 +110,8 @@ impl<'a> Losses<'a> {
         let table = shown.table();
         if !table.rows.is_empty() {
             let words = format!(
-                "average annual loss, of the value of the wall, with {:.0} % intervals of the records, studentised; \"at \
-                 most\" adds what may lie outside the hazard curve",
+                "average annual loss, of the value of the wall, with {:.0} % intervals of the records, \
+                 studentised; \"at most\" adds what may lie outside the hazard curve",
                 100.0 * CONFIDENCE
             );
             told = format!("{words}\n{}", table.text());

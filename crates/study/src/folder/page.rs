@@ -99,8 +99,8 @@ fn reading(manifest: &Manifest) -> String {
             "Each record is run once, at its own level; points at the right edge are walls that overturned. \
              The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
              likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
-             them: θ = exp((ln d − a)/b), β = σ/b. Intervals, 95&nbsp;%, are those of {} studentised resamples of the \
-             records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
+             them: θ = exp((ln d − a)/b), β = σ/b. Intervals, 95&nbsp;%, are those of {} studentised \
+             resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
              counts the walls that overturned.",
             report.resamples,
             escaped(&report.reference)
@@ -127,7 +127,8 @@ fn reading(manifest: &Manifest) -> String {
         if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
     let dispersions = match report.beta {
         Dispersion::Own => {
-            "Each limit state has its own β; † marks curves that cross that of the next limit state by more than 0.01 of P."
+            "Each limit state has its own β; † marks curves that cross that of the next limit state by more than \
+             0.01 of P."
         }
         Dispersion::Common => {
             "All limit states of a wall and model share one β, so that their curves do not cross (Shinozuka \
@@ -141,7 +142,8 @@ fn reading(manifest: &Manifest) -> String {
         "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum likelihood to \
          {observed}. {counted} {dispersions} Misfit is the largest distance of a curve from the fractions of \
          the records. Intervals, 95&nbsp;%, are those of {} resamples of the records, drawn with all their \
-         results, so that ratios are paired: of medians by percentiles, of θ and β studentised. Ratios are to {}. “open” marks a number that the levels leave \
+         results, so that ratios are paired: of medians by percentiles, of θ and β studentised. \
+         Ratios are to {}. “open” marks a number that the levels leave \
          open, with its bound. Fractiles of IDA curves are those of the intensity at which a record first \
          exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
         report.resamples,

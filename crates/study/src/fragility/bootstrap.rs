@@ -71,8 +71,8 @@ impl Bootstrap {
 
     /// Corrects β for the number of records n, or leaves it as fitted.
     ///
-    /// The standard deviation of n normal numbers, with the divisor n, has a mean of 1 − 3/(4n) times the true
-    /// one, to the order of 1/n.
+    /// The standard deviation of n normal numbers, with the divisor n, has a mean of 1 − 3/(4n) times the
+    /// true one, to the order of 1/n.
     #[must_use]
     pub fn corrected(self, corrects: bool) -> Self {
         Self { corrects, ..self }

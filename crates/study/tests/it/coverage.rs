@@ -64,7 +64,8 @@ fn coverage(name: &str, runs: Runs, records: usize, populations: usize) -> BTree
     let mut text = format!(
         "models = [\"CR\"]\nlevels = {{ {levels} }}\nintensity = {{ measure = \"PGA\" }}\n\
          records = {{ synthetic = {{ count = {records}, duration = 10 }} }}\n\
-         report = {{ fractions = [1], resamples = 400 }}\n[hazard]\npoints = {HAZARD:?}\nunit = \"m/s2\"\ntarget = {TARGET}\n"
+         report = {{ fractions = [1], resamples = 400 }}\n\
+         [hazard]\npoints = {HAZARD:?}\nunit = \"m/s2\"\ntarget = {TARGET}\n"
     );
     for wall in 0..populations {
         text += &format!("[[walls]]\nname = \"{wall}\"\ngeometry = {{ height = 2, thickness = 0.2 }}\n");
