@@ -1,16 +1,15 @@
 """Runs the tutorials: their files are written, their commands run, and what they show is printed."""
 
 import os
-import re
 import shlex
 import subprocess
 
 import pytest
 
+from commands import BLOCK
 from conftest import ROOT
 
 TUTORIALS = sorted((ROOT / "docs/tutorials").glob("*.md"))
-BLOCK = re.compile(r"(?:<!-- file: (?P<file>\S+) -->\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.S)
 
 
 @pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
