@@ -213,14 +213,14 @@ impl Piece for Series<'_> {
         KinematicState { acceleration, ..motion }
     }
 
-    fn snap(&self, between: [f64; 2], (acceleration, _): (f64, f64)) -> f64 {
-        match &self.law {
-            Some(law) => {
-                let at = |time: f64| if time == 0.0 { self.start() } else { self.at(time) };
-                law.snap(between, between.map(at), acceleration)
-            }
-            None => self.polynomial.snap(self.horizon),
-        }
+    fn curvatures(&self, [left, right]: [f64; 2], from: KinematicState) -> [f64; 3] {
+        let (acceleration, jerk) =
+            if right == self.horizon { self.bounds } else { self.polynomial.bounds(right) };
+        let snap = match &self.law {
+            Some(law) => law.snap([left, right], [from, self.at(right)], acceleration),
+            None => self.polynomial.snap(right),
+        };
+        [acceleration, jerk, snap]
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
@@ -315,8 +315,8 @@ mod tests {
             for (u, v) in [(0.1, 0.3), (0.25, -0.4), (0.02, 0.3)] {
                 let piece = series([u, v], 0.0, 0.005, 1e-14);
                 let length = piece.horizon();
-                let bounds = piece.bounds(piece.start(), length);
-                let [wide, narrow] = [length, 1e-3 * length].map(|end| piece.snap([0.0, end], bounds));
+                let [wide, narrow] =
+                    [length, 1e-3 * length].map(|end| piece.curvatures([0.0, end], piece.start())[2]);
                 let snap = 24.0 * piece.polynomial.coefficients[4].abs();
                 assert!(narrow >= snap && narrow <= wide, "{u}: {snap} of {narrow} of {wide}");
                 assert!(narrow <= 30.0 * snap, "{u}: {narrow} for {snap}");

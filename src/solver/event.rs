@@ -30,9 +30,15 @@ pub(super) trait Piece {
         self.at(time)
     }
 
-    /// Bound on the second derivative of the ü of [`balanced`](Self::balanced) between two times \[m/s⁴\],
-    /// where |ü| and the jerk of the piece keep within `bounds`.
-    fn snap(&self, between: [f64; 2], bounds: (f64, f64)) -> f64;
+    /// Bounds on |ü|, on the jerk and on the second derivative of the ü of [`balanced`](Self::balanced)
+    /// between two times, of which the first has the motion `from` \[m/s², m/s³, m/s⁴\].
+    fn curvatures(&self, between: [f64; 2], from: KinematicState) -> [f64; 3];
+
+    /// The time after which the motion only repeats, with the same or smaller swings, under a forcing that
+    /// does not change \[s\]; infinite for another motion.
+    fn period(&self) -> f64 {
+        f64::INFINITY
+    }
 
     /// ∫u dt from the start of the piece \[m s\].
     fn displacement_integral(&self, time: f64) -> f64;

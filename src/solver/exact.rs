@@ -93,8 +93,16 @@ impl Piece for ClosedForm<'_> {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
-    fn snap(&self, _between: [f64; 2], bounds: (f64, f64)) -> f64 {
-        self.oscillator.snap(bounds)
+    fn curvatures(&self, [left, right]: [f64; 2], from: KinematicState) -> [f64; 3] {
+        let bounds = self.bounds(from, right - left);
+        [bounds.0, bounds.1, self.oscillator.snap(bounds)]
+    }
+
+    fn period(&self) -> f64 {
+        match self.oscillator.regime() {
+            Regime::Oscillating(_) if self.forcing_rate == 0.0 => self.oscillator.longest_piece(),
+            _ => f64::INFINITY,
+        }
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {

@@ -58,8 +58,7 @@ impl Watch<'_> {
         branch: &Branch,
         is_overturned: bool,
         [from, to]: [KinematicState; 2],
-        (most_acceleration, most_jerk): (f64, f64),
-        most_snap: f64,
+        bounds: [f64; 3],
     ) -> bool {
         if self.demands.tie.is_some() && branch.tie != TieAction::None {
             return false;
@@ -68,7 +67,7 @@ impl Watch<'_> {
             return true;
         }
         let length = self.segment.duration;
-        let sag = 0.125 * length * length * most_acceleration;
+        let sag = 0.125 * length * length * bounds[0];
         // no half cycle begins or ends
         let is_counted = match (self.demands.excursion, branch.is_elastic()) {
             (None, is_elastic) => is_elastic,
@@ -81,7 +80,7 @@ impl Watch<'_> {
             return false;
         }
         let supports = [self.segment.from, self.segment.to];
-        self.include_extremes([from, to], supports, [0.0, length], (most_acceleration, most_jerk), most_snap)
+        self.include_extremes([from, to], supports, [0.0, length], bounds)
     }
 
     /// Includes the extremes of a motion by its ends, which it reaches `from` after the start of the segment
@@ -93,8 +92,7 @@ impl Watch<'_> {
         [start, end]: [KinematicState; 2],
         supports: [Support; 2],
         [from, length]: [f64; 2],
-        (most_acceleration, most_jerk): (f64, f64),
-        most_snap: f64,
+        [most_acceleration, most_jerk, most_snap]: [f64; 3],
     ) -> bool {
         let (share, times) = (0.125 * length * length, [self.time + from, self.time + (from + length)]);
         let [by_a, by_u] = self.slopes();
@@ -147,26 +145,36 @@ impl Watch<'_> {
     /// Includes a piece of motion.
     #[inline(never)]
     pub(super) fn piece<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
-        let &Followed { piece, length, from, .. } = followed;
-        let search = ExtremeSearch::new(piece, length, [self.time, from]);
+        let search = Self::search_of(self.segment, self.time, followed);
+        let (from, length) = (search.from, search.length);
         let supports = [from, from + length].map(|offset| self.segment.support(offset));
-        if !self.include_extremes(search.ends, supports, [from, length], search.bounds, search.snap) {
+        if !self.include_extremes(search.ends, supports, [from, length], search.bounds) {
             self.search(&search)?;
         }
         self.cross(followed)?;
         self.count(followed)
     }
 
+    /// Prepares the search of a piece, or of its first period where it then only repeats.
+    fn search_of<'p, P: Piece>(
+        segment: &Segment,
+        time: f64,
+        &Followed { piece, length, from, .. }: &Followed<'p, P>,
+    ) -> ExtremeSearch<'p, P> {
+        let is_still = segment.from == segment.to;
+        let length = if is_still { length.min(piece.period()) } else { length };
+        ExtremeSearch::new(piece, length, [time, from])
+    }
+
     /// Searches a piece for the extremes that its ends do not show.
     fn search<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
-        let (acceleration, jerk) = search.bounds;
         let demands = &mut *self.demands;
         let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
             [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
         for (extremes, pick, curvature) in [
-            (&mut demands.displacement, u, [acceleration, 0.0]),
-            (&mut demands.velocity, v, [jerk, 0.0]),
-            (&mut demands.acceleration, a, [0.0, 1.0]),
+            (&mut demands.displacement, u, [1.0, 0.0, 0.0]),
+            (&mut demands.velocity, v, [0.0, 1.0, 0.0]),
+            (&mut demands.acceleration, a, [0.0, 0.0, 1.0]),
         ] {
             let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: || search.largest(pick) })?;
@@ -188,7 +196,7 @@ impl Watch<'_> {
                 pick(body.reactions(support, motion.acceleration, motion.displacement, drift))
             };
             let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
-            let curvature = [slope_u * search.bounds.0, slope_a];
+            let curvature = [slope_u, 0.0, slope_a];
             let size = || {
                 let [most_u, most_a] =
                     [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
@@ -227,11 +235,11 @@ impl Watch<'_> {
             }
             return Ok(());
         }
-        let search = ExtremeSearch::new(piece, length, [self.time, from]);
+        let search = Self::search_of(self.segment, self.time, followed);
         let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
         let slope = self.wall.tie_slope(branch);
         let size = || slope * search.largest(|m| m.displacement);
-        let quantity = Quantity { value, curvature: [slope * search.bounds.0, 0.0], size };
+        let quantity = Quantity { value, curvature: [slope, 0.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
         *force = largest;
         let Some(reach) = tie.strength_displacement() else { return Ok(()) };

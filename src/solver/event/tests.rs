@@ -57,8 +57,9 @@ impl Piece for Sway {
         (acceleration, acceleration * self.rate)
     }
 
-    fn snap(&self, _between: [f64; 2], (_, jerk): (f64, f64)) -> f64 {
-        jerk * self.rate
+    fn curvatures(&self, _between: [f64; 2], from: KinematicState) -> [f64; 3] {
+        let (acceleration, jerk) = self.bounds(from, 0.0);
+        [acceleration, jerk, jerk * self.rate]
     }
 
     fn displacement_integral(&self, _time: f64) -> f64 {

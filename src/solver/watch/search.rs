@@ -23,18 +23,19 @@ const MOST_INTERVALS: u32 = 60 * PATIENCE;
 const DEEPEST: usize = 64;
 
 /// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
-/// terms. The bound is the sum of a number and of a share of the bound on that of ü.
+/// terms. The bound is a sum of shares of the bounds on |ü|, on the jerk and on the second derivative of ü.
 pub(super) struct Quantity<F, S> {
     pub(super) value: F,
-    pub(super) curvature: [f64; 2],
+    pub(super) curvature: [f64; 3],
     pub(super) size: S,
 }
 
 impl<F, S> Quantity<F, S> {
     /// Returns by how much it may exceed its values at the ends of an interval.
-    fn above(&self, width: f64, snap: f64) -> f64 {
-        let [number, share] = self.curvature;
-        0.125 * width * width * (number + share * snap)
+    fn above(&self, width: f64, bounds: [f64; 3]) -> f64 {
+        let [of_acceleration, of_jerk, of_snap] = self.curvature;
+        let [acceleration, jerk, snap] = bounds;
+        0.125 * width * width * (of_acceleration * acceleration + of_jerk * jerk + of_snap * snap)
     }
 }
 
@@ -46,26 +47,25 @@ pub(super) struct ExtremeSearch<'a, P> {
     piece: &'a P,
     time: f64,
     pub(super) from: f64,
-    length: f64,
+    pub(super) length: f64,
     pub(super) ends: [KinematicState; 2],
     seen: OnceCell<[(f64, KinematicState); FIRST]>,
     /// Bounds on |ü|, on the jerk, and on the second derivative of ü \[m/s², m/s³, m/s⁴\].
-    pub(super) bounds: (f64, f64),
-    pub(super) snap: f64,
+    pub(super) bounds: [f64; 3],
 }
 
 #[derive(Clone, Copy)]
 struct Node {
     offset: f64,
     value: f64,
+    motion: KinematicState,
 }
 
 impl<'a, P: Piece> ExtremeSearch<'a, P> {
     pub(super) fn new(piece: &'a P, length: f64, [time, from]: [f64; 2]) -> Self {
         let ends = [piece.start(), piece.balanced(length)];
-        let bounds = piece.bounds(ends[0], length);
-        let snap = piece.snap([0.0, length], bounds);
-        Self { piece, time, from, length, ends, seen: OnceCell::new(), bounds, snap }
+        let bounds = piece.curvatures([0.0, length], ends[0]);
+        Self { piece, time, from, length, ends, seen: OnceCell::new(), bounds }
     }
 
     /// The instants that a search begins with. Most pieces need none: their ends show that none is higher.
@@ -94,7 +94,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
     ) -> Result<(), SearchExhausted> {
         let times = [0.0, self.length];
         let [start, end] = [0, 1].map(|n| (quantity.value)(times[n], &self.ends[n]));
-        let above = quantity.above(self.length, self.snap);
+        let above = quantity.above(self.length, self.bounds);
         let times = times.map(|offset| self.time + (self.from + offset));
         if extremes.include_ends([start, end], above, times) {
             return Ok(());
@@ -115,19 +115,19 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         best: f64,
         quantity: &Quantity<F, S>,
     ) -> Result<Option<Instant>, SearchExhausted> {
-        let [_, share] = quantity.curvature;
-        let node = |offset: f64, motion: &KinematicState| Node {
+        let node = |offset: f64, motion: KinematicState| Node {
             offset,
-            value: sign * (quantity.value)(offset, motion),
+            value: sign * (quantity.value)(offset, &motion),
+            motion,
         };
-        let first = self.seen().map(|(offset, motion)| node(offset, &motion));
+        let first = self.seen().map(|(offset, motion)| node(offset, motion));
         let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
         let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
-        if highest + quantity.above(longest, self.snap) <= best {
+        if highest + quantity.above(longest, self.bounds) <= best {
             return Ok(None);
         }
         let size = (quantity.size)();
-        let mut found = Node { offset: f64::NAN, value: best };
+        let mut found = Node { offset: f64::NAN, value: best, ..first[0] };
         for node in first {
             if node.value > found.value {
                 found = node;
@@ -150,18 +150,19 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * size.max(found.value.abs());
-            let within = |snap: f64| {
-                let above = quantity.above(width, snap);
+            let within = |bounds: [f64; 3]| {
+                let above = quantity.above(width, bounds);
                 higher + above <= found.value + tolerance || is_monotone([left.value, right.value], above)
             };
-            // the bound between two instants is smaller than that over the whole piece, which is known
-            let between = || self.piece.snap([left.offset, right.offset], self.bounds);
-            if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
+            // of a wall that hovers near its instability before it falls back, the bounds over the whole
+            // piece are up to 1e15 times those between two instants
+            let between = || self.piece.curvatures([left.offset, right.offset], left.motion);
+            if count == DEEPEST || within(self.bounds) || within(between()) {
                 (left, count) = (right, index);
                 continue;
             }
             let offset = 0.5 * (left.offset + right.offset);
-            let middle = node(offset, &self.piece.balanced(offset));
+            let middle = node(offset, self.piece.balanced(offset));
             if middle.value > found.value {
                 found = middle;
             }

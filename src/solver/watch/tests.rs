@@ -1,8 +1,13 @@
 //! Tests the search for extremes on a motion whose extremes are known. Pins its number of evaluations, too:
 //! only this number shows a search that goes on beyond the stated accuracy.
 
+use std::cell::Cell;
+
+use oscillator::Oscillator;
+
 use super::super::demand::Extremes;
 use super::super::event::tests::Sway;
+use super::super::exact::ClosedForm;
 use super::*;
 use crate::variables::{Mechanism, TieSide};
 use crate::wall::Parameters;
@@ -138,4 +143,78 @@ fn the_force_of_a_tie_is_accurate_relative_to_its_terms() {
         }
     }
     assert_eq!(evaluations, [76, 81, 76, 5, 76, 81, 76, 5]);
+}
+
+/// A wall that hovers near its instability and falls back, u = 1 − A cosh ω(t − τ), is searched in few
+/// intervals: its bounds over the whole piece are e³⁰ times those near the turn.
+#[test]
+fn a_wall_that_hovers_is_searched_in_few_intervals() {
+    let wall = Wall::new(&Parameters { u_start: 0.0, ..Parameters::default() }).unwrap();
+    let oscillator = Oscillator::new(0.0, -RATE * RATE);
+    for nearest in [1e-2, 1e-5, 1e-8, 1e-11] {
+        // from u = 0.9 up to the turn and back
+        let before = libm::acosh(0.1 / nearest) / RATE;
+        let [sine, cosine] =
+            [libm::sinh(-RATE * before), libm::cosh(-RATE * before)].map(|part| nearest * part);
+        let start = KinematicState {
+            displacement: 1.0 - cosine,
+            velocity: -RATE * sine,
+            acceleration: -RATE * RATE * cosine,
+        };
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        let inner = ClosedForm::new(&oscillator, start, 0.0, 2.0 * before, bounds, &Peaks::at(0.9));
+        let piece = Counted { inner, evaluations: Cell::new(0) };
+        let mut demands = Demands::new(
+            &wall,
+            0.0,
+            [start.displacement, start.velocity, start.acceleration],
+            wall.body().reactions(Support::default(), start.acceleration, start.displacement, false),
+            0.0,
+            &[],
+        );
+        let still = Support::default();
+        let segment = Segment { duration: 2.0 * before, from: still, to: still };
+        let mut watch =
+            Watch { demands: &mut demands, wall: &wall, segment: &segment, time: 0.0, drift: false };
+        let search = ExtremeSearch::new(&piece, 2.0 * before, [0.0, 0.0]);
+        watch.search(&search).unwrap();
+        let highest = demands.displacement.highest;
+        // of u the accuracy of the search, and the rounding that growth by e^ω(t − τ) adds to it
+        let allowed = ACCURACY + 8.0 * f64::EPSILON / nearest * 0.1;
+        assert!((highest.value - (1.0 - nearest)).abs() <= allowed, "{nearest}: {highest:?}");
+        assert!(piece.evaluations.get() < 1500, "{nearest}: {} evaluations", piece.evaluations.get());
+    }
+}
+
+/// A piece that counts how often it is evaluated.
+struct Counted<P> {
+    inner: P,
+    evaluations: Cell<u32>,
+}
+
+impl<P: Piece> Piece for Counted<P> {
+    fn start(&self) -> KinematicState {
+        self.inner.start()
+    }
+
+    fn horizon(&self) -> f64 {
+        self.inner.horizon()
+    }
+
+    fn at(&self, time: f64) -> KinematicState {
+        self.evaluations.set(self.evaluations.get() + 1);
+        self.inner.at(time)
+    }
+
+    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64) {
+        self.inner.bounds(from, length)
+    }
+
+    fn curvatures(&self, between: [f64; 2], from: KinematicState) -> [f64; 3] {
+        self.inner.curvatures(between, from)
+    }
+
+    fn displacement_integral(&self, time: f64) -> f64 {
+        self.inner.displacement_integral(time)
+    }
 }
