@@ -117,7 +117,8 @@ impl Unit {
     }
 
     /// Makes one communication step, through the samples of the scene's own motion. A step that may end early
-    /// ends just after overturning; the time of its end is then returned. On an error the unit is as it was.
+    /// ends just after its first overturning or fracture; the time of its end is then returned. On an error
+    /// the unit is as it was.
     fn advance(&mut self, mut step: CommunicationStep, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
         use RealVariable as V;
         let Inputs { bottom, top, drift, .. } = &self.inputs;
@@ -130,11 +131,11 @@ impl Unit {
         let mut done = self.move_wall(step);
         let mut event = None;
         if let Some(before) = before.filter(|_| step.may_end_early)
-            && let Some(duration) = self.duration_to_overturning(before, step)
+            && let Some(duration) = self.duration_to_event(before, step)
         {
             self.simulation.restore(before);
             let early = self.move_wall(CommunicationStep { duration, ..step });
-            if early.as_ref().is_ok_and(|done| done.overturned) {
+            if early.as_ref().is_ok_and(|done| done.overturned || done.fractures != [false; 2]) {
                 (step.duration, event) = (duration, Some(step.from + duration));
                 done = early;
             } else {
@@ -170,13 +171,18 @@ impl Unit {
         self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
     }
 
-    /// Returns the length of the step up to just after overturning \[s\]; `None` where the wall does not
-    /// overturn inside the step. `before` is the progress at its start.
-    fn duration_to_overturning(&self, before: Progress, step: CommunicationStep) -> Option<f64> {
-        let overturning =
-            self.simulation.progress().overturn_time.filter(|_| before.overturn_time.is_none())?;
-        let margin = OVERTURNED_SINCE.max(4.0 * f64::EPSILON * overturning.abs());
-        Some(overturning - step.from + margin).filter(|&duration| duration < step.duration)
+    /// Returns the length of the step up to just after its first overturning or fracture \[s\]; `None` where
+    /// there is none inside the step. `before` is the progress at its start.
+    fn duration_to_event(&self, before: Progress, step: CommunicationStep) -> Option<f64> {
+        let times = |progress: &Progress| {
+            let [positive, negative] = progress.tie_breaks;
+            [progress.overturn_time, positive, negative]
+        };
+        let happened = times(self.simulation.progress()).into_iter().zip(times(&before));
+        let new = happened.filter_map(|(now, before)| now.filter(|_| before.is_none()));
+        let event = new.reduce(f64::min)?;
+        let margin = HAPPENED_SINCE.max(4.0 * f64::EPSILON * event.abs());
+        Some(event - step.from + margin).filter(|&duration| duration < step.duration)
     }
 
     /// Logs what happened in a step.
@@ -228,9 +234,9 @@ impl Unit {
     }
 }
 
-/// Time from overturning to the end of a step that ends early \[s\]: long enough that rounding cannot hide
-/// the overturning.
-const OVERTURNED_SINCE: f64 = 1e-10;
+/// Time from an event to the end of a step that ends early \[s\]: long enough that rounding cannot hide the
+/// event.
+const HAPPENED_SINCE: f64 = 1e-10;
 
 fn start_simulation(
     parameters: &Parameters,

@@ -112,7 +112,7 @@ impl Motion {
     pub(crate) fn tie_change(&self, state: &State) -> [f64; 2] {
         let (before, after) = (self.wall.tie_memory().yielded, state.tie.yielded);
         let changed = [1.0, -1.0].into_iter().find(|sign| before.of(*sign) != after.of(*sign));
-        let Some(side) = changed else {
+        let Some(side) = changed.filter(|_| !state.tie.lost) else {
             // they are lost where the wall leaves its supports
             let side = self.wall.branches()[state.branch].side();
             return [side * self.wall.body().departure.of(side), side];

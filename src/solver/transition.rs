@@ -4,7 +4,7 @@
 //! |---|---|
 //! | between two branches | branch i ↔ i + 1 |
 //! | `u_ins`, outwards | the wall overturns, once |
-//! | departure, outwards | the wall leaves its supports, once, and loses its ties |
+//! | departure, outwards | the wall leaves its supports, once, and loses its ties; their p stays |
 //! | fracture, outwards | the tie of this side breaks |
 //! | landing | u̇ = 0, the end of the fall |
 //! | u = 0 with impact | u̇ → e u̇; a rigid wall may come to rest; for e = 0 the wall follows the forcing |
@@ -142,11 +142,11 @@ pub(super) fn pass_corner(
     };
     state.overturned |= event.overturned;
     state.departed |= event.departed;
-    if let Some(tie) = motion.wall.tie() {
+    if let Some(tie) = motion.wall.tie()
+        && (event.fractured || event.departed)
+    {
+        event.fractured |= tie.stretch(&mut state.tie, displacement);
         state.tie.lost |= event.departed;
-        if event.fractured {
-            tie.stretch(&mut state.tie, displacement);
-        }
     }
     if landing {
         (state.displacement, state.velocity, state.phase) = (displacement, 0.0, Phase::Landed);

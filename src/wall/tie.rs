@@ -202,20 +202,19 @@ impl Tie {
     /// Returns the memory of ties whose wall has been pulled to a displacement \[m\].
     pub(crate) fn memory_at(&self, displacement: f64) -> TieMemory {
         let mut memory = TieMemory::default();
-        let yields = self.ultimate.and(self.strength_displacement());
-        if self.holds(displacement) && yields.is_some_and(|yields| displacement.abs() >= yields) {
-            self.stretch(&mut memory, displacement);
-        }
+        self.stretch(&mut memory, displacement);
         memory
     }
 
-    /// Enters in the memory that the tie has yielded up to a displacement \[m\]; returns whether that breaks
-    /// it.
+    /// Enters in the memory that the wall has pulled its tie to a displacement \[m\], if it yields there;
+    /// returns whether that breaks it.
     pub(crate) fn stretch(&self, memory: &mut TieMemory, displacement: f64) -> bool {
-        let breaks = self.fracture_displacement().unwrap_or(f64::INFINITY);
-        let yielded = memory.yielded.of_mut(displacement);
-        *yielded = yielded.max(displacement.abs()).min(breaks);
-        *yielded == breaks
+        let Some(hold) = self.hold(displacement, memory) else { return false };
+        let reached = displacement.abs().min(hold.breaks);
+        if reached >= hold.yields {
+            *memory.yielded.of_mut(displacement) = reached;
+        }
+        reached == hold.breaks
     }
 
     /// Returns whether the tie of the side of `sign` has broken.

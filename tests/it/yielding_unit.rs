@@ -1,11 +1,6 @@
-//! Ties that yield in the FMU: Model Exchange, saved states, derivatives, the log.
+//! Ties that yield in the FMU: Model Exchange, saved states, derivatives.
 
-use std::sync::{Arc, Mutex};
-
-use fmu_export::{
-    Category, Filter, Interface, Log, Model as _, ModelExchange as _, StateCodec, Status, Step,
-    VariableId as _,
-};
+use fmu_export::{Interface, Log, Model as _, ModelExchange as _, StateCodec, Step, VariableId as _};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{BooleanVariable, RealVariable as V, TieSide};
 use rocking_wall::wall::Parameters;
@@ -16,12 +11,12 @@ use crate::{instantiated, start, still};
 
 /// Where the tie of the example by hand engages, yields and breaks on its first way out \[m\].
 const ENGAGES: f64 = 0.02 / 2.6 * 1.5;
-const YIELDS: f64 = 0.035 / 2.6 * 1.5;
+pub(crate) const YIELDS: f64 = 0.035 / 2.6 * 1.5;
 const BREAKS: f64 = 0.085 / 2.6 * 1.5;
 const SIDES: [V; 2] = [V::TieElongation, V::TieElongationNegative];
 
 /// The scene of the example by hand, with ties on both sides.
-fn scene(tie_ultimate: f64, u_start: f64, u_dot_start: f64) -> String {
+pub(crate) fn scene(tie_ultimate: f64, u_start: f64, u_dot_start: f64) -> String {
     format!(
         "geometry = {{ height = 3.0, thickness = 0.3 }}\nforce_law = {{ force_law = \"rigid_linear\" }}\n\
          damping = {{ damping_model = \"none\" }}\n\
@@ -32,7 +27,7 @@ fn scene(tie_ultimate: f64, u_start: f64, u_dot_start: f64) -> String {
     )
 }
 
-fn initialized(interface: Interface, scene: &str) -> Unit {
+pub(crate) fn initialized(interface: Interface, scene: &str) -> Unit {
     let mut unit = instantiated(interface, Some(scene), &mut Log::silent());
     unit.initialize(&mut Log::silent()).unwrap();
     unit
@@ -370,29 +365,5 @@ fn a_unit_goes_on_from_a_state_with_stretched_ties() {
             }
             assert!(written.real(SIDES[0]) > 0.0);
         }
-    }
-}
-
-/// The log names each fracture with its time, also that of a start; a step ends early at overturning alone.
-#[test]
-fn fractures_are_logged_and_end_no_step() {
-    for interface in [Interface::CoSimulation, Interface::ModelExchange] {
-        let texts = Arc::new(Mutex::new(Vec::new()));
-        let sink = texts.clone();
-        let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
-        let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Events));
-        let mut unit = initialized(interface, &scene(0.0, 0.0, 0.4));
-        if interface == Interface::ModelExchange {
-            unit.update(&mut log).unwrap();
-            unit.set_time(0.04);
-            unit.set_states(&[YIELDS + 1e-6, 0.4]);
-            unit.update(&mut log).unwrap();
-        } else {
-            let step = Step { from: 0.0, duration: 0.1, may_end_early: true };
-            assert_eq!(unit.do_step(step, &mut log).unwrap(), None);
-        }
-        let time = unit.real(V::TieBreakTime);
-        assert!((0.03..0.08).contains(&time), "{time}");
-        assert_eq!(*texts.lock().unwrap(), [format!("a tie broke at t = {time} s")]);
     }
 }
