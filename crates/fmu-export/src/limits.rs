@@ -1,7 +1,11 @@
 //! Which values a variable may have.
 
 use crate::model::Failure;
-use crate::variable::{Item, Kind, Variable};
+use crate::variable::{Causality, Item, Kind, Variable};
+
+/// The smallest size of a parameter that is not 0: products and quotients of smaller ones underflow to 0, or
+/// overflow.
+const SMALLEST: f64 = 1e-100;
 
 /// Returns `value` if it is finite.
 pub(crate) fn finite(variable: &Variable, value: f64) -> Result<f64, Failure> {
@@ -13,7 +17,8 @@ fn not_finite(variable: &Variable, value: f64) -> Failure {
     Failure(format!("{} = {value:?} is not a finite number", variable.name))
 }
 
-/// Checks that `value` is finite and within the limits of `variable`.
+/// Checks that `value` is finite and within the limits of `variable`. A parameter is 0, or not closer to 0
+/// than 1e-100 in its unit.
 ///
 /// # Errors
 /// [`Failure`] with the name, the value and the limit.
@@ -25,6 +30,9 @@ pub fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
         }
         Kind::Real { max: Some(max), .. } if value > max => {
             Err(beyond(variable, value, "above its maximum", max))
+        }
+        _ if variable.causality == Causality::Parameter && value != 0.0 && value.abs() < SMALLEST => {
+            Err(beyond(variable, value, "not 0, but closer to it than the smallest size", SMALLEST))
         }
         _ => Ok(()),
     }

@@ -94,6 +94,8 @@ fn limits_are_checked_and_named() {
         (Real::Force, f64::INFINITY, ["fmi2SetReal", "force = inf", "finite"]),
         (Real::Push, f64::NEG_INFINITY, ["fmi2SetReal", "push = -inf", "finite"]),
         (Real::Force, -50.001, ["fmi2SetReal", "force = -50.001 N", "minimum, -50.0 N"]),
+        (Real::XStart, 5e-324, ["fmi2SetReal", "x_start = 5e-324 m", "smallest size, 1e-100 m"]),
+        (Real::XStart, -9e-101, ["fmi2SetReal", "x_start = -9e-101 m", "closer to it"]),
     ] {
         let importer = Importer::in_initialization_mode();
         let before = importer.get(variable);
@@ -113,6 +115,10 @@ fn limits_are_checked_and_named() {
     let importer = Importer::in_initialization_mode();
     for value in [0.5, 100.0] {
         assert_eq!(importer.set(Real::Stiffness, value), OK, "a limit belongs to its range");
+    }
+    for (variable, value) in [(Real::XStart, 0.0), (Real::XStart, -1e-100), (Real::Force, 5e-324)] {
+        let importer = Importer::in_initialization_mode();
+        assert_eq!(importer.set(variable, value), OK, "an input may be of any size");
     }
 }
 
