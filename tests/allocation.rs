@@ -210,7 +210,8 @@ fn reading_takes_a_small_multiple_of_the_file() {
         + &format!("{:8}", 99_999_999).repeat(40)
         + &"1".repeat(480);
     let cwa = "#SampleRate(Hz): 1\n#AmplitudeUnit: gal\n#DataSequence: Time N\n#Data: 2F2.0\n";
-    let texts: [(Format, String); 22] = [
+    let fdsn = "TIMESERIES X, 9 samples, 100 sps, 2016, SLIST, FLOAT, M/S**2\n".to_owned();
+    let texts: [(Format, String); 24] = [
         (Format::At2, at2(SIZE / 2) + &"1 ".repeat(SIZE / 2)),
         (Format::At2, at2(usize::MAX) + "1 1 1\n"),
         (Format::Csv, "1\n".repeat(SIZE / 2)),
@@ -232,6 +233,8 @@ fn reading_takes_a_small_multiple_of_the_file() {
         (Format::Geonet, geonet + &"       1".repeat(SIZE / 8)),
         (Format::Cwa, cwa.to_owned() + &" 1 1\n".repeat(SIZE / 5)),
         (Format::Cwa, "#\n".repeat(SIZE / 2)),
+        (Format::Fdsn, fdsn + &"1 ".repeat(SIZE / 2)),
+        (Format::Fdsn, "#\n".repeat(SIZE / 2)),
         (Format::Numbers, "1 ".repeat(SIZE / 2)),
     ];
     for (format, text) in texts {

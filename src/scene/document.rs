@@ -109,7 +109,7 @@ impl Document {
 /// # Errors
 /// [`SceneError::File`], and [`SceneError::Line`] where the file is not UTF-8.
 pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneError> {
-    let file = path.display().to_string();
+    let file = ground_motion::shown_path(path);
     let unread = |error| SceneError::File { file: file.clone(), reason: format!("cannot be read: {error}") };
     let bytes = ground_motion::read_file(path, what, limit).map_err(unread)?;
     let in_file =

@@ -12,8 +12,8 @@ const FINAL_VELOCITY: f64 = 0.05;
 /// have up to 2 % and 6 %.
 const AT_THE_ENDS: f64 = 0.1;
 
-/// Largest time step without a warning (s); records have 0.02 s and less.
-const USUAL_STEP: f64 = 0.1;
+/// Range of time steps without a warning (s); records have 0.02 s and less, and 0.001 s and more.
+const USUAL_STEP: [f64; 2] = [5e-4, 0.1];
 
 /// Range of peaks (g) without a warning about the unit; the strongest records have about 4 g, few have more
 /// than 2 g.
@@ -55,11 +55,8 @@ pub enum Warning {
     /// Every sample is zero.
     #[error("every sample is 0")]
     NoMotion,
-    /// The time step is longer than that of any record, so the times may not be in seconds.
-    #[error(
-        "step: {step} s between samples is longer than records have; are the times in milliseconds, or \
-         numbers of samples?"
-    )]
+    /// The time step is longer or shorter than that of any record, so the times may not be in seconds.
+    #[error("step: {}", unusual(*step))]
     Step {
         /// Time between samples (s).
         step: f64,
@@ -128,6 +125,21 @@ pub enum Warning {
     /// The line that closes the last channel is missing, with all its samples there.
     #[error("end: the line that closes the channel is missing, all stated samples are there")]
     Unclosed,
+    /// A line has another number of samples than the others, so one may be missing.
+    #[error(
+        "samples: line {line} has {found} numbers, the others {usual}, and {more} more lines differ; where \
+         one is missing, all later samples come too early"
+    )]
+    Gap {
+        /// The first such line, from 1.
+        line: usize,
+        /// How many samples it has.
+        found: usize,
+        /// How many most lines have.
+        usual: usize,
+        /// How many more lines have another number.
+        more: usize,
+    },
     /// The times of the file, in another unit than seconds, have another step than the stated one.
     #[error("step: the times of the file are {step} s apart; the {stated} s that you state count")]
     StatedStep {
@@ -136,6 +148,24 @@ pub enum Warning {
         /// The step that the user has stated, which counts (s).
         stated: f64,
     },
+}
+
+/// Says of a time step (s) what is unusual, and in which unit the times may be.
+fn unusual(step: f64) -> String {
+    let [shortest, longest] = USUAL_STEP;
+    if step > longest {
+        return format!(
+            "{step} s between samples is longer than records have; are the times in milliseconds, or \
+             numbers of samples?"
+        );
+    }
+    let units = [("minutes", 60.0), ("hours", 3600.0), ("days", 86_400.0)];
+    let credible = units.into_iter().find(|(_, seconds)| (shortest..=longest).contains(&(seconds * step)));
+    let guess = credible.map_or_else(
+        || "another unit".to_owned(),
+        |(of, seconds)| format!("{of} (a step of {:.2e} s)", seconds * step),
+    );
+    format!("{step:.3e} s between samples is shorter than records have; are the times in {guess}?")
 }
 
 /// Lists the units that would give a credible peak.
@@ -206,7 +236,7 @@ impl Record {
         if self.is_vertical {
             warnings.push(Warning::Vertical);
         }
-        if step > USUAL_STEP {
+        if !(USUAL_STEP[0]..=USUAL_STEP[1]).contains(&step) {
             warnings.push(Warning::Step { step });
         }
         let peak = motion.peak();

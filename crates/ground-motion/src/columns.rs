@@ -6,28 +6,26 @@
 //! - [`Columns::of_texts`]: a line of names, and rows of numbers and words.
 //!
 //! Semicolons, commas, tabs or blanks separate the cells, which may stand in quotes. Decimals have a point,
-//! or a comma where that cannot be a separator. Lines that start with `#` or `%` are comments. Rows without
-//! any content, such as `,,`, are skipped, and so are empty columns at the end.
+//! or a comma where that cannot be a separator. Above the rows, lines that start with `#` or `%` are
+//! comments; among them a blank has to follow. Rows without any content, such as `,,`, are skipped, and so
+//! are empty columns at the end.
 
 mod cells;
 mod heading;
+mod lines;
 
 pub use crate::error::Fault;
 pub use cells::{Numbers, TextRow, Thousands};
 pub use heading::Name;
+pub(crate) use lines::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 
 use crate::error::excerpt;
-use crate::fields::{Numbered, lines};
+use crate::fields::{Numbered, all_lines, unit_word};
 use crate::options::RecordOptions;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
 use cells::{Separator, cells};
-
-/// What starts a comment.
-pub(crate) const COMMENTS: [char; 2] = ['#', '%'];
-
-/// What starts a comment in other programs' files.
-const OTHER_COMMENTS: [&str; 2] = ["//", "!"];
+use lines::{content, first_line, lines, refuse_foreign};
 
 /// A line of names is searched among this many lines before the first number.
 const TITLE_LINES: usize = 20;
@@ -182,6 +180,12 @@ impl<'a> Columns<'a> {
         header.map(|(_, line)| line.trim_start_matches(COMMENTS).trim_start())
     }
 
+    /// Returns the lines below the heading, also blank ones.
+    pub(crate) fn lines_below(&self) -> impl Iterator<Item = Numbered<'a>> + Clone {
+        let first_row = self.first_row;
+        all_lines(self.text).skip_while(move |(number, _)| *number < first_row)
+    }
+
     /// Returns the rows that have content.
     ///
     /// # Errors
@@ -192,7 +196,7 @@ impl<'a> Columns<'a> {
         rows.filter_map(move |(line, text)| {
             let row = TextRow { line, text, separator, width };
             if text.starts_with(COMMENTS) {
-                return row.unclear_comment().map(Err);
+                return refuse_unclear((line, text)).err().map(Err);
             }
             if separator != Separator::None && row.all_cells().all(|cell| cell.is_empty()) {
                 return None;
@@ -271,19 +275,44 @@ impl<'a> Columns<'a> {
     /// Returns the unit of a column of accelerations: the one that its name or the first states, or else the
     /// one that the user does. Refuses names of other quantities, and units that are not read.
     pub(crate) fn unit(&self, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
-        let Some(name) = self.names.get(column) else { return Ok(options.unit) };
         let of_first = || self.names[0].unit()?.split_once(" in ").map(|(_, unit)| unit);
-        let unit = if self.width > 1 {
+        let name = self.names.get(column);
+        // round brackets may also have a direction
+        let is_stated = name.is_some_and(|name| name.written().contains('['));
+        let mut unit = name.and_then(Name::unit);
+        if let Some(name) = name.filter(|_| self.width > 1) {
             name.refuse_other_quantity(self.heading.0)?;
-            name.unit().or_else(of_first)
+            unit = unit.or_else(of_first);
         } else {
-            // what is in the brackets of a title need not be a unit
-            name.unit().filter(|unit| Quantity::of(unit).is_some())
-        };
-        match unit {
-            Some(unit) => options.unit_of(unit, self.heading.0).map(Some),
-            None => Ok(options.unit),
+            // what is in the round brackets of a title need not be a unit
+            unit = unit.filter(|unit| is_stated || Quantity::of(unit).is_some());
         }
+        match unit {
+            Some(unit) if is_stated && Quantity::of(unit).is_none() => {
+                Err(Quantity::Other.refused(unit, self.heading.0))
+            }
+            Some(unit) => options.unit_of(unit, self.heading.0).map(Some),
+            None => match self.unit_above() {
+                Some((unit, line)) => options.unit_of(&unit, line).map(Some),
+                None => Ok(options.unit),
+            },
+        }
+    }
+
+    /// Finds the unit of one column of samples that a title or a comment above states, `# units: gal` or
+    /// `NS (counts)`.
+    fn unit_above(&self) -> Option<(String, usize)> {
+        let of_line = |(line, text): Numbered<'_>| {
+            let name = Name::of(text);
+            let bracketed = name.unit().filter(|_| text.matches(['[', '(']).count() == 1);
+            let stated = [unit_word(text), bracketed.map(str::to_owned)];
+            let is_meant = |unit: &String| {
+                matches!(Quantity::of(unit), Some(Quantity::Acceleration(_) | Quantity::Signal))
+            };
+            stated.into_iter().flatten().find(is_meant).map(|unit| (unit, line))
+        };
+        let mut above = lines(self.text).take_while(|(line, _)| *line < self.heading.0 && self.width <= 2);
+        above.find_map(of_line)
     }
 
     /// Finds the only column beside the first.
@@ -300,8 +329,9 @@ impl<'a> Columns<'a> {
             _ => {
                 let found = format!("{} columns in {}", self.width, excerpt(text));
                 let remedy = "name the columns in a header line, by one word each between blanks, and \
-                              state the one to read (on the command line --column); or write one sample a \
-                              line; where decimals have a comma, separate columns by semicolons";
+                              state the one to read: `column = …` in [check] or [records], --column of \
+                              `wall record` and `wall simulate`; or write one sample a line; where \
+                              decimals have a comma, separate columns by semicolons";
                 Err(Fault::new(line, format!("one column beside {first}"), found, remedy))
             }
         }
@@ -335,39 +365,6 @@ fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
     let found = format!("two columns {}", excerpt(name.written()));
     let remedy = "delete one of them, or give each its own name";
     Err(Fault::new(line, "columns with names of their own", found, remedy))
-}
-
-/// Returns the lines that are no comments, from the first one with content on. `sep=;`, by which Excel knows
-/// the separator, counts as a comment.
-fn content(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
-    let content = lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)));
-    content.skip_while(|(_, line)| line.chars().all(|c| c.is_whitespace() || matches!(c, ',' | ';' | '"')))
-}
-
-fn is_separator_line(line: &str) -> bool {
-    line.len() <= "sep=;".len() && line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("sep="))
-}
-
-/// Returns the first line that is no comment.
-fn first_line<'a>(text: &'a str, forms: &str) -> Result<Numbered<'a>, Fault> {
-    content(text).next().ok_or_else(|| {
-        let found = if lines(text).next().is_some() { "comments only" } else { "an empty file" };
-        Fault::new(1, forms, found, "check that this is the right file")
-    })
-}
-
-/// Refuses comment marks of other programs, and bars between columns in lines that `is_row` knows.
-fn refuse_foreign<'a>(
-    lines: impl Iterator<Item = Numbered<'a>>,
-    is_row: impl Fn(&str) -> bool,
-) -> Result<(), Fault> {
-    let is_foreign = |&(_, line): &Numbered<'_>| {
-        OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark)) || line.contains('|') && is_row(line)
-    };
-    let Some((number, line)) = lines.into_iter().find(is_foreign) else { return Ok(()) };
-    let expected = "columns between commas, semicolons, tabs or blanks";
-    let remedy = "comments start with # or %, and `|` separates no columns: write these instead";
-    Err(Fault::excerpt(number, expected, line, remedy))
 }
 
 /// Counts the cells of a row without the empty ones at its end.

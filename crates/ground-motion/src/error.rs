@@ -144,6 +144,22 @@ impl Fault {
         Self::new(line, expected, excerpt(found), remedy)
     }
 
+    /// Makes the fault of a cell or field that should be a number; `remedy` is that of any other text.
+    pub(crate) fn no_number(line: usize, expected: impl Into<String>, cell: &str, remedy: &str) -> Self {
+        let remedy = match cell.trim() {
+            "" => "the cell is empty: complete it",
+            cell if cell.starts_with('#') => {
+                "this is an error of a spreadsheet: correct its cell there and save the file again"
+            }
+            cell if cell.contains("**") => {
+                "asterisks stand for a number that was too wide for its field: write the file again with \
+                 wider fields"
+            }
+            _ => remedy,
+        };
+        Self::excerpt(line, expected, cell, remedy)
+    }
+
     /// Makes the fault of something wrong in a header, which it quotes.
     pub(crate) fn in_header(line: usize, expected: impl Into<String>, found: &str) -> Self {
         Self::excerpt(line, expected, found, "correct the header")

@@ -13,11 +13,19 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
+/// Returns all lines, also blank ones, with their numbers from 1 and with leading blanks.
+pub(crate) fn all_lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
+    text.split(line_end(text)).enumerate().map(|(index, line)| (index + 1, line.trim_end()))
+}
+
 /// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
 pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Numbered<'_>> + Clone {
-    let end = if text.contains('\n') { '\n' } else { '\r' };
-    let numbered = text.split(end).enumerate().map(|(index, line)| (index + 1, line.trim_end()));
-    numbered.filter(|(_, line)| !line.is_empty())
+    all_lines(text).filter(|(_, line)| !line.is_empty())
+}
+
+/// Returns what ends the lines of a text.
+pub(crate) fn line_end(text: &str) -> char {
+    if text.contains('\n') { '\n' } else { '\r' }
 }
 
 /// Finds the position of an ASCII word, in any case.
@@ -70,14 +78,18 @@ pub(crate) fn leading_real(text: &str) -> Option<f64> {
     real(leading_number(text).0).filter(|value| value.is_finite())
 }
 
-/// Finds the unit after `UNITS OF`, `UNITS ARE`, `UNITS:` …: the most words that are one, or else the first.
+/// Finds the unit after `UNIT:`, `UNITS OF`, `UNITS ARE` …: the most words that are one, or else the first.
 pub(crate) fn unit_word(line: &str) -> Option<String> {
     const MOST_WORDS: usize = 6;
     const FILLERS: [&str; 5] = ["of", "are", "is", "in", ""];
     let is_edge =
         |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
     let is_filler = |word: &&str| FILLERS.contains(&&*word.trim_matches(is_edge).to_lowercase());
-    let words = after(line, "UNITS")?.split_ascii_whitespace().skip_while(is_filler);
+    let stated = after(line, "UNIT")?.trim_start_matches(['S', 's']);
+    if stated.starts_with(char::is_alphanumeric) {
+        return None;
+    }
+    let words = stated.split_ascii_whitespace().skip_while(is_filler);
     let words: Vec<&str> = words.take(MOST_WORDS).collect();
     let candidates =
         || (1..=words.len()).rev().map(|n| words[..n].join(" ").trim_matches(is_edge).to_owned());
@@ -193,7 +205,7 @@ impl Layout {
                          {per_line} a line, {width} characters each)",
                         numbers.len() + 1
                     );
-                    Fault::excerpt(number, expected, field, DAMAGED)
+                    Fault::no_number(number, expected, field, DAMAGED)
                 })?);
             }
         }

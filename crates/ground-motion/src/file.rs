@@ -23,7 +23,8 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>> {
         let message = format!("expected {what} of at most {limit} bytes, found {found}");
         Err(Error::new(ErrorKind::InvalidInput, message))
     };
-    let metadata = metadata(path)?;
+    let metadata =
+        metadata(path).map_err(|error| Error::new(error.kind(), format!("{error}{}", escapes(path))))?;
     if metadata.is_dir() {
         return refused("a folder");
     }
@@ -37,6 +38,27 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit { refused("more") } else { Ok(bytes) }
+}
+
+/// Says of a path with a line break or a tab where these come from.
+///
+/// ```
+/// assert!(ground_motion::escapes("records\new.AT2".as_ref()).contains("single quotes"));
+/// ```
+pub fn escapes(path: &Path) -> &'static str {
+    const HINT: &str = "; in TOML, \\n and \\t in double quotes are a line break and a tab: write / or \
+                        single quotes";
+    if path.to_string_lossy().contains(char::is_control) { HINT } else { "" }
+}
+
+/// Returns the name of a path for messages, on one line.
+///
+/// ```
+/// assert_eq!(ground_motion::shown_path("records\new.AT2".as_ref()), "records\\new.AT2");
+/// ```
+pub fn shown_path(path: &Path) -> String {
+    let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    path.to_string_lossy().chars().map(shown).collect()
 }
 
 /// Returns the text of bytes in UTF-8; `what` says in messages what it should be. Bytes in UTF-16, and those
@@ -77,9 +99,40 @@ pub(crate) fn check_is_text(bytes: &[u8], expected: &str, remedy: &str) -> std::
     if is_utf16(bytes) {
         return Err(Fault::new(1, "text in UTF-8", "UTF-16, which Excel calls Unicode text", SAVE_AS_UTF8));
     }
+    if let Some([what, remedy]) = named(bytes) {
+        return Err(Fault::new(1, expected, what, remedy));
+    }
     let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | 0x20..=0x7e | 0x80..);
     let Some(at) = bytes.iter().position(|&byte| !is_text(byte)) else { return Ok(()) };
     Err(Fault::new(line_of(bytes, at), expected, format!("the byte 0x{:02x}", bytes[at]), remedy))
+}
+
+/// Names what is no text by its first bytes, with the remedy.
+fn named(bytes: &[u8]) -> Option<[&'static str; 2]> {
+    const WAVEFORMS: &str = "read it with ObsPy, and in Python take rw.Record.from_trace(trace, unit); or \
+                             write two columns, times and accelerations";
+    const PAGE: &str = "where a site asks for a login, this page comes instead: fetch the file again";
+    let starts = |starts: &[&[u8]]| starts.iter().any(|start| bytes.starts_with(start));
+    let page = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let is_number = |bytes: &[u8]| bytes.iter().all(|byte| byte.is_ascii_digit() || *byte == b' ');
+    let is_miniseed = matches!(bytes.get(6..8), Some([b'D' | b'R' | b'Q' | b'M', b' ' | 0]))
+        && is_number(&bytes[..6])
+        && bytes.contains(&0);
+    // the version of the header is 6
+    let is_sac = bytes.len() > 632 && matches!(bytes[304..308], [6, 0, 0, 0] | [0, 0, 0, 6]);
+    match () {
+        () if starts(&[b"\x1f\x8b", b"BZh", b"\xfd7zXZ"]) => {
+            Some(["a compressed file", "decompress it first"])
+        }
+        () if starts(&[b"PK\x03\x04", b"PK\x05\x06", b"7z\xbc\xaf", b"Rar!", b"\xd0\xcf\x11\xe0"]) => Some([
+            "an archive or a workbook (.zip, .xlsx, .xls)",
+            "unpack the archive, or save the sheet as CSV UTF-8",
+        ]),
+        () if is_miniseed || starts(&[b"MS\x03"]) => Some(["miniSEED", WAVEFORMS]),
+        () if is_sac => Some(["SAC", WAVEFORMS]),
+        () if page.starts_with(b"<") => Some(["a web page or XML", PAGE]),
+        () => None,
+    }
 }
 
 /// Returns the line, from 1, of a place in bytes.

@@ -32,6 +32,8 @@ pub enum Format {
     Smc,
     /// CSMIP or CDMG volume 2.
     Csmip,
+    /// SLIST, TSPAIR and GeoCSV of data centres.
+    Fdsn,
     /// A text table: times and accelerations between commas, semicolons, tabs or blanks; or one column.
     Csv,
     /// PEER AT2.
@@ -42,7 +44,7 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::At2,
         Self::Esm,
         Self::Knet,
@@ -55,6 +57,7 @@ impl Format {
         Self::Cwa,
         Self::Unam,
         Self::Volume1,
+        Self::Fdsn,
         Self::Csv,
         Self::Numbers,
     ];
@@ -83,6 +86,7 @@ impl Format {
             Self::Cwa => "`.dat`, `.txt`, formerly of CWB (Taiwan)",
             Self::Unam => "`ARCHIVO ESTANDAR DE ACELERACION` 2.0 (Mexico)",
             Self::Volume1 => "volume 1, `.v1` (Chile, Iran)",
+            Self::Fdsn => "SLIST, TSPAIR and GeoCSV of data centres, and of ObsPy",
             Self::Csv => "or text: one column, or times and accelerations",
             Self::Numbers => "several a line, as for OpenSees",
         }

@@ -50,7 +50,7 @@ mod vertical;
 pub use check::{Check, Warning};
 pub use companion::{is_companion, is_listed};
 pub use error::GroundMotionError;
-pub use file::{read_file, utf8_text};
+pub use file::{escapes, read_file, shown_path, utf8_text};
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;

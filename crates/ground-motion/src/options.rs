@@ -62,3 +62,9 @@ pub(crate) fn is_close(stated: f64, step: f64) -> bool {
 /// The remedy for a file whose unit is not known.
 pub(crate) const STATE_THE_UNIT: &str =
     "state the unit as `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g";
+
+/// Makes the fault of numbers whose unit neither the file nor the user states.
+pub(crate) fn no_unit(line: usize) -> Fault {
+    let remedy = format!("{STATE_THE_UNIT}; or write it into a header line, `t [s],a [g]`");
+    Fault::new(line, "a stated unit (this file has none)", "no unit", remedy)
+}

@@ -17,6 +17,8 @@ pub(crate) enum Quantity {
     Frequency,
     /// A response spectrum, which names say and units do not.
     Spectrum,
+    /// What an instrument records: counts and volts.
+    Signal,
     /// Anything else that is a unit, or a unit times a factor.
     Other,
 }
@@ -41,15 +43,19 @@ const PARTS_OF_G: [(&[&str], f64); 3] = [
     (&["µg", "μg", "ug", "micro-g", "microg"], 1e-6),
 ];
 
-const TIMES: [(&[&str], f64); 5] = [
+const TIMES: [(&[&str], f64); 6] = [
     (&["s", "sec", "secs", "second", "seconds"], 1.0),
     (&["ms", "msec", "msecs", "millisecond", "milliseconds"], 1e-3),
     (&["µs", "μs", "us", "microsecond", "microseconds"], 1e-6),
     (&["min", "mins", "minute", "minutes"], 60.0),
     (&["hr", "hrs", "hour", "hours"], 3600.0),
+    (&["day", "days"], 86_400.0),
 ];
 
 const FREQUENCIES: [&str; 8] = ["hz", "khz", "1/s", "s-1", "rad/s", "rads-1", "r/s", "cps"];
+
+/// Units of signals without prefixes and plurals, also above a `/`: V/g.
+const SIGNALS: [&str; 7] = ["v", "volt", "count", "cnt", "ct", "digit", "lsb"];
 
 /// Finds the size of a unit by one of its names.
 fn size_of(word: &str, units: &[(&[&str], f64)]) -> Option<f64> {
@@ -83,6 +89,11 @@ impl Quantity {
             "kine" | "kines" => return Some(Self::Velocity),
             _ => {}
         }
+        let above = word.split('/').next().unwrap_or_default().trim_end_matches('s');
+        if [above, above.trim_start_matches(['m', 'µ', 'μ', 'u', 'n'])].iter().any(|of| SIGNALS.contains(of))
+        {
+            return Some(Self::Signal);
+        }
         if let Some((length, time)) = parts(word) {
             return Some(match (time, length) {
                 (0, _) => Self::Displacement,
@@ -109,6 +120,9 @@ impl Quantity {
             Self::Velocity | Self::Displacement => {
                 "convert it to an acceleration, or use the file or column of the acceleration".to_owned()
             }
+            Self::Signal => "counts and volts need the response of the instrument: convert them to an \
+                             acceleration by it (ObsPy: remove_response)"
+                .to_owned(),
             _ => "correct the unit, or use another column".to_owned(),
         };
         let remedy = format!(
@@ -120,11 +134,35 @@ impl Quantity {
 }
 
 /// Units that are neither of motion nor of time, in small letters.
-const OTHERS: [&str; 14] =
-    ["-", "kg", "kn", "pa", "kpa", "mpa", "rad", "rad/s2", "rads-2", "deg", "°", "°c", "m2", "m3"];
+const OTHERS: [&str; 24] = [
+    "-",
+    "kg",
+    "kn",
+    "pa",
+    "kpa",
+    "mpa",
+    "rad",
+    "rad/s2",
+    "rads-2",
+    "deg",
+    "°",
+    "°c",
+    "m2",
+    "m3",
+    "bar",
+    "psi",
+    "db",
+    "%",
+    "strain",
+    "microstrain",
+    "µstrain",
+    "µε",
+    "με",
+    "µm/m",
+];
 
 /// Returns whether a plain text is another unit, such as `kg` and `m/s3`, or a factor and a unit, such as
-/// `10^-3 m/s2`. Directions, such as `N/S`, and words, such as `counts`, are none.
+/// `10^-3 m/s2`. Directions, such as `N/S`, and words, such as `corrected`, are none.
 fn is_other_unit(word: &str) -> bool {
     let is_factor = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'x' | '×');
     let unit = word.trim_start_matches(is_factor);

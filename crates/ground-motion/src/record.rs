@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::check::Warning;
 use crate::companion::Companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
-use crate::file::{check_is_text, read_file};
+use crate::file::{check_is_text, read_file, shown_path};
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
@@ -54,6 +54,11 @@ impl Parsed {
             let expected = format!("a time step of at most {LONGEST_STEP} s");
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
+        if is_pairs(&samples) {
+            let found = "pairs of times and accelerations: every second number rises";
+            let remedy = "write times and accelerations in two columns; uneven times are not read";
+            return Err(Fault::new(last_line, "samples of the acceleration alone", found, remedy));
+        }
         let motion = GroundMotion::new(step, samples).map_err(|error| {
             Fault::new(
                 last_line,
@@ -87,7 +92,7 @@ impl Parsed {
 /// for; the message names the file, the line, what was expected, what was found and the remedy.
 pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
-    only(read_channels(path, options)?, &path.display().to_string())
+    only(read_channels(path, options)?, &shown_path(path))
 }
 
 /// Reads every channel of a record file, or the one that is asked for.
@@ -99,7 +104,7 @@ pub fn read_channels(
     options: &RecordOptions,
 ) -> Result<Vec<Record>, GroundMotionError> {
     let path = path.as_ref();
-    let name = path.display().to_string();
+    let name = shown_path(path);
     let bytes = read_bounded(path, &name)?;
     let Some(times) = Companion::beside(path, options)? else { return parse_channels(&name, bytes, options) };
     let options = RecordOptions { step: Some(times.step), ..options.clone() };
@@ -114,6 +119,13 @@ pub fn read_channels(
 /// As [`read`].
 pub fn parse(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     only(parse_channels(name, bytes, options)?, name)
+}
+
+/// Returns whether every second sample rises as times do, while those between do not.
+fn is_pairs(samples: &[f64]) -> bool {
+    const FEWEST: usize = 20;
+    let rise = |start: usize| samples[start..].iter().step_by(2).is_sorted_by(|before, after| before < after);
+    samples.len() >= FEWEST && rise(0) && !rise(1)
 }
 
 /// Returns the only record of a file.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ground_motion::{
-    Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, is_listed, read,
+    Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, escapes, is_listed, read,
 };
 use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::tables;
@@ -114,11 +114,11 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
     for (pattern, line) in &entry.files {
         let place = folder.join(pattern);
         let is_named = place.is_file();
-        let found = files(&place).map_err(|reason| SceneError::Line {
+        let found = files(folder, pattern).map_err(|reason| SceneError::Line {
             key: None,
             file: study.to_owned(),
             line: *line,
-            message: format!("{pattern:?}: {reason}"),
+            message: format!("{pattern:?}: {reason}{}", escapes(pattern.as_ref())),
         })?;
         for path in found {
             // a file that two patterns match is one record
@@ -219,15 +219,20 @@ fn listed(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     files
 }
 
-/// Lists the files of a folder, of a pattern, or the one file, in order of their names.
-fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+/// Lists the files of a folder, of a pattern, or the one file, in order of their names. Only `*` and `?` of
+/// the pattern itself are marks, and nothing in the name of the study's folder.
+fn files(folder: &Path, pattern: &str) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+    let path = folder.join(pattern);
     let found: Vec<PathBuf> = if path.is_dir() {
-        folder_files(path)?
+        folder_files(&path)?
     } else if path.is_file() {
-        return Ok(vec![path.to_owned()]);
+        return Ok(vec![path]);
     } else {
-        let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
-        listed(glob::glob(pattern)?.collect::<Result<_, _>>()?)
+        let folder = glob::Pattern::escape(folder.to_str().ok_or("expected a name in UTF-8")?);
+        let pattern: String =
+            pattern.chars().map(|c| if "[]".contains(c) { format!("[{c}]") } else { c.into() }).collect();
+        let path = Path::new(&folder).join(pattern);
+        listed(glob::glob(path.to_str().unwrap_or_default())?.collect::<Result<_, _>>()?)
     };
     if found.is_empty() {
         return Err(
@@ -237,4 +242,35 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
         );
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::files;
+
+    /// Marks of patterns in the name of the study's folder, and brackets in that of a record, are none.
+    #[test]
+    fn only_the_pattern_is_one() {
+        let folder = std::env::temp_dir().join(format!("rocking wall [2024] {}", std::process::id()));
+        let inner = folder.join("[a] b");
+        std::fs::create_dir_all(&inner).unwrap();
+        for name in ["x.AT2", "[y].AT2", "z.txt"] {
+            std::fs::write(inner.join(name), "").unwrap();
+        }
+        let names = |folder: &Path, pattern: &str| -> Vec<String> {
+            let found = files(folder, pattern).unwrap_or_default();
+            found.iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect()
+        };
+        assert_eq!(names(&inner, "*.AT2"), ["[y].AT2", "x.AT2"]);
+        assert_eq!(names(&folder, "[a] ?/*.AT2"), ["[y].AT2", "x.AT2"]);
+        assert_eq!(names(&inner, "?.AT2"), ["x.AT2"]);
+        assert_eq!(names(&inner, "[y].*"), ["[y].AT2"]);
+        assert_eq!(names(&folder, "[a] b"), ["[y].AT2", "x.AT2", "z.txt"]);
+        assert_eq!(names(&inner, "[xy].AT2"), Vec::<String>::new());
+        let absolute = inner.join("*.AT2").to_str().unwrap().to_owned();
+        assert_eq!(names(Path::new("elsewhere"), &absolute), ["[y].AT2", "x.AT2"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

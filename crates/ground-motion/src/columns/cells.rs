@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::{COMMENTS, Columns, filled};
+use super::lines::Quotes;
+use super::{Columns, filled};
 use crate::error::{Fault, excerpt};
 use crate::fields::real;
 
@@ -25,6 +26,7 @@ impl Separator {
     /// Finds what separates the numbers of a row. A comma beside a blank separates numbers. In a row with
     /// blanks, any other comma is a decimal comma.
     pub(super) fn of_row(row: &str) -> Self {
+        let (whole, row) = (row, &*Quotes::of(row).outside);
         let is_beside = |before: &str, after: &str| {
             let edge = |c: char| c.is_whitespace() || c == '"';
             before.is_empty() || before.ends_with(edge) || after.starts_with(edge) || after.is_empty()
@@ -36,7 +38,7 @@ impl Separator {
             Self::Comma
         } else if row.contains(char::is_whitespace) {
             Self::Blanks
-        } else if row.contains(',') {
+        } else if whole.contains(',') {
             Self::Comma
         } else {
             Self::None
@@ -45,6 +47,7 @@ impl Separator {
 
     /// Finds what separates names, and the rows below them. Rows of texts may have empty cells between tabs.
     pub(super) fn of_names(line: &str, of_texts: bool) -> Self {
+        let line = Quotes::of(line).outside;
         match line {
             _ if line.contains(';') => Self::Semicolon,
             _ if line.contains(',') => Self::Comma,
@@ -96,17 +99,6 @@ impl<'a> TextRow<'a> {
                       blanks, names are one word each; comments start with # or %";
         Err(Fault::new(line, expected, format!("{all} in {}", excerpt(text)), remedy))
     }
-
-    /// Refuses a comment that could be a row of texts: `#1,3.0,0.25`, whose first cell is a name.
-    pub(super) fn unclear_comment(&self) -> Option<Fault> {
-        let is_numbers = matches!(self.separator, Separator::None | Separator::Blanks);
-        let is_word = self.text.trim_start_matches(COMMENTS).starts_with(char::is_alphanumeric);
-        let is_unclear = !is_numbers && is_word && self.all_cells().count() == self.width;
-        is_unclear.then(|| {
-            let remedy = "put a name that starts with it in quotes, or a blank behind the mark of a comment";
-            Fault::excerpt(self.line, "a row or a comment", self.text, remedy)
-        })
-    }
 }
 
 /// Splits a row into its cells, without blanks around them and without quotes.
@@ -134,11 +126,14 @@ pub(super) fn cells(row: &str, separator: Separator) -> impl Iterator<Item = Cow
     })
 }
 
-/// Strips blanks and quotes from a cell; doubled quotes inside stand for one.
+/// Strips blanks and quotes from a cell; doubled quotes inside stand for one, and a line break for a blank.
 pub(super) fn unquoted(cell: &str) -> Cow<'_, str> {
     let cell = cell.trim();
     match cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')) {
-        Some(inner) if inner.contains("\"\"") => Cow::Owned(inner.trim().replace("\"\"", "\"")),
+        Some(inner) if inner.contains(['"', '\r', '\n']) => {
+            let line = inner.trim().replace("\r\n", " ").replace(['\r', '\n'], " ");
+            Cow::Owned(line.replace("\"\"", "\""))
+        }
         Some(inner) => Cow::Borrowed(inner.trim()),
         None => Cow::Borrowed(cell),
     }
@@ -242,7 +237,7 @@ impl Numbers {
             let remedy = "correct the value: decimals have a point, or a comma between semicolons, tabs or \
                           blanks; write minus signs as `-`, no marks between thousands, and times in s, not \
                           as dates";
-            Fault::excerpt(line, "a finite number", cell, remedy)
+            Fault::no_number(line, "a finite number", cell, remedy)
         })
     }
 }

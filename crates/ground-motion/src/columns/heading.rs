@@ -22,10 +22,12 @@ impl Name {
     /// holds a unit of acceleration counts, or else the first with another unit, or else one at the end.
     pub(super) fn of(cell: &str) -> Self {
         let written = unquoted(cell).into_owned();
-        let brackets = written.match_indices(['[', '(']).filter_map(|(at, opening)| {
-            let rest = &written[at + 1..];
+        let (whole, mut inside) = (&*written, 0);
+        let brackets = whole.match_indices(['[', '(']).filter_map(move |(at, opening)| {
+            let rest = &whole[at + 1..];
             // a unit may have brackets inside: (cm/(s*s))
-            let end = closing(rest, opening)?;
+            let end = closing(rest, opening).filter(|_| at >= inside)?;
+            inside = at + 1 + end;
             let is_last = rest[end + 1..].trim().is_empty();
             Some((at, rest[..end].trim(), is_last))
         });
@@ -127,6 +129,7 @@ fn behind(name: &str) -> Option<(usize, &str)> {
         _ if unit.starts_with(|c: char| c.is_ascii_digit() || c == '.') => false,
         Some(Quantity::Acceleration(Unit::StandardGravity)) | None => false,
         Some(Quantity::Acceleration(_) | Quantity::OtherAcceleration(..) | Quantity::Velocity) => true,
+        Some(Quantity::Signal) => unit.len() > 1,
         Some(_) => unit.contains('/'),
     };
     let starts = std::iter::once((0, 0)).chain(name.match_indices(['_', ' ']).map(|(at, _)| (at, at + 1)));
@@ -148,8 +151,9 @@ fn closing(text: &str, opening: &str) -> Option<usize> {
 /// Splits a line of names, without empty ones at its end.
 pub(super) fn names(line: &str, separator: Separator) -> Vec<Name> {
     let mut names: Vec<Name> = match separator {
-        Separator::Blanks if line.contains('\t') => {
-            let filled = cells(line, Separator::Tab).filter(|name| !name.is_empty());
+        Separator::Blanks if line.contains(['\t', '"']) => {
+            let separator = if line.contains('\t') { Separator::Tab } else { separator };
+            let filled = cells(line, separator).filter(|name| !name.is_empty());
             filled.map(|name| Name::of(&name)).collect()
         }
         Separator::Blanks => words(line).iter().map(|name| Name::of(name)).collect(),

@@ -11,7 +11,7 @@
 //!    .4513077E-03   .4513354E-03   .4513591E-03   .4513582E-03   .4513451E-03
 //! ```
 //!
-//! The oldest files write `3930 0.00500 NPTS, DT` instead.
+//! The oldest files write `3930 0.00500 NPTS, DT` instead, and eqsig `401 0.01` below a title.
 
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{
@@ -30,7 +30,17 @@ const COUNT_AND_STEP: &str = "the number of samples and the step, `NPTS= 7999, D
 
 /// Returns whether one of the first lines states NPTS and DT.
 pub(super) fn recognises(head: &[&str]) -> bool {
-    head.iter().take(HEADER_LINES).any(|line| states_count_and_step(line))
+    head.iter().take(HEADER_LINES).any(|line| states_count_and_step(line)) || bare(head).is_some()
+}
+
+/// Finds a line with the number of samples and the step alone, `401 0.01`, among the first ones and above
+/// samples.
+fn bare(head: &[&str]) -> Option<usize> {
+    let numbers = |line: &str| line.split_ascii_whitespace().map(real).collect::<Option<Vec<f64>>>();
+    let place = head.iter().take(4).position(|line| numbers(line).is_some())?;
+    let [count, step] = numbers(head[place])?[..] else { return None };
+    let samples = numbers(head.get(place + 1)?)?.len();
+    (count > 2.0 && count.fract() == 0.0 && step > 0.0 && step < 1.0 && samples != 2).then_some(place)
 }
 
 /// Returns whether a line has the words NPTS and DT and is not a comment of a table.
@@ -45,6 +55,8 @@ fn states_count_and_step(line: &str) -> bool {
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let first = |states: fn(&str) -> bool| lines(text).take(HEADER_LINES).position(|(_, line)| states(line));
     let header_length = first(states_count_and_step).or_else(|| first(|line| find(line, "NPTS").is_some()));
+    let head: Vec<&str> = lines(text).take(5).map(|(_, line)| line).collect();
+    let header_length = header_length.or_else(|| bare(&head));
     let Some(header_length) = header_length else {
         let found = lines(text).next().unwrap_or_default().1;
         let expected = format!("an AT2 header with {COUNT_AND_STEP}");
@@ -62,7 +74,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     for (number, line) in rest {
         line_start = parsed.samples.len();
         for word in line.split_ascii_whitespace().flat_map(touching) {
-            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
+            parsed.push(real(word), number, || Fault::no_number(number, "a finite number", word, DAMAGED))?;
         }
     }
     // the last line may be filled up with zeros

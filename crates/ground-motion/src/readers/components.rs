@@ -46,7 +46,7 @@ pub(super) fn push_row<'a>(
         let field = fields.next().unwrap_or_default();
         channel.push(real(field), line, || {
             let expected = format!("a finite number ({} of {columns})", index + 1);
-            Fault::excerpt(line, expected, field, DAMAGED)
+            Fault::no_number(line, expected, field, DAMAGED)
         })?;
     }
     match fields.next() {

@@ -16,10 +16,11 @@
 //! header line. The unit has to be stated, unless the header line has it in brackets: `t [s],a [g]`, or as in
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
+use super::numbers;
 use crate::check::Warning;
 use crate::columns::{Columns, Name};
 use crate::error::{Fault, excerpt};
-use crate::options::{RecordOptions, is_close};
+use crate::options::{RecordOptions, is_close, no_unit};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
 use crate::times::Times;
@@ -77,6 +78,9 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         parsed.push(Some(sample), line, || overflow(sample, line))
     })?;
+    if !has_times {
+        parsed.warnings.extend(numbers::gap(columns.lines_below()));
+    }
     match (times.uniform()?, options.step) {
         (Some(of_times), _) => take_times(&mut parsed, of_times, seconds, options, columns.line())?,
         (None, Some(step)) => parsed.step = step,
@@ -96,10 +100,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         return Err(Fault::excerpt(columns.line(), expected, columns.heading(), "state no column"));
     }
     if stated.is_none() {
-        let remedy = "give `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g; or write it into a \
-                      header line, `t [s],a [g]`";
-        let expected = "a stated unit (this file has none)";
-        return Err(Fault::new(columns.line(), expected, "no unit", remedy));
+        return Err(no_unit(columns.line()));
     }
     Ok(vec![parsed])
 }

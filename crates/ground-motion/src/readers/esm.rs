@@ -75,7 +75,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 
     let mut parsed = Parsed::new(step, unit, header.last().map_or(1, |(number, _)| *number));
     for (number, line) in rest {
-        parsed.push(real(line), number, || Fault::excerpt(number, "one finite number", line, DAMAGED))?;
+        parsed.push(real(line), number, || Fault::no_number(number, "one finite number", line, DAMAGED))?;
     }
     check_count(parsed.samples.len(), count, &format!("NDATA on line {count_line}"), parsed.last_line)?;
     // the last letter of a stream is its direction, HNZ; before DYNA 1.0 it is a component, UP

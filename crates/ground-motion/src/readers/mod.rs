@@ -11,6 +11,7 @@ mod csmip;
 mod csv;
 mod cwb;
 mod esm;
+mod fdsn;
 mod geonet;
 mod header;
 mod knet;
@@ -62,6 +63,7 @@ const KNOWN: [Known; Format::ALL.len()] = [
     (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
     (Format::Smc, "smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
     (Format::Csmip, "csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
+    (Format::Fdsn, "fdsn", "FDSN text", &["slist", "tspair"], true, fdsn::recognises, fdsn::parse),
     (Format::Csv, "csv", "CSV", &[], false, csv::recognises, csv::parse),
     (Format::At2, "at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
     // whether these are numbers depends on the step that is stated: see below

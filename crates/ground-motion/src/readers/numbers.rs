@@ -9,10 +9,11 @@
 //! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
 //! table.
 
-use crate::columns::COMMENTS;
+use crate::check::Warning;
+use crate::columns::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{lines, real, touching};
-use crate::options::{RecordOptions, STATE_THE_UNIT};
+use crate::fields::{Numbered, all_lines, lines, real, touching};
+use crate::options::{RecordOptions, no_unit};
 use crate::parsed::Parsed;
 
 /// Returns whether the first lines are numbers only, several on some of them, and not a table that starts
@@ -27,7 +28,9 @@ pub(super) fn recognises(head: &[&str], has_step: bool) -> bool {
 /// Reads the numbers of a line; `None` if there is something else, or a comma that may stand before decimals.
 fn values(line: &str) -> Option<Vec<f64>> {
     let has_points = !line.contains(',') || words(line).all(|word| word.contains('.'));
-    let value = |word| real(word).filter(|value| value.is_finite());
+    // an error of a spreadsheet and the asterisks of Fortran stand for a number
+    let stands_for_one = |word: &str| (word.starts_with('#') || word.contains("**")).then_some(f64::NAN);
+    let value = |word| real(word).filter(|value| value.is_finite()).or_else(|| stands_for_one(word));
     if has_points { words(line).map(value).collect() } else { None }
 }
 
@@ -51,8 +54,8 @@ fn starts_with_times(rows: &[Vec<f64>]) -> bool {
 
 /// Reads the text of such a file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-    let content = || lines(text).filter(|(_, line)| !line.starts_with(COMMENTS));
-    let Some((first_line, first)) = content().next() else {
+    let rows = || lines(text).skip_while(|(_, line)| is_comment_above(line));
+    let Some((first_line, first)) = rows().next() else {
         return Err(Fault::new(1, "numbers", "none", "check that this is the right file"));
     };
     let Some(step) = options.step else {
@@ -63,29 +66,45 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let found = format!("{} numbers a line and no step", words(first).count());
         return Err(Fault::new(first_line, expected, found, remedy));
     };
-    let Some(unit) = options.unit else {
-        return Err(Fault::new(
-            first_line,
-            "a stated unit (plain numbers have none)",
-            "no unit",
-            STATE_THE_UNIT,
-        ));
-    };
+    let unit = options.unit.ok_or_else(|| no_unit(first_line))?;
     let mut parsed = Parsed::new(step, unit, first_line);
-    let mut lengths = Vec::new();
-    for (number, line) in content() {
-        let before = parsed.samples.len();
-        for word in words(line) {
-            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
+    for (number, line) in rows() {
+        if line.starts_with(COMMENTS) {
+            refuse_unclear((number, line))?;
+            continue;
         }
-        lengths.push(parsed.samples.len() - before);
+        for word in words(line) {
+            parsed.push(real(word), number, || Fault::no_number(number, "a finite number", word, DAMAGED))?;
+        }
     }
+    parsed.warnings.extend(gap(all_lines(text).skip_while(|(line, _)| *line < first_line)));
     // the last line may be shorter
-    lengths.pop();
-    let is_table = lengths.windows(2).all(|pair| pair[0] == pair[1]);
-    check_order(&parsed, lengths.first().copied().filter(|_| is_table).unwrap_or(0), first_line)?;
+    let columns = words(first).count();
+    let is_table = parsed.warnings.is_empty() && parsed.samples.len().div_ceil(columns) == rows().count();
+    check_order(&parsed, if is_table { columns } else { 0 }, first_line)?;
     parsed.keep_header(lines(text).map(|(_, line)| line));
     Ok(vec![parsed])
+}
+
+/// Warns about the first of the lines from the first sample on that has another number of samples than most
+/// have, or none. Empty lines behind every line do not count, nor does the last line.
+pub(super) fn gap<'a>(lines: impl Iterator<Item = Numbered<'a>> + Clone) -> Option<Warning> {
+    let is_edge = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
+    let length = |line: &str| line.split(is_edge).flat_map(touching).count();
+    let lines = lines.filter(|(_, line)| !is_comment(line.trim_start()));
+    let rows = lines.map(|(line, text)| (line, length(text))).skip_while(|(_, length)| *length == 0);
+    let (last, _) = rows.clone().filter(|(_, length)| *length > 0).last()?;
+    let rows = rows.take_while(|(line, _)| *line < last);
+    let (_, usual) = rows.clone().next()?;
+    let all_with = |wanted: usize| rows.clone().filter(|(_, length)| *length == wanted).count();
+    let (same, empty, all) = (all_with(usual), all_with(0), rows.clone().count());
+    let is_gap = |length: usize| match length {
+        0 => 2 * empty < all,
+        _ => 2 * same > all - empty && length != usual,
+    };
+    let mut gaps = rows.filter(|(_, length)| is_gap(*length));
+    let (line, found) = gaps.next()?;
+    Some(Warning::Gap { line, found, usual, more: gaps.count() })
 }
 
 /// Refuses columns that are records of their own: neighbours in a column are then much closer than

@@ -7,7 +7,7 @@ use ground_motion::{Record, RecordOptions, Unit, Warning};
 use crate::assert_mentions;
 
 /// A Ricker motion in m/s²: 401 samples 0.01 s apart.
-fn motion() -> Vec<f64> {
+pub(crate) fn motion() -> Vec<f64> {
     let at = |i: i32| {
         let x = (std::f64::consts::PI * 1.5 * (0.01 * f64::from(i) - 2.0)).powi(2);
         1.5 * (1.0 - 2.0 * x) * (-x).exp()
@@ -17,7 +17,7 @@ fn motion() -> Vec<f64> {
 
 /// A table of times and samples: a header, what stands between the cells and behind the rows, and the decimal
 /// mark.
-fn table(header: &str, between: &str, behind: &str, mark: &str) -> String {
+pub(crate) fn table(header: &str, between: &str, behind: &str, mark: &str) -> String {
     let mut text = header.to_owned();
     for (i, a) in motion().iter().enumerate() {
         let (time, a) = (format!("{:.2}", 0.01 * i as f64), format!("{a:.6}"));
@@ -27,7 +27,7 @@ fn table(header: &str, between: &str, behind: &str, mark: &str) -> String {
 }
 
 /// A PEER AT2 file in g.
-fn at2(units: &str, count: &str) -> String {
+pub(crate) fn at2(units: &str, count: &str) -> String {
     let mut text = format!("PEER NGA STRONG MOTION\nSomewhere, 1/1/2000, Station, 090\n{units}\n{count}\n");
     for line in motion().chunks(5) {
         for a in line {
@@ -38,20 +38,20 @@ fn at2(units: &str, count: &str) -> String {
     text
 }
 
-const IN_G: &str = "ACCELERATION TIME SERIES IN UNITS OF G";
-const COUNT: &str = "NPTS=   401, DT=   .0100 SEC,";
+pub(crate) const IN_G: &str = "ACCELERATION TIME SERIES IN UNITS OF G";
+pub(crate) const COUNT: &str = "NPTS=   401, DT=   .0100 SEC,";
 
-fn si() -> RecordOptions {
+pub(crate) fn si() -> RecordOptions {
     RecordOptions { unit: Some(Unit::MetrePerSecondSquared), ..RecordOptions::default() }
 }
 
-fn with_step(step: f64) -> RecordOptions {
+pub(crate) fn with_step(step: f64) -> RecordOptions {
     RecordOptions { step: Some(step), ..si() }
 }
 
 /// The samples have six digits or more after the point.
 #[track_caller]
-fn assert_is_the_motion(record: &Record) {
+pub(crate) fn assert_is_the_motion(record: &Record) {
     assert_eq!((record.motion.samples().len(), record.motion.step()), (401, 0.01));
     for (read, a) in record.motion.samples().iter().zip(motion()) {
         assert!((read - a).abs() < 1e-6, "{read} for {a}");
@@ -87,14 +87,13 @@ fn tables_of_records_are_read() {
         (table("time_s,acc_m_s2\n", ",", "", "."), &none),
         (table("time_s,acc_mps2\n", ",", "", "."), &none),
         (table("time,m/s2\n", ",", "", "."), &none),
-        (table("t [s],a [counts]\n", ",", "", "."), &si()),
         (table("t [s],a (N/S)\n", ",", "", "."), &si()),
         (table("t [s],shake_0.3g\n", ",", "", "."), &si()),
         (table("% by MATLAB\n% t [s], a [m/s2]\n", ",", "", "."), &none),
         (table("# Tempo [s], acc [m/s2]\n", ",", "", "."), &none),
         (table("# x, acc [m/s2]\n", ",", "", "."), &none),
         (table("# Norcia, 2016\n", ",", "", "."), &si()),
-        (table("% by MATLAB\n% t [s], a [raw]\n", ",", "", "."), &si()),
+        (table("% by MATLAB\n% t [s], a (raw)\n", ",", "", "."), &si()),
         (table("#Time [sec] \tAcceleration [m/s2]\n", "    ", "", "."), &si()),
         (table("sep=;\ntime;a_g\n", ";", "", ","), &si()),
         (table("", "  ", "", ".").replace('\n', "D+00\n"), &si()),
@@ -312,6 +311,9 @@ fn long_time_steps_are_warned_of_and_refused() {
     };
     assert_eq!(warns(&rows(0.1), &si()), None);
     // numbers of samples, and tenths of seconds
+    let warning = warns(&rows(4e-4), &si()).unwrap();
+    assert_mentions(&warning, &["4.000e-4 s", "shorter", "minutes (a step of 2.40e-2 s)"]);
+    assert_eq!(warns(&rows(5e-4), &si()), None);
     for step in [0.2, 1.0] {
         let warning = warns(&rows(step), &si()).unwrap();
         assert_mentions(&warning, &[&format!("{step} s"), "milliseconds", "numbers of samples"]);

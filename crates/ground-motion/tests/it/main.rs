@@ -23,6 +23,7 @@ mod records;
 mod specimen;
 mod spectrum;
 mod spectrum_file;
+mod spoiled;
 mod storeys;
 mod synthetic;
 

@@ -94,11 +94,16 @@ fn takes_the_unit_from_the_text() {
     }
     // If the file states nothing, the user's value counts; a value that contradicts the file is an error.
     let gal = RecordOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..RecordOptions::default() };
-    for units in ["", "IN UNITS OF COUNTS\n"] {
+    for units in ["", "IN UNITS AS BEFORE\n"] {
         let text = format!("{HEADER}{units}{COUNT}\n{SAMPLES}");
         assert_eq!(read_with(&text, &gal).unwrap().unit, Unit::CentimetrePerSecondSquared);
         let error = read(&text).unwrap_err();
         assert!(error.contains("line 3: expected a unit") && error.contains("state the unit"), "{error}");
+    }
+    for options in [&RecordOptions::default(), &gal] {
+        let text = format!("{HEADER}IN UNITS OF COUNTS\n{COUNT}\n{SAMPLES}");
+        let error = read_with(&text, options).unwrap_err();
+        assert!(error.contains("line 3: expected a unit") && error.contains("the instrument"), "{error}");
     }
     let error = read_with(&file(COUNT, SAMPLES), &gal).unwrap_err();
     assert!(error.contains("x.AT2, line 3: expected the stated unit cm/s2, found g"), "{error}");

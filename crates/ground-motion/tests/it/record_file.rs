@@ -143,6 +143,8 @@ fn headers_state_vertical_directions() {
         (Format::Volume1, specimen::renadic, "1: L  ", "1: V  "),
         (Format::Volume1, specimen::bhrc, "COMP L1", "COMP V2"),
         (Format::KnetCsv, specimen::knet_csv, "N-S(gal)", "U-D(gal)"),
+        (Format::Fdsn, specimen::fdsn::slist, "HNE", "HNZ"),
+        (Format::Fdsn, specimen::fdsn::geocsv, "H_N_E", "H_N_Z"),
     ] {
         let text = write(&SAMPLES);
         assert!(!is_vertical(&text), "{format:?}");

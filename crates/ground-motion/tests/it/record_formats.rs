@@ -44,7 +44,7 @@ fn the_content_tells_the_format() {
 fn headers_state_their_peak_and_channel() {
     for (format, write) in ALL {
         let record = read(&write(&SAMPLES), &options(format)).unwrap();
-        let expected = !matches!(format, Format::At2 | Format::Csv | Format::KnetCsv)
+        let expected = !matches!(format, Format::At2 | Format::Csv | Format::Fdsn | Format::KnetCsv)
             && !record.header.iter().any(|line| line.contains("VOL1DS"));
         assert_eq!(record.stated_peak.is_some(), expected, "{format:?}");
         if let Some(stated) = record.stated_peak {
@@ -143,14 +143,14 @@ fn other_units_are_read_where_the_file_states_them() {
         assert_eq!(record.unit, Unit::StandardGravity);
         assert!((record.motion.peak() - 103.25 * STANDARD_GRAVITY).abs() < 1e-9);
     }
-    // The text is not a unit, so the user's value counts.
-    let text = specimen::csmip(&SAMPLES).replace("in cm/sec2.", "in counts.");
-    assert!(
-        read(&text, &RecordOptions::default())
-            .unwrap_err()
-            .contains("a unit of acceleration, found `counts`")
-    );
+    // Counts are no acceleration, whatever the user states; where the text is not a unit, that counts.
     let stated = RecordOptions { unit: Some(Unit::MillimetrePerSecondSquared), ..RecordOptions::default() };
+    let text = specimen::csmip(&SAMPLES).replace("in cm/sec2.", "in counts.");
+    for options in [&RecordOptions::default(), &stated] {
+        let error = read(&text, options).unwrap_err();
+        assert_mentions(&error, &["a unit of acceleration, found `counts`", "response of the instrument"]);
+    }
+    let text = specimen::csmip(&SAMPLES).replace("in cm/sec2.", "in unknown.");
     assert_eq!(read(&text, &stated).unwrap().unit, Unit::MillimetrePerSecondSquared);
 }
 
@@ -296,7 +296,7 @@ fn hostile_numbers_and_blanks_give_one_clear_message() {
             Format::Geonet => "  227.50",
             Format::Afad => "      22.750000",
             Format::Unam => "   22.7500",
-            Format::KnetCsv => "22.750",
+            Format::Fdsn | Format::KnetCsv => "22.750",
             Format::Volume1 if text.contains("RENADIC") => "   0.231985438452",
             Format::Volume1 => "  2.319854384525E-1",
             _ => "   22.750",

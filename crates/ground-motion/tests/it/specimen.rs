@@ -1,13 +1,15 @@
 //! Small records of the project's own in every format and in every form of a text table, with samples in
 //! cm/s² and a step of 0.01 s.
 
+#[path = "specimen_fdsn.rs"]
+pub(crate) mod fdsn;
+
 use std::fmt::Write;
 
 use ground_motion::{Format, RecordOptions, Unit};
 use proptest::prelude::*;
 
-/// Samples with three decimals and five digits, so that every format holds them to the digit, and without a
-/// mean; an odd number, so that every format has a short last line.
+/// Samples that every format holds to the digit, without a mean; an odd number, for a short last line.
 pub(crate) const SAMPLES: [f64; 11] =
     [0.125, -1.5, 22.75, -103.25, 87.5, -0.001, 44.25, -60.5, 12.0, -1.25, -0.124];
 
@@ -17,7 +19,7 @@ pub(crate) const STEP: f64 = 0.01;
 pub(crate) type Writer = fn(&[f64]) -> String;
 
 /// Every format with its writers.
-pub(crate) const ALL: [(Format, Writer); 20] = [
+pub(crate) const ALL: [(Format, Writer); 23] = [
     (Format::At2, at2),
     (Format::Esm, esm),
     (Format::Knet, knet),
@@ -38,6 +40,9 @@ pub(crate) const ALL: [(Format, Writer); 20] = [
     (Format::Volume1, renadic),
     (Format::Volume1, bhrc),
     (Format::KnetCsv, knet_csv),
+    (Format::Fdsn, fdsn::slist),
+    (Format::Fdsn, fdsn::tspair),
+    (Format::Fdsn, fdsn::geocsv),
 ];
 
 /// What has to be stated to read a format.
@@ -50,7 +55,6 @@ pub(crate) fn options(format: Format) -> RecordOptions {
 pub(crate) fn unit(format: Format) -> Unit {
     match format {
         Format::Geonet => Unit::MillimetrePerSecondSquared,
-        // a tenth of it
         Format::Volume1 => Unit::StandardGravity,
         _ => Unit::CentimetrePerSecondSquared,
     }
@@ -200,8 +204,8 @@ pub(crate) fn csv(samples: &[f64]) -> String {
 
 /// Times and accelerations between blanks, below a comment with the words of AT2.
 pub(crate) fn pairs(samples: &[f64]) -> String {
-    let comment = format!("# Test hill, NPTS = {}, DT = 0.01 s\n", samples.len());
-    comment + &rows(samples, |time, a| format!("{time:8.3} {a}"))
+    format!("# Test hill, NPTS = {}, DT = 0.01 s\n", samples.len())
+        + &rows(samples, |time, a| format!("{time:8.3} {a}"))
 }
 
 /// A table between tabs, below a title with the words of AT2.
