@@ -6,7 +6,7 @@
 //! let page = Page::new("Walls < 3 m").text("<p>All <b>two</b>.</p>").section("Results", "<p>1, 2</p>");
 //! let html = page.styled("main { max-width: 900px; }").html();
 //! assert!(html.contains("<title>Walls &lt; 3 m</title>") && html.contains("<h1>Walls &lt; 3 m</h1>"));
-//! assert!(html.contains("<section><h2>Results</h2>\n<p>1, 2</p></section>"));
+//! assert!(html.contains("<section><h2>Results</h2>\n<p>1, 2</p></section>") && html.contains("<main>"));
 //! ```
 
 use crate::{escaped, template};

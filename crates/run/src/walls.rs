@@ -347,11 +347,10 @@ pub fn walls(
 }
 
 /// Warns of walls of a file whose height or thickness nobody stated.
-pub fn defaults<'a>(file: &str, walls: impl Iterator<Item = &'a NamedWall> + Clone) -> Vec<String> {
-    let Parameters { height, thickness, .. } = Parameters::default();
+pub fn defaults<'a>(file: &str, walls: impl Iterator<Item = &'a NamedWall>) -> Vec<String> {
+    let (walls, Parameters { height, thickness, .. }) = (walls.collect::<Vec<_>>(), Parameters::default());
     let warning = |(size, default): (&str, f64)| {
-        let (count, all) =
-            (walls.clone().filter(|wall| wall.assumed.contains(&size)).count(), walls.clone().count());
+        let (count, all) = (walls.iter().filter(|wall| wall.assumed.contains(&size)).count(), walls.len());
         let told =
             format!("{file}: {count} of {all} walls have no {size}; the default of {default} m counts");
         (count > 0).then_some(told)

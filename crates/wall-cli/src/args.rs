@@ -142,7 +142,7 @@ pub(crate) fn in_plain_words(refused: &clap::Error) -> String {
         (refused.kind(), refused.get(ContextKind::InvalidArg))
         && let Some(name) = set_names().find(|name| option.strip_prefix("--") == Some(name))
     {
-        message += &format!("\n{name} is a parameter of a wall: give it as --set {name}=VALUE\n");
+        message.extend(["\n", name, " is a parameter of a wall: give it as --set ", name, "=VALUE\n"]);
     }
     [
         ("invalid float literal", "expected a number with a decimal point, such as 0.3"),

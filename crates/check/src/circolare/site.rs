@@ -22,7 +22,7 @@ pub(super) struct FromGrid {
     pub(super) warning: Option<String>,
 }
 
-/// Usual `a_g` of T_R = 475 years: the hazard of Italy has 0.04 to 0.28 g.
+/// Usual `a_g` of `T_R` = 475 years: the hazard of Italy has 0.04 to 0.28 g.
 const AG: Usual = Usual {
     name: "a_g of the grid at T_R = 475 years",
     unit: "g",

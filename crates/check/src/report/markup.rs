@@ -58,7 +58,6 @@ pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> Str
     let mut text = [report::SCROLLS, "<table>\n"].concat();
     if !heads.is_empty() {
         let _ = writeln!(text, "<thead><tr><th>{}</th></tr></thead>", heads.join("</th><th>"));
-        text = text.replace("<th></th>", "<td></td>");
     }
     for row in rows {
         let _ = writeln!(text, "<tr><td>{}</td></tr>", row.join("</td><td>"));

@@ -217,9 +217,7 @@ impl Table {
             // where a table is too wide, a heading of numbers breaks between its lines only
             let space = if column.is_text { " " } else { "\u{a0}" };
             let heading = column.heading.replace(' ', space).replace('\n', " ");
-            // an empty head names nothing
-            let cell = if heading.is_empty() { "td" } else { "th" };
-            let _ = write!(text, "<{cell}{}>{}</{cell}>", class_of(column), escaped(&heading));
+            let _ = write!(text, "<th{}>{}</th>", class_of(column), escaped(&heading));
         }
         text += "</tr></thead>\n<tbody>\n";
         for (index, row) in self.rows.iter().enumerate() {
@@ -299,6 +297,15 @@ mod tests {
         ]);
         let head = "<th class=\"number\">rate\u{a0}of falls\u{a0}[1/year]</th><th>the wall</th>";
         assert!(table.html().contains(head), "{}", table.html());
+    }
+
+    #[test]
+    fn the_keyboard_reaches_a_table_that_scrolls() {
+        let html = Table::new([Column::text("", "wall")]).html();
+        assert!(
+            html.starts_with("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label="),
+            "{html}"
+        );
     }
 
     #[test]

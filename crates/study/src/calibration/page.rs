@@ -20,6 +20,9 @@ pub fn page(title: &str, found: &[Calibration]) -> String {
     let text: String = found.iter().map(table::text).collect();
     Page::new(&format!("Calibration: {title}"))
         .text(INTRODUCTION)
-        .text(&format!("<div class=\"figures\">\n{figures}</div>\n<pre>{}</pre>", escaped(&text)))
+        .text(&format!(
+            "<div class=\"figures\">\n{figures}</div>\n<pre tabindex=\"0\">{}</pre>",
+            escaped(&text)
+        ))
         .html()
 }

@@ -248,7 +248,8 @@ fn foreign(folder: &Path) -> Option<PathBuf> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_result = |file: &PathBuf| {
         let name = file.file_name().and_then(OsStr::to_str).unwrap_or_default();
-        FILES.contains(&name) || name.starts_with("reliability") && !name.ends_with(".toml")
+        let is_input = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+        FILES.contains(&name) || name.starts_with("reliability") && !is_input
     };
     files.filter(|_| !folder.join(RUNS).exists()).filter(is_result).min()
 }

@@ -48,6 +48,7 @@ pub fn read(
 /// The line of what is wrong, and the message.
 type LineFault = (usize, String);
 
+#[allow(clippy::needless_pass_by_value, reason = "`map_err` hands it over")]
 fn in_file(fault: Fault) -> LineFault {
     (fault.line(), fault.to_string())
 }
