@@ -200,6 +200,7 @@ mod tests {
             collapse: crate::ida::Crossing::First,
             resamples: 1,
             seed: 1,
+            small_sample: false,
             modelling_uncertainty: 0.0,
             classes: Vec::new(),
             hazard: None,
