@@ -85,7 +85,7 @@ fn the_scene_of_a_record_computes_the_same() {
     // the same bytes read in another way
     let motion = json!({ "kind": "record", "record": "quake.csv", "unit": "", "scale": "1" });
     let answer = run(&mut session, &json!({}), &motion);
-    assert!(answer["faults"]["record"].as_str().unwrap().contains("give `unit`"), "{answer}");
+    assert!(answer["faults"]["record"].as_str().unwrap().contains("state the unit as `unit`"), "{answer}");
     fs::remove_dir_all(folder).unwrap();
 }
 

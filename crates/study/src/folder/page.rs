@@ -100,8 +100,8 @@ fn reading(manifest: &Manifest) -> String {
              The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
              likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
              them: θ = exp((ln d − a)/b), β = σ/b. Intervals, 95&nbsp;%, are those of {} studentised \
-             resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to {}. “censored” \
-             counts the walls that overturned.",
+             resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to \
+             {}. “censored” counts the walls that overturned.",
             report.resamples,
             escaped(&report.reference)
         );
@@ -127,8 +127,8 @@ fn reading(manifest: &Manifest) -> String {
         if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
     let dispersions = match report.beta {
         Dispersion::Own => {
-            "Each limit state has its own β; † marks curves that cross that of the next limit state by more than \
-             0.01 of P."
+            "Each limit state has its own β; † marks curves that cross that of the next limit state by more \
+             than 0.01 of P."
         }
         Dispersion::Common => {
             "All limit states of a wall and model share one β, so that their curves do not cross (Shinozuka \
