@@ -100,8 +100,8 @@ fn reading(manifest: &Manifest) -> String {
              The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
              likelihood, with walls that overturned censored at 1 (Tobin 1958). The fragilities follow from \
              them: θ = exp((ln d − a)/b), β = σ/b. Intervals, 95&nbsp;%, are those of {} studentised \
-             resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to \
-             {}. “censored” counts the walls that overturned.",
+             resamples of the records, drawn with all their results, so that ratios are paired. Ratios are \
+             to {}. “censored” counts the walls that overturned.",
             report.resamples,
             escaped(&report.reference)
         );
