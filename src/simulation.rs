@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::choices::Mechanism;
 use crate::solver::{Demands, Memo, Method, Motion, Phase, Samples, Segment, SolverError, State, Work};
-use crate::wall::{Ends, ParameterError, Parameters, Support, Wall, Warning};
+use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 
 pub use events::Handled;
 pub use excitation::{Excitation, segment_of};
@@ -96,7 +96,7 @@ impl Simulation {
     ) -> Result<Self, ParameterError> {
         let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
         let motion = Motion::of(parameters, tolerance)?;
-        let doubts = |error: ParameterError| error.with_doubts(Warning::unusual(parameters).collect());
+        let doubts = |error: ParameterError| error.with_doubts(parameters.unusual().collect());
         motion.wall().check_start(parameters.u_start).map_err(doubts)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);

@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use super::error::ParameterError;
-use super::parameters::{COMPUTED, Parameters};
+use super::given::COMPUTED;
 use super::usual::{FORCES, LENGTHS, Usual};
 use super::warning::Warning;
 
@@ -235,30 +235,5 @@ impl Bar {
     pub fn warnings(&self) -> impl Iterator<Item = Warning> + use<> {
         let given = Self::NUMBERS.into_iter().enumerate().zip([*self; 7]);
         given.filter_map(|((index, number), bar)| number.usual.warning(bar.get(index)?))
-    }
-}
-
-impl Parameters {
-    /// Gives the tie the stiffness, strength and ultimate elongation of its bar; leaves one without a bar as
-    /// it is.
-    ///
-    /// # Errors
-    /// Those of [`Bar::tie`].
-    pub fn apply_bar(&mut self) -> Result<(), ParameterError> {
-        if let Some(bar) = &self.bar {
-            let tie = bar.tie(self.width)?;
-            self.tie_stiffness = tie.stiffness;
-            self.tie_strength = tie.strength;
-            self.tie_ultimate = tie.ultimate;
-        }
-        Ok(())
-    }
-
-    /// Returns which part of the tie gives way first; `None` for a tie that is given by its own numbers.
-    pub fn weaker_part(&self) -> Option<TiePart> {
-        let tie = self.bar?.tie(self.width).ok()?;
-        let is_own = [tie.stiffness, tie.strength, tie.ultimate]
-            == [self.tie_stiffness, self.tie_strength, self.tie_ultimate];
-        is_own.then_some(tie.weaker)
     }
 }

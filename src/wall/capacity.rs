@@ -1,16 +1,10 @@
-//! The static capacity curve of a wall, and its secant periods.
+//! The capacity curve of a wall, and its secant periods.
 
 use std::f64::consts::TAU;
 
 use super::equation::Wall;
-use super::error::ParameterError;
-use super::force_law::RestoringForce;
-use super::mechanism::{Body, Sides};
-use super::parameters::Parameters;
+use super::statics::ROUNDING;
 use super::tie::Tie;
-
-/// Share of F₀ below which a force counts as 0: at the end of a softening line only rounding is left of it.
-const ROUNDING: f64 = 1e-12;
 
 /// A point of the capacity curve of one side, with the displacement and the force as positive numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,87 +27,6 @@ pub struct CapacityPoint {
     /// Secant period T = 2π √(`m_eff` u/F) = 2π √(d*/a*) \[s\]; `None` at u = 0 and where the force is not
     /// positive.
     pub secant_period: Option<f64>,
-}
-
-/// A wall at rest: its body, its restoring force and its tie. Damping and impacts have no part in it.
-///
-/// ```
-/// use rocking_wall::wall::{Parameters, Statics};
-///
-/// let wall = Statics::new(&Parameters { height: 4.0, thickness: 0.4, ..Parameters::default() })?;
-/// assert!((wall.force_end().positive - 0.2).abs() < 1e-15);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Statics {
-    pub(super) body: Body,
-    pub(super) force: RestoringForce,
-    pub(super) tie: Option<Tie>,
-}
-
-impl Statics {
-    /// Makes the body, the force and the tie that the parameters ask for.
-    ///
-    /// # Errors
-    /// [`ParameterError`], with the values, the limit and the remedy.
-    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        let body = Body::new(parameters)?;
-        let force = RestoringForce::new(parameters, &body)?;
-        let tie = Tie::new(parameters, &body)?;
-        Ok(Self { body, force, tie })
-    }
-
-    /// Masses, geometry and the rigid force.
-    pub fn body(&self) -> &Body {
-        &self.body
-    }
-
-    /// The tie; `None` without one.
-    pub fn tie(&self) -> Option<&Tie> {
-        self.tie.as_ref()
-    }
-
-    /// Displacements at which the force falls to zero, u₃ of each side \[m\].
-    pub fn force_end(&self) -> Sides {
-        Sides { positive: self.force.positive.end, negative: self.force.negative.end }
-    }
-
-    /// |u| of the corners of the wall's own force between 0 and u₃, on the side of `sign` \[m\].
-    pub fn own_corners(&self, sign: f64) -> &[f64] {
-        &self.force.side(sign).corners
-    }
-
-    /// |F| of the wall without its tie at |u| on the side of `sign` \[N\].
-    pub fn own_force(&self, sign: f64, u: f64) -> f64 {
-        let side = self.force.side(sign);
-        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
-        let direction = 1.0_f64.copysign(sign);
-        let force = direction * line.at(direction * u);
-        if force.abs() <= ROUNDING * self.body.strength.of(sign) { 0.0 } else { force }
-    }
-
-    /// |F| at |u| of the line along which the force falls to 0 on the side of `sign`, the last of the law
-    /// \[N\].
-    pub fn softening_force(&self, sign: f64, u: f64) -> f64 {
-        let direction = 1.0_f64.copysign(sign);
-        self.force.side(sign).lines.last().map_or(0.0, |line| direction * line.at(direction * u))
-    }
-
-    /// |u| at the end of the elastic branch on the side of `sign`; 0 for the rigid-linear law \[m\].
-    pub fn elastic_end(&self, sign: f64) -> f64 {
-        self.force.side(sign).corners.first().copied().unwrap_or(0.0)
-    }
-
-    /// The largest |F| of the wall without its tie on the side of `sign` \[N\].
-    pub fn largest_own_force(&self, sign: f64) -> f64 {
-        self.largest_own_force_from(sign, 0.0)
-    }
-
-    /// The largest |F| of the wall without its tie from |u| on, on the side of `sign` \[N\].
-    pub fn largest_own_force_from(&self, sign: f64, u: f64) -> f64 {
-        let corners = self.force.side(sign).corners.iter().copied().filter(|corner| *corner > u);
-        corners.map(|corner| self.own_force(sign, corner)).fold(self.own_force(sign, u), f64::max)
-    }
 }
 
 impl Wall {

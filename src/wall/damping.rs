@@ -5,8 +5,9 @@ use crate::choices::DampingModel;
 use super::equivalence;
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
+use super::given::given;
 use super::mechanism::Body;
-use super::parameters::{Parameters, given};
+use super::parameters::Parameters;
 use super::ratio::Ratio;
 
 impl DampingModel {
@@ -88,7 +89,7 @@ impl Damping {
     /// Checks the numbers of all ratios, and returns the damping that the parameters ask for.
     pub(super) fn of(parameters: &Parameters) -> Result<Self, ParameterError> {
         for ratio in Ratio::ALL {
-            given(ratio.name(), ratio.of(parameters))?;
+            given(ratio.name(), parameters.ratio(ratio))?;
         }
         Ok(parameters.damping())
     }
@@ -106,7 +107,7 @@ impl Parameters {
     /// [`Wall::new`]: super::Wall::new
     pub fn damping(&self) -> Damping {
         let model = self.damping_model;
-        Damping { model, ratio: model.ratio().map(|ratio| ratio.of(self)).filter(|number| *number >= 0.0) }
+        Damping { model, ratio: model.ratio().map(|ratio| self.ratio(ratio)).filter(|number| *number >= 0.0) }
     }
 
     /// Sets the damping model and its ratio. Ratios that the model does not use are set to
@@ -115,7 +116,7 @@ impl Parameters {
         self.leave_out_ratios();
         self.damping_model = model;
         if let (Some(own), Some(number)) = (model.ratio(), ratio) {
-            *own.of_mut(self) = number;
+            *self.ratio_mut(own) = number;
         }
     }
 }

@@ -3,16 +3,18 @@
 use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
-use super::capacity::Statics;
 use super::damping::{Damping, DampingLaw, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
-use super::mechanism::{Body, Sides};
+use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
+use super::sides::Sides;
+use super::statics::Statics;
 use super::tie::{Tie, TieAction, TieMemory};
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
+use super::warnings;
 
 /// A validated wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +41,7 @@ impl Wall {
     /// [`ParameterError`], with the values, the limit and the remedy; numbers that walls rarely have come
     /// first, since they may be the cause.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        Self::checked(parameters).map_err(|error| error.with_doubts(Warning::unusual(parameters).collect()))
+        Self::checked(parameters).map_err(|error| error.with_doubts(parameters.unusual().collect()))
     }
 
     fn checked(parameters: &Parameters) -> Result<Self, ParameterError> {
@@ -61,7 +63,7 @@ impl Wall {
         }
         let tie = Tie::new(parameters, &body)?;
         let at_impacts = impact.then_some(restitution);
-        let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
+        let warnings = warnings::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
         let rocking = parameters.rocking;
         let wall = Self {
             statics: Statics { body, force, tie },

@@ -3,8 +3,9 @@
 use crate::choices::{ForceLaw, Softening};
 
 use super::error::ParameterError;
-use super::mechanism::{Body, Sides};
+use super::mechanism::Body;
 use super::parameters::Parameters;
+use super::sides::Sides;
 
 /// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`), or of F over `m_eff`.
 ///

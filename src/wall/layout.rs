@@ -1,10 +1,10 @@
 //! Lays out the branches and corners of a wall.
 
 use super::branch::{Branch, Corner};
-use super::capacity::Statics;
 use super::equation::Wall;
 use super::force_law::Line;
-use super::mechanism::Sides;
+use super::sides::Sides;
+use super::statics::Statics;
 use super::tie::TieAction;
 
 impl Wall {

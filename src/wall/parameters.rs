@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::bar::Bar;
+use super::bar::{Bar, TiePart};
 use super::error::ParameterError;
-use super::mechanism::Sides;
+use super::given::COMPUTED;
 use super::ratio::Ratio;
+use super::sides::Sides;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
     Solver, TieSide, start_values,
@@ -79,23 +80,50 @@ impl Default for Parameters {
     }
 }
 
-/// Returns whether a parameter is computed from the geometry where it is not given: e, and ratios of damping.
-pub fn is_computable(name: &str) -> bool {
-    name == "restitution" || Ratio::ALL.iter().any(|ratio| ratio.name() == name)
-}
+impl Parameters {
+    /// Returns a ratio: a number from 0 on, or [`COMPUTED`].
+    pub fn ratio(&self, ratio: Ratio) -> f64 {
+        match ratio {
+            Ratio::Xi => self.xi,
+            Ratio::CBar => self.c_bar,
+        }
+    }
 
-/// Value of such a parameter that asks for the computed number.
-pub const COMPUTED: f64 = -1.0;
+    pub(super) fn ratio_mut(&mut self, ratio: Ratio) -> &mut f64 {
+        match ratio {
+            Ratio::Xi => &mut self.xi,
+            Ratio::CBar => &mut self.c_bar,
+        }
+    }
 
-/// Returns the number that is given; `None` for one to be computed.
-///
-/// # Errors
-/// [`ParameterError::NotGiven`] for a negative number other than [`COMPUTED`].
-pub(super) fn given(name: &'static str, value: f64) -> Result<Option<f64>, ParameterError> {
-    match value {
-        COMPUTED => Ok(None),
-        0.0.. => Ok(Some(value)),
-        _ => Err(ParameterError::NotGiven { name, value }),
+    /// Sets every ratio to [`COMPUTED`].
+    pub fn leave_out_ratios(&mut self) {
+        for ratio in Ratio::ALL {
+            *self.ratio_mut(ratio) = COMPUTED;
+        }
+    }
+
+    /// Gives the tie the stiffness, strength and ultimate elongation of its bar; leaves one without a bar as
+    /// it is.
+    ///
+    /// # Errors
+    /// Those of [`Bar::tie`].
+    pub fn apply_bar(&mut self) -> Result<(), ParameterError> {
+        if let Some(bar) = &self.bar {
+            let tie = bar.tie(self.width)?;
+            self.tie_stiffness = tie.stiffness;
+            self.tie_strength = tie.strength;
+            self.tie_ultimate = tie.ultimate;
+        }
+        Ok(())
+    }
+
+    /// Returns which part of the tie gives way first; `None` for a tie that is given by its own numbers.
+    pub fn weaker_part(&self) -> Option<TiePart> {
+        let tie = self.bar?.tie(self.width).ok()?;
+        let is_own = [tie.stiffness, tie.strength, tie.ultimate]
+            == [self.tie_stiffness, self.tie_strength, self.tie_ultimate];
+        is_own.then_some(tie.weaker)
     }
 }
 

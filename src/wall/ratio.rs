@@ -1,7 +1,5 @@
 //! The ratios of damping models, each a parameter.
 
-use super::parameters::{COMPUTED, Parameters};
-
 /// A ratio that damping models take: the parameter of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ratio {
@@ -20,30 +18,6 @@ impl Ratio {
         match self {
             Self::Xi => "xi",
             Self::CBar => "c_bar",
-        }
-    }
-
-    /// Returns the parameter: a number from 0 on, or [`COMPUTED`].
-    pub fn of(self, parameters: &Parameters) -> f64 {
-        match self {
-            Self::Xi => parameters.xi,
-            Self::CBar => parameters.c_bar,
-        }
-    }
-
-    pub(super) fn of_mut(self, parameters: &mut Parameters) -> &mut f64 {
-        match self {
-            Self::Xi => &mut parameters.xi,
-            Self::CBar => &mut parameters.c_bar,
-        }
-    }
-}
-
-impl Parameters {
-    /// Sets every ratio to [`COMPUTED`].
-    pub fn leave_out_ratios(&mut self) {
-        for ratio in Ratio::ALL {
-            *ratio.of_mut(self) = COMPUTED;
         }
     }
 }

@@ -4,8 +4,9 @@ use crate::choices::{Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::damping::Damping;
 use super::error::ParameterError;
+use super::given::given;
 use super::mechanism::Body;
-use super::parameters::{Parameters, given};
+use super::parameters::Parameters;
 
 /// Analytic coefficient of restitution of a parapet, `e_an` = 1 − (3/2) sin²α. Eq. (2).
 pub fn analytic_parapet(slenderness: f64) -> f64 {

@@ -19,8 +19,10 @@ use crate::choices::{Mechanism, TieSide};
 
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
-use super::mechanism::{Body, Sides};
-use super::parameters::{Kinematics, Parameters, given};
+use super::given::given;
+use super::mechanism::Body;
+use super::parameters::{Kinematics, Parameters};
+use super::sides::Sides;
 use super::trigonometric::conflict;
 
 /// The tie of a parapet; on both sides two ties of equal data.

@@ -46,8 +46,9 @@
 use crate::choices::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
 use super::error::ParameterError;
-use super::mechanism::{Body, Sides};
+use super::mechanism::Body;
 use super::parameters::Parameters;
+use super::sides::Sides;
 
 /// A wall in full rotations; the equation and its letters are those of its module.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,21 +1,9 @@
 //! What a user should know about valid parameters.
 
-use crate::choices::{Mechanism, Solver};
-
-use super::damping::DampingLaw;
 use super::equivalence;
-use super::force_law::RestoringForce;
-use super::mechanism::Body;
-use super::parameters::Parameters;
-use super::tie::Tie;
-use super::usage::{Usage, usage};
 
 /// A usual step of records and importers \[s\].
-const USUAL_STEP: f64 = 0.01;
-/// Largest usual ω₁ times that step: 16 vibrations.
-const MOST_USUAL_ANGLE: f64 = 100.0;
-/// Most usual steps of Newmark in it.
-const MOST_USUAL_STEPS: f64 = 10_000.0;
+pub(super) const USUAL_STEP: f64 = 0.01;
 
 /// Something a user should know about valid parameters.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -105,48 +93,6 @@ fn six_digits(value: f64) -> String {
 }
 
 impl Warning {
-    /// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
-    pub(super) fn collect(
-        parameters: &Parameters,
-        body: &Body,
-        force: &RestoringForce,
-        tie: Option<&Tie>,
-        damping: &DampingLaw,
-        restitution: Option<f64>,
-    ) -> Vec<Self> {
-        let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);
-        let mut warnings: Vec<_> =
-            unused.map(|Usage { name, condition, .. }| Self::NoEffect { name, condition }).collect();
-        let computed = damping.asked.computed_name();
-        let is_plain_parapet = body.mechanism == Mechanism::Parapet && body.overburden <= 0.0;
-        if computed == Some("c_bar") && !is_plain_parapet {
-            warnings.push(Self::ComputedFreeStanding);
-        }
-        if computed.is_some() && restitution.is_some() {
-            warnings.push(Self::CountedTwice);
-        }
-        if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
-            warnings.push(Self::OutsideFit { a1: force.elastic_fraction });
-        }
-        if damping.elastic == 0.0 && restitution == Some(1.0) {
-            warnings.push(Self::NeverRests);
-        }
-        let held = |sign: f64| tie.is_some_and(|tie| tie.holds(sign) && tie.steadies(force, sign));
-        if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {
-            warnings.push(Self::TieHolds { u_ins: body.instability.of(sign) });
-        }
-        let omega1 = force.omega1(body.effective_mass);
-        if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {
-            warnings.push(Self::Fast { omega1 });
-        }
-        let step = parameters.newmark_step;
-        if parameters.solver == Solver::Newmark && USUAL_STEP / step > MOST_USUAL_STEPS {
-            warnings.push(Self::SmallStep { step });
-        }
-        warnings.extend(Self::unusual(parameters));
-        warnings
-    }
-
     /// Returns whether the warning says that runs take long.
     pub fn is_about_work(&self) -> bool {
         matches!(self, Self::Fast { .. } | Self::SmallStep { .. })

@@ -29,7 +29,7 @@ pub struct Verdict<'a> {
     pub raise: Option<Raise>,
     /// What is to be said of the rows, in sentences.
     pub notes: Vec<String>,
-    /// What the engineer should know, and [`Warning::unusual`](rocking_wall::wall::Warning::unusual); none of
+    /// What the engineer should know, and [`Parameters::unusual`](rocking_wall::wall::Parameters::unusual); none of
     /// it stops the check.
     pub warnings: Vec<String>,
     /// What only this code knows.

@@ -243,7 +243,7 @@ impl Model {
     /// ```
     pub fn unusual(&self) -> Option<Warning> {
         // the default wall has nothing unusual itself
-        Warning::unusual(&self.applied_to(&Parameters::default()).ok()?).next()
+        self.applied_to(&Parameters::default()).ok()?.unusual().next()
     }
 }
 

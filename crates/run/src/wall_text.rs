@@ -27,7 +27,7 @@ pub fn wall_text(wall: &NamedWall) -> String {
             kept.push_str(line);
             kept.push('\n');
             if line == "[damping]" {
-                let numbers = Ratio::ALL.map(|ratio| (ratio.name(), ratio.of(&wall.parameters)));
+                let numbers = Ratio::ALL.map(|ratio| (ratio.name(), wall.parameters.ratio(ratio)));
                 let stated = numbers.into_iter().filter(|(_, number)| *number != COMPUTED);
                 kept.extend(stated.map(|(name, number)| format!("{name} = {number:?}\n")));
             }

@@ -291,8 +291,7 @@ fn warn<'a>(
         let made = Wall::new(parameters).ok();
         let about_work =
             made.iter().flat_map(Wall::warnings).filter(|warning| warning.is_about_work()).cloned();
-        let found =
-            unused(parameters, models).into_iter().chain(about_work).chain(Warning::unusual(parameters));
+        let found = unused(parameters, models).into_iter().chain(about_work).chain(parameters.unusual());
         let of_floors = floors.as_ref().zip(made.as_ref());
         let of_floors = of_floors.into_iter().flat_map(|(floors, wall)| floors.warnings(wall));
         let all = found.map(|warning| warning.to_string()).chain(of_floors);

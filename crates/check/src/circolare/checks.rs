@@ -53,7 +53,7 @@ impl Statement {
     /// may be the cause.
     pub fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
         self.check_wall(subject).map_err(|error| {
-            let of_wall = Warning::unusual(subject.parameters);
+            let of_wall = subject.parameters.unusual();
             error.with_doubts(of_wall.chain(super::warnings::improbable(self, subject.floors)).collect())
         })
     }

@@ -55,7 +55,7 @@ pub(super) fn of_statement(
                 .into(),
         );
     }
-    let of_wall = Warning::unusual(parameters);
+    let of_wall = parameters.unusual();
     warnings.extend(of_wall.chain(improbable(statement, floors)).map(|warning| warning.to_string()));
     if statement.confidence_factor > LARGEST_CONFIDENCE_FACTOR {
         warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));

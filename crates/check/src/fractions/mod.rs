@@ -177,7 +177,7 @@ impl Statement {
         let Subject { parameters, floors, .. } = subject;
         let wall = Wall::new(parameters)?;
         let mut source = self.source.clone();
-        let mut warnings: Vec<_> = Warning::unusual(parameters).map(|warning| warning.to_string()).collect();
+        let mut warnings: Vec<_> = parameters.unusual().map(|warning| warning.to_string()).collect();
         let demand = if let Some(spectrum) = &self.spectrum {
             if floors.is_some() {
                 warnings.push(
@@ -205,7 +205,7 @@ impl Code for Statement {
     }
 
     fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError> {
-        let doubts = |error: CheckError| error.with_doubts(Warning::unusual(subject.parameters).collect());
+        let doubts = |error: CheckError| error.with_doubts(subject.parameters.unusual().collect());
         let mut checked = self.checked(subject).map_err(doubts)?;
         let worst = *governing(&checked.sides, |side| side.displacement_ratio);
         Ok(Verdict {

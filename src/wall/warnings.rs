@@ -1,0 +1,106 @@
+//! What the parameters of a wall give reason to warn about.
+
+use crate::choices::{Mechanism, Solver};
+
+use super::bar::Bar;
+use super::damping::DampingLaw;
+use super::equivalence;
+use super::force_law::RestoringForce;
+use super::mechanism::Body;
+use super::parameters::Parameters;
+use super::tie::Tie;
+use super::usage::{Usage, usage};
+use super::usual::{FORCES, LENGTHS, Usual};
+use super::warning::{USUAL_STEP, Warning};
+
+/// Largest usual ω₁ times that step: 16 vibrations.
+const MOST_USUAL_ANGLE: f64 = 100.0;
+/// Most usual steps of Newmark in it.
+const MOST_USUAL_STEPS: f64 = 10_000.0;
+
+/// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
+pub(super) fn collect(
+    parameters: &Parameters,
+    body: &Body,
+    force: &RestoringForce,
+    tie: Option<&Tie>,
+    damping: &DampingLaw,
+    restitution: Option<f64>,
+) -> Vec<Warning> {
+    let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);
+    let mut warnings: Vec<_> =
+        unused.map(|Usage { name, condition, .. }| Warning::NoEffect { name, condition }).collect();
+    let computed = damping.asked.computed_name();
+    let is_plain_parapet = body.mechanism == Mechanism::Parapet && body.overburden <= 0.0;
+    if computed == Some("c_bar") && !is_plain_parapet {
+        warnings.push(Warning::ComputedFreeStanding);
+    }
+    if computed.is_some() && restitution.is_some() {
+        warnings.push(Warning::CountedTwice);
+    }
+    if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
+        warnings.push(Warning::OutsideFit { a1: force.elastic_fraction });
+    }
+    if damping.elastic == 0.0 && restitution == Some(1.0) {
+        warnings.push(Warning::NeverRests);
+    }
+    let held = |sign: f64| tie.is_some_and(|tie| tie.holds(sign) && tie.steadies(force, sign));
+    if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {
+        warnings.push(Warning::TieHolds { u_ins: body.instability.of(sign) });
+    }
+    let omega1 = force.omega1(body.effective_mass);
+    if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {
+        warnings.push(Warning::Fast { omega1 });
+    }
+    let step = parameters.newmark_step;
+    if parameters.solver == Solver::Newmark && USUAL_STEP / step > MOST_USUAL_STEPS {
+        warnings.push(Warning::SmallStep { step });
+    }
+    warnings.extend(parameters.unusual());
+    warnings
+}
+
+impl Parameters {
+    /// Finds the parameters of a wall whose values are improbable.
+    pub fn unusual(&self) -> impl Iterator<Item = Warning> + use<> {
+        let Parameters { height, thickness, width, overburden, tie_strength, .. } = *self;
+        let of_bar: Vec<_> = self.bar.iter().flat_map(Bar::warnings).collect();
+        // of a bar with a number in another unit, stiffness and strength say nothing more
+        let has_tie = self.tie_stiffness > 0.0 && of_bar.is_empty();
+        let half = thickness / 2.0;
+        let usual = |name, unit, range, others| Usual { name, unit, range, others };
+        let of_shape = [
+            (height, usual("height", "m", [0.2, 30.0], LENGTHS)),
+            (thickness, usual("thickness", "m", [0.03, 3.0], LENGTHS)),
+        ];
+        // the ratio of a height or thickness in another unit says nothing more
+        let slender = of_shape.iter().all(|(value, usual)| usual.warning(*value).is_none());
+        let density =
+            usual("density", "kg/m3", [400.0, 3000.0], &[("in t/m3", 1e3), ("in kN/m3", 1e3 / 9.80665)]);
+        let of_wall = [
+            (true, self.density, density),
+            (slender, height / thickness, usual("height/thickness", "", [1.0, 100.0], &[])),
+            (true, self.gravity, usual("gravity", "m/s2", [9.7, 9.9], &[("in cm/s2", 0.01)])),
+            // below 0 it is computed
+            (self.xi >= 0.0, self.xi, usual("xi", "", [0.0, 0.5], &[("in per cent", 0.01)])),
+            // 0.1 to 1000 kN per metre of width; without a load its eccentricity does not matter
+            (overburden > 0.0, overburden, usual("overburden", "N", [100.0, 1e6].map(|o| o * width), FORCES)),
+            (
+                overburden > 0.0,
+                self.overburden_eccentricity,
+                usual("overburden_eccentricity", "m", [-half, half], LENGTHS),
+            ),
+            // a steel bar of 12 mm over 20 m has 1.2e6 N/m, two of 40 mm over 1 m have 5e8 N/m
+            (
+                has_tie,
+                self.tie_stiffness,
+                usual("tie_stiffness", "N/m", [1e5, 1e9], &[("in kN/m", 1e3), ("in kN/mm", 1e6)]),
+            ),
+            // an anchor in poor masonry resists some kN, two steel bars of 40 mm 1.3e6 N
+            (has_tie && tie_strength > 0.0, tie_strength, usual("tie_strength", "N", [1e3, 2e6], FORCES)),
+        ];
+        let of_shape = of_shape.map(|(value, usual)| (true, value, usual));
+        let all = of_shape.into_iter().chain(of_wall);
+        all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_bar)
+    }
+}
