@@ -2,7 +2,8 @@
 
 use oscillator::Oscillator;
 
-use crate::forcing::MOST_AT_ONCE;
+/// Most plain steps taken at once. The last ones of a block may end beyond it, by one step less than this.
+pub(crate) const MOST_AT_ONCE: usize = 4;
 
 /// An affine map over some steps, by the forcing less the branch's force at u = 0, q = p − f(0): the
 /// change of u and of u̇ for each of u₀, u̇₀ and the q at the samples.

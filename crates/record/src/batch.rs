@@ -1,17 +1,14 @@
 //! Runs through records: one, or many of one wall.
 
-use fearless_simd::Simd;
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Avx2, Avx512, Level};
 use rocking_wall::solver::SolverError;
-use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
-use crate::forcing::{Blocks, Forcing};
+use crate::blocks::Blocks;
+use crate::forcing::Forcing;
 use crate::lanes::Lanes;
-use crate::number::{Eight, WIDTH};
-use crate::solver::{BatchRun, NoObserver, Observer, Outcome, RecordSolver, RunEnd, RunStart};
-use crate::table::{Law, Stepping};
-use crate::together::{Common, run_together_on};
+use crate::number::{Vectors, WIDTH};
+use crate::run::{BatchRun, NoObserver, Observer, Outcome, RunEnd, RunStart};
+use crate::solver::RecordSolver;
+use crate::together::run_together_on;
 
 /// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
 pub const LANES: usize = WIDTH;
@@ -84,29 +81,6 @@ impl RecordSolver<'_> {
     }
 }
 
-/// Vectors with which runs are faster side by side than one by one. With narrower vectors they would be
-/// slower, and the code for these would take long to build.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Vectors {
-    #[cfg(target_arch = "x86_64")]
-    Avx2(Avx2),
-    #[cfg(target_arch = "x86_64")]
-    Avx512(Avx512),
-}
-
-impl Vectors {
-    /// Returns the widest of these vectors that the processor has; `None` if it has none.
-    pub(crate) fn widest() -> Option<Self> {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let level = Level::new();
-            level.as_avx512().map(Self::Avx512).or_else(|| level.as_avx2().map(Self::Avx2))
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        None
-    }
-}
-
 /// A record prepared for many runs of one wall.
 ///
 /// What becomes of a run never depends on the other runs. Where processor, wall and step allow it, eight runs
@@ -139,7 +113,7 @@ impl Batch<'_> {
     /// Returns whether runs go side by side, not one by one. They go one by one on a processor without AVX2,
     /// and where the wall, the step or the length of the record does not suit.
     pub fn is_side_by_side(&self) -> bool {
-        self.vectors.is_some() && Common::of(self.solver, &self.record).is_some()
+        self.vectors.is_some() && self.record.common(self.solver).is_some()
     }
 
     /// Moves walls through the record, each as if it were alone and up to `end`. Returns one outcome for each
@@ -152,51 +126,4 @@ impl Batch<'_> {
         let given: Vec<_> = starts.iter().map(given).collect();
         run_together_on(&given, end, self.vectors).into_iter().collect()
     }
-}
-
-/// Follows runs, side by side with some vectors or one by one.
-pub(crate) fn follow(
-    side_by_side: Option<(Vectors, Common<'_>)>,
-    lanes: Lanes<'_, NoObserver>,
-) -> Vec<Result<Outcome, SolverError>> {
-    match side_by_side {
-        #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes),
-        #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes),
-        _ => lanes.one_by_one(),
-    }
-}
-
-/// Follows runs side by side.
-pub(crate) fn in_lanes<S: Simd>(
-    simd: S,
-    kind: Common<'_>,
-    lanes: Lanes<'_, NoObserver>,
-) -> Vec<Result<Outcome, SolverError>> {
-    simd.vectorize(
-        #[inline(always)]
-        || match kind {
-            Common::Prepared(_) => lanes.side_by_side(
-                Stepping::Affine,
-                #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
-            ),
-            Common::Affine { .. } => lanes.side_by_side(
-                Stepping::Affine,
-                #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
-            ),
-            Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
-                Stepping::Curved,
-                #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
-            ),
-            Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
-                Stepping::Curved,
-                #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
-            ),
-        },
-    )
 }

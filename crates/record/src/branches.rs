@@ -3,7 +3,6 @@
 use rocking_wall::solver::secant::{SecantBranch, Tolerances};
 
 use crate::lanes::Lanes;
-use crate::line::Bounds;
 use crate::number::{BranchRow, Number, WIDTH};
 use crate::solver::RecordSolver;
 use crate::table::{BranchTable, get};
@@ -65,12 +64,6 @@ impl<O> Lanes<'_, O> {
     #[inline(always)]
     pub(crate) fn branches<N: Number>(&self, first: usize, branch: N) -> Branches<'_, N> {
         Branches { solvers: &self.solvers, first, numbers: branch.branches() }
-    }
-
-    /// Returns where u and u̇ may be on the branch of each lane.
-    #[inline(always)]
-    pub(crate) fn bounds<N: Number>(&self, token: N::Token, first: usize, branch: N) -> Bounds<N> {
-        Bounds::look_up(token, &self.branches(first, branch), &self.rows, first)
     }
 
     /// Returns what a Taylor series may leave out of the motion of each lane.

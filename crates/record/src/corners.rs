@@ -3,7 +3,8 @@
 use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, LinearBranch};
 use crate::number::{BranchRow, LaneRow, Number, index};
-use crate::solver::{Observer, RecordSolver};
+use crate::run::Observer;
+use crate::solver::RecordSolver;
 use crate::table::{BranchTable, end_kind};
 
 /// Most corners passed in one step.

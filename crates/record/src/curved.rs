@@ -8,7 +8,8 @@ use crate::branches::law;
 use crate::lanes::{Lanes, Rows, Waiting, each};
 use crate::number::{BranchRow, LaneRow, Number, WIDTH, index};
 use crate::regularised::Regularised;
-use crate::solver::{Observer, RecordSolver};
+use crate::run::Observer;
+use crate::solver::RecordSolver;
 use crate::table::{BranchTable, Law, end_kind, get};
 
 /// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a

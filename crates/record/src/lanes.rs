@@ -2,9 +2,12 @@
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
-use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
+use crate::affine::MOST_AT_ONCE;
+use crate::blocks::Blocks;
+use crate::forcing::BLOCK;
 use crate::number::{LaneRow, WIDTH, index};
-use crate::solver::{BatchRun, Observer, Outcome, RecordSolver, RunEnd};
+use crate::run::{BatchRun, Observer, Outcome, RunEnd};
+use crate::solver::RecordSolver;
 use crate::table::Stepping;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.

@@ -11,6 +11,17 @@
 //!
 //! One code serves a run by itself and eight side by side: a number is a vector of one lane.
 //! docs/record-path.md has the bounds, their proofs and the course of a run.
+//!
+//! A file uses only those that stand before it here:
+//!
+//! ```text
+//! number   affine   forcing                  numbers of lanes; a step as a map; samples
+//! table   solver                             the branches of a wall, prepared
+//! responses   common   blocks   run          a record, prepared; a run
+//! lanes   branches   line                    runs in lanes, and where they are
+//! corners   turns   plain   regularised   curved   steps of lanes
+//! schedule   together   batch                which lane takes which step, and which run which lane
+//! ```
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
@@ -19,7 +30,9 @@
 
 mod affine;
 mod batch;
+mod blocks;
 mod branches;
+mod common;
 mod corners;
 mod curved;
 mod forcing;
@@ -29,6 +42,7 @@ mod number;
 mod plain;
 mod regularised;
 mod responses;
+mod run;
 mod schedule;
 mod solver;
 mod table;
@@ -38,6 +52,8 @@ mod together;
 mod turns;
 
 pub use batch::{Batch, LANES};
-pub use forcing::{Blocks, Forcing};
-pub use solver::{BatchRun, Outcome, RecordSolver, RunEnd, RunStart};
+pub use blocks::Blocks;
+pub use forcing::Forcing;
+pub use run::{BatchRun, Outcome, RunEnd, RunStart};
+pub use solver::RecordSolver;
 pub use together::run_together;

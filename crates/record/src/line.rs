@@ -1,7 +1,7 @@
 //! The line of a branch with constant damping: the motion along it, and the bounds within which that holds.
 
 use crate::branches::Branches;
-use crate::lanes::Rows;
+use crate::lanes::{Lanes, Rows};
 use crate::number::Number;
 
 /// 1/n!.
@@ -124,6 +124,14 @@ impl<N: Number> Bounds<N> {
             within: [lower.max(lowest), upper.min(highest)],
             speed: share * N::load(token, &rows.driving, first),
         }
+    }
+}
+
+impl<O> Lanes<'_, O> {
+    /// Returns where u and u̇ may be on the branch of each lane.
+    #[inline(always)]
+    pub(crate) fn bounds<N: Number>(&self, token: N::Token, first: usize, branch: N) -> Bounds<N> {
+        Bounds::look_up(token, &self.branches(first, branch), &self.rows, first)
     }
 }
 

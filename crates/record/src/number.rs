@@ -6,6 +6,8 @@
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::prelude::*;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Avx2, Avx512, Level};
 use fearless_simd::{f64x2, f64x8, i64x8, mask64x8, u8x64};
 use rocking_wall::solver::secant;
 
@@ -18,6 +20,29 @@ pub(crate) const MOST_BRANCHES: usize = 2 * WIDTH;
 pub(crate) type LaneRow = [f64; WIDTH];
 /// A number for each branch of a wall.
 pub(crate) type BranchRow = [LaneRow; MOST_BRANCHES / WIDTH];
+
+/// Vectors with which runs are faster side by side than one by one. With narrower vectors they would be
+/// slower, and the code for these would take long to build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Vectors {
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
+}
+
+impl Vectors {
+    /// Returns the widest of these vectors that the processor has; `None` if it has none.
+    pub(crate) fn widest() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let level = Level::new();
+            level.as_avx512().map(Self::Avx512).or_else(|| level.as_avx2().map(Self::Avx2))
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        None
+    }
+}
 
 /// A number of each lane.
 pub(crate) trait Number: secant::Number {

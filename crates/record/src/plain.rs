@@ -1,13 +1,14 @@
 //! Steps on branches with constant damping: plain steps, four or two at once, and the single steps of lanes
 //! that wait (docs/record-path.md, §2 and §3).
 
+use crate::affine::MOST_AT_ONCE;
+use crate::blocks::AHEAD;
 use crate::corners::Part;
-use crate::forcing::{AHEAD, MOST_AT_ONCE};
 use crate::lanes::{Lanes, Rows, Waiting};
 use crate::line::{Bounds, LinearBranch};
 use crate::number::{Number, WIDTH, index};
 use crate::responses::ROWS_AHEAD;
-use crate::solver::Observer;
+use crate::run::Observer;
 use crate::table::{BranchTable, get};
 
 /// The number of lanes at which plain steps stop, so that the lanes that wait are served. Serving them costs

@@ -4,8 +4,8 @@
 //! factor s, is s times that of the record itself: a table of it, from each sample on, leaves a run two
 //! products for each of u and u̇.
 
-use crate::affine::Affine;
-use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
+use crate::affine::{Affine, MOST_AT_ONCE};
+use crate::forcing::{BLOCK, Forcing};
 use crate::number::WIDTH;
 use crate::solver::RecordSolver;
 

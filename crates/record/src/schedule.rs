@@ -7,7 +7,7 @@ use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
 use crate::number::{WIDTH, index};
-use crate::solver::{BatchRun, Observer, Outcome, RunEnd, RunStart};
+use crate::run::{BatchRun, Observer, Outcome, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
 
 impl<O: Observer> Lanes<'_, O> {
@@ -267,8 +267,10 @@ mod tests {
     use rocking_wall::wall::{Parameters, Support};
 
     use super::*;
-    use crate::forcing::{Blocks, Forcing};
-    use crate::solver::{NoObserver, RecordSolver, RunEnd};
+    use crate::blocks::Blocks;
+    use crate::forcing::Forcing;
+    use crate::run::{NoObserver, RunEnd};
+    use crate::solver::RecordSolver;
 
     /// A wall at rest passes over the samples within the band, up to the first beyond it.
     #[test]

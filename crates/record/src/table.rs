@@ -7,8 +7,7 @@ use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::Corner;
 
-use crate::affine::Affine;
-use crate::forcing::MOST_AT_ONCE;
+use crate::affine::{Affine, MOST_AT_ONCE};
 use crate::number::{BranchRow, MOST_BRANCHES};
 
 /// c V over P + f̂, which fixes the largest speed V of a plain step: walls stay far below it, as they do

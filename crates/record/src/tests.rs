@@ -6,11 +6,14 @@ use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
-use crate::batch::{Vectors, in_lanes};
-use crate::forcing::{Blocks, Forcing};
+use crate::blocks::Blocks;
+use crate::forcing::Forcing;
 use crate::lanes::{Block, Lanes};
+use crate::number::Vectors;
 use crate::number::{BranchRow, Eight, LaneRow, MOST_BRANCHES, Number, WIDTH};
-use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd, RunStart};
+use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
+use crate::solver::RecordSolver;
+use crate::together::in_lanes;
 
 mod passages;
 mod peaks;
@@ -54,7 +57,7 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let record = Blocks::on(solver, forcing, Vectors::widest());
-    let kind = crate::together::Common::of(solver, &record).expect("a wall for lanes");
+    let kind = record.common(solver).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
     let outcomes = in_lanes(simd, kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
     outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")

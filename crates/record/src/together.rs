@@ -1,58 +1,24 @@
 //! Runs of any walls through any records together.
 
+use fearless_simd::Simd;
 use rocking_wall::solver::SolverError;
+use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
-use crate::batch::{Vectors, follow};
-use crate::forcing::Blocks;
+use crate::common::Common;
 use crate::lanes::Lanes;
-use crate::solver::{BatchRun, NoObserver, Outcome, RecordSolver, RunEnd};
-use crate::table::{LONGEST, Law, Stepping};
-
-/// Fewest samples of a record whose runs go side by side.
-const FEWEST_SAMPLES: usize = 16;
-
-/// What runs have in common that go side by side: the numbers that a vector has once for all of its lanes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Common<'a> {
-    /// One wall, with constant damping on all branches, through records prepared for it: steps are affine
-    /// maps of several at once, by the responses of its branches to the records.
-    Prepared(*const RecordSolver<'a>),
-    /// All branches have constant damping: the same steps, by the samples of the records.
-    Affine {
-        step: f64,
-        at_once: usize,
-        /// The terms of the series of motion, which are summed in pairs.
-        pairs: usize,
-    },
-    /// Damping follows the secant stiffness: steps on such branches, by Taylor series.
-    Curved { step: f64, law: Law },
-}
-
-impl<'a> Common<'a> {
-    /// Returns what a run has in common with others; `None` if it goes by itself.
-    pub(crate) fn of(solver: &'a RecordSolver<'a>, record: &Blocks<'_>) -> Option<Self> {
-        let RecordSolver { step, table, .. } = solver;
-        if table.steppings.contains(&Stepping::Curved) {
-            return Some(Self::Curved { step: *step, law: table.law });
-        }
-        if record.responses.as_ref().is_some_and(|responses| std::ptr::eq(responses.solver, solver)) {
-            return Some(Self::Prepared(std::ptr::from_ref(solver)));
-        }
-        let is_affine = table.steppings.iter().all(|stepping| *stepping == Stepping::Affine);
-        let suits = is_affine && table.longest <= LONGEST && record.count() >= FEWEST_SAMPLES;
-        suits.then(|| Self::Affine { step: *step, at_once: table.at_once, pairs: table.terms.div_ceil(2) })
-    }
-}
+use crate::number::{Eight, Vectors};
+use crate::run::{BatchRun, NoObserver, Outcome, RunEnd};
+use crate::table::{Law, Stepping};
 
 /// Moves walls through records, each run as if it were alone; returns what became of each, in their order.
 ///
 /// Walls, records and factors may all differ. Runs go side by side where they have the same law of damping
 /// and step, and about the same stiffness for their step; so many runs are faster in one call than in
 /// several. A run never depends on the others: with constant damping it has the bits of
-/// [`RecordSolver::run`], with secant damping those of a [`Batch`](crate::Batch).
+/// [`RecordSolver::run`](crate::RecordSolver::run), with secant damping those of a [`Batch`](crate::Batch).
 ///
 /// Many factors of one wall and record are faster still in a [`Batch`](crate::Batch), or here if the record
-/// is prepared for the wall ([`Blocks::for_many`]).
+/// is prepared for the wall ([`Blocks::for_many`](crate::Blocks::for_many)).
 ///
 /// ```
 /// use record::{BatchRun, Blocks, Forcing, RecordSolver, RunEnd, RunStart, run_together};
@@ -89,7 +55,7 @@ pub(crate) fn run_together_on(
 ) -> Vec<Result<Outcome, SolverError>> {
     let mut kinds: Vec<(Option<Common<'_>>, Vec<usize>)> = Vec::new();
     for (number, run) in runs.iter().enumerate() {
-        let kind = vectors.and_then(|_| Common::of(run.solver, run.record));
+        let kind = vectors.and_then(|_| run.record.common(run.solver));
         match kinds.iter_mut().find(|(known, _)| *known == kind) {
             Some((_, numbers)) => numbers.push(number),
             None => kinds.push((kind, vec![number])),
@@ -103,4 +69,51 @@ pub(crate) fn run_together_on(
     }
     outcomes.sort_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// Follows runs, side by side with some vectors or one by one.
+fn follow(
+    side_by_side: Option<(Vectors, Common<'_>)>,
+    lanes: Lanes<'_, NoObserver>,
+) -> Vec<Result<Outcome, SolverError>> {
+    match side_by_side {
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes),
+        #[cfg(target_arch = "x86_64")]
+        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes),
+        _ => lanes.one_by_one(),
+    }
+}
+
+/// Follows runs side by side.
+pub(crate) fn in_lanes<S: Simd>(
+    simd: S,
+    kind: Common<'_>,
+    lanes: Lanes<'_, NoObserver>,
+) -> Vec<Result<Outcome, SolverError>> {
+    simd.vectorize(
+        #[inline(always)]
+        || match kind {
+            Common::Prepared(_) => lanes.side_by_side(
+                Stepping::Affine,
+                #[inline(always)]
+                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
+            ),
+            Common::Affine { .. } => lanes.side_by_side(
+                Stepping::Affine,
+                #[inline(always)]
+                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
+            ),
+            Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
+                Stepping::Curved,
+                #[inline(always)]
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
+            ),
+            Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
+                Stepping::Curved,
+                #[inline(always)]
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
+            ),
+        },
+    )
 }

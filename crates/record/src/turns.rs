@@ -7,7 +7,7 @@
 use crate::corners::{Arrival, Part};
 use crate::lanes::Lanes;
 use crate::line::Bounds;
-use crate::solver::Observer;
+use crate::run::Observer;
 
 /// Most corners passed in a step. A wall that comes to rest passes some hundred.
 const MOST_CORNERS: u32 = 1000;

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::batch::LANES;
-use crate::together::{Common, run_together_on};
+use crate::common::Common;
+use crate::together::run_together_on;
 
 /// Every wall through every record at a few factors, in an order that mixes all three.
 fn mixed<'a>(solvers: &'a [RecordSolver<'a>], records: &'a [Blocks<'a>]) -> Vec<BatchRun<'a>> {
@@ -40,7 +41,7 @@ fn runs_with_constant_damping_are_those_by_themselves() {
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
     assert!(solvers.iter().any(|solver| solver.table.at_once != solvers[0].table.at_once));
-    let by_itself: Vec<_> = solvers.iter().map(|solver| Common::of(solver, &records[0]).is_none()).collect();
+    let by_itself: Vec<_> = solvers.iter().map(|solver| records[0].common(solver).is_none()).collect();
     assert_eq!(by_itself, [false, false, false, false, false, false, true]);
     let runs = mixed(&solvers, &records);
     for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
@@ -71,7 +72,7 @@ fn prepared_records_change_no_bit() {
         let prepared: Vec<_> =
             records.iter().map(|record| Blocks::on(&solvers[0], record.forcing, vectors)).collect();
         let is_prepared =
-            |run: &BatchRun<'_>| matches!(Common::of(run.solver, run.record), Some(Common::Prepared(_)));
+            |run: &BatchRun<'_>| matches!(run.record.common(run.solver), Some(Common::Prepared(_)));
         let runs = mixed(&solvers, &prepared);
         // all but the record of four samples, for one wall of two
         let expected = if vectors.is_some() { runs.len() * 3 / 8 } else { 0 };

@@ -6,9 +6,9 @@ use std::cell::Cell;
 use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
 use super::*;
+use crate::common::Common;
 use crate::lanes::Waiting;
 use crate::table::{Law, Stepping};
-use crate::together::Common;
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
@@ -39,7 +39,7 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         stuck.set(stuck.get() + waiting.stuck.count_ones());
         waiting
     };
-    let outcomes = match Common::of(&solver, &record).expect("a wall for lanes") {
+    let outcomes = match record.common(&solver).expect("a wall for lanes") {
         Common::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
             count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
         }),
