@@ -1,7 +1,8 @@
 //! Which variables a function serves, and the phases in which it may be set.
 
 use crate::call::Phase;
-use crate::model::{Failure, Model};
+use crate::failure::Failure;
+use crate::model::Model;
 use crate::variable::{Causality, Variability, Variable, VariableId};
 
 /// Returns the variable with this value reference among those of one type of the model `M`.

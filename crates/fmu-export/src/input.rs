@@ -1,6 +1,6 @@
 //! A continuous input of a co-simulation.
 
-use crate::model::Failure;
+use crate::failure::Failure;
 use crate::state::StateCodec;
 
 /// A continuous input, which an importer may extrapolate over a step by its rate.

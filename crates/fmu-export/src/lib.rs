@@ -101,8 +101,10 @@
 
 mod access;
 mod call;
+mod failure;
 pub mod ffi;
 mod guid;
+mod hash;
 mod input;
 mod instance;
 mod limits;
@@ -112,11 +114,12 @@ mod state;
 mod uri;
 mod variable;
 
-pub use guid::fnv1a_128;
+pub use failure::Failure;
+pub use hash::fnv1a_128;
 pub use input::Input;
 pub use limits::check_real;
 pub use log::{Category, Filter, Log, Sink, Status};
-pub use model::{Environment, Experiment, Failure, Interface, Model, ModelExchange, Step, Update};
+pub use model::{Environment, Experiment, Interface, Model, ModelExchange, Step, Update};
 pub use state::StateCodec;
 pub use uri::path_from_location;
 pub use variable::{

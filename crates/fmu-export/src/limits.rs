@@ -1,6 +1,6 @@
 //! Which values a variable may have.
 
-use crate::model::Failure;
+use crate::failure::Failure;
 use crate::variable::{Causality, Item, Kind, Variable};
 
 /// The smallest size of a parameter that is not 0: products and quotients of smaller ones underflow to 0, or

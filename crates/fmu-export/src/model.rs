@@ -1,5 +1,6 @@
 //! What a model does to become an FMU.
 
+use crate::failure::Failure;
 use crate::log::Log;
 use crate::state::StateCodec;
 use crate::variable::VariableId;
@@ -292,28 +293,4 @@ pub struct Step {
     pub duration: f64,
     /// The importer accepts that the step ends early, at an event (FMI 3.0 `earlyReturnAllowed`).
     pub may_end_early: bool,
-}
-
-/// Why a call failed: logged as an error, and returned as `fmi2Error`.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Failure(pub String);
-
-impl std::fmt::Display for Failure {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Failure {}
-
-impl From<String> for Failure {
-    fn from(message: String) -> Self {
-        Self(message)
-    }
-}
-
-impl From<&str> for Failure {
-    fn from(message: &str) -> Self {
-        Self(message.to_owned())
-    }
 }

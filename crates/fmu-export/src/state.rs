@@ -11,9 +11,9 @@
 //!
 //! Numbers are little-endian and f64 go bit by bit, so that the same state gives the same bytes everywhere.
 
-use crate::guid::fnv1a_64;
+use crate::failure::Failure;
+use crate::hash::fnv1a_64;
 use crate::limits;
-use crate::model::Failure;
 use crate::variable::VariableId;
 
 const MAGIC: &[u8; 8] = b"FMI2stat";

@@ -1,7 +1,7 @@
 //! What C passes, as Rust sees it.
 
 use super::types::{Text, ValueReference};
-use crate::model::Failure;
+use crate::failure::Failure;
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::{slice, str};

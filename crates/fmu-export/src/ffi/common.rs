@@ -5,9 +5,10 @@ use super::arguments::{array, array_mut, bytes, required_text, text};
 use super::guard::{self, Slot, functions};
 use super::types::{Boolean, CallbackFunctions, Component, Real, Status, Text, Type, ValueReference, status};
 use crate::call::{Call, Phase};
+use crate::failure::Failure;
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
-use crate::model::{Experiment, Failure, Model};
+use crate::model::{Experiment, Model};
 use std::ffi::{CStr, CString};
 use std::ptr;
 

@@ -2,8 +2,9 @@
 
 use super::types::{self, Component, ERROR, Status};
 use crate::call::Call;
+use crate::failure::Failure;
 use crate::instance::Instance;
-use crate::model::{Failure, Model};
+use crate::model::Model;
 use std::cell::{Cell, RefCell, UnsafeCell};
 use std::panic::{self, AssertUnwindSafe};
 use std::ptr::NonNull;

@@ -29,8 +29,9 @@ pub mod values;
 
 use self::types::{CO_SIMULATION, MODEL_EXCHANGE, Type};
 use crate::call::Version;
+use crate::failure::Failure;
 use crate::instance::Purpose;
-use crate::model::{Failure, Interface, Model, ModelExchange};
+use crate::model::{Interface, Model, ModelExchange};
 
 /// The kinds of instances that a library exports the functions for.
 #[derive(Debug)]

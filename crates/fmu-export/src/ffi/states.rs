@@ -7,7 +7,8 @@ use super::arguments::{array, array_mut, place};
 use super::guard::functions;
 use super::types::{Component, FmuState, Status};
 use crate::call::Call;
-use crate::model::{Failure, Model};
+use crate::failure::Failure;
+use crate::model::Model;
 use std::mem::MaybeUninit;
 use std::ptr;
 

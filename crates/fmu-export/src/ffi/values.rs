@@ -6,7 +6,8 @@ use super::fmi3;
 use super::guard::functions;
 use super::types::{Boolean, Component, Integer, Real, Status, Text, ValueReference};
 use crate::call::Call;
-use crate::model::{Failure, Model, ModelExchange};
+use crate::failure::Failure;
+use crate::model::{Model, ModelExchange};
 use crate::variable::Kind;
 
 functions! {

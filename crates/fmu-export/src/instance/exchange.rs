@@ -2,8 +2,9 @@
 
 use super::Instance;
 use crate::access;
+use crate::failure::Failure;
 use crate::limits;
-use crate::model::{Failure, Interface, ModelExchange, Update};
+use crate::model::{Interface, ModelExchange, Update};
 use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
 
 impl<M: ModelExchange> Instance<M> {

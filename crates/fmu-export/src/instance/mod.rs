@@ -6,9 +6,10 @@ mod step;
 mod values;
 
 use crate::call::{Call, Phase, Rule, Version};
+use crate::failure::Failure;
 use crate::guid;
 use crate::log::{Category, Filter, Logger, Status};
-use crate::model::{Environment, Experiment, Failure, Interface, Model, Step};
+use crate::model::{Environment, Experiment, Interface, Model, Step};
 use crate::uri::path_from_location;
 use std::collections::BTreeMap;
 use std::ffi::CString;

@@ -2,8 +2,9 @@
 
 use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
+use crate::failure::Failure;
 use crate::log::Status;
-use crate::model::{Failure, Model};
+use crate::model::Model;
 use crate::state::{self, StateCodec};
 
 /// A handle is the address of a state in `saved`.

@@ -3,9 +3,10 @@
 use super::{Instance, IntermediateUpdate};
 use crate::access;
 use crate::call::{Call, Phase};
+use crate::failure::Failure;
 use crate::limits;
 use crate::log::{Category, Status};
-use crate::model::{Failure, Model, Step};
+use crate::model::{Model, Step};
 use crate::variable::VariableId;
 
 /// Largest relative difference between a communication point and the instance's own time: communication

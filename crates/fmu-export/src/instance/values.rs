@@ -3,8 +3,9 @@
 use super::Instance;
 use crate::access;
 use crate::call::{Call, Phase};
+use crate::failure::Failure;
 use crate::limits;
-use crate::model::{Failure, Model};
+use crate::model::Model;
 use crate::variable::{Causality, Kind, Variability, Variable, VariableId};
 use std::ffi::{CStr, CString};
 

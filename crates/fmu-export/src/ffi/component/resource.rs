@@ -3,10 +3,11 @@
 use super::bindings::fmi::fmi3::callbacks::log_message;
 use super::bindings::fmi::fmi3::types::Status;
 use crate::call::Call;
+use crate::failure::Failure;
 use crate::ffi::arguments::check_count;
 use crate::instance::{Instance, Purpose};
 use crate::log::{self, Category, Logger};
-use crate::model::{Failure, Model, ModelExchange};
+use crate::model::{Model, ModelExchange};
 use std::cell::RefCell;
 use std::panic;
 
