@@ -11,8 +11,9 @@ use crate::tables;
 use crate::variables::RealVariable;
 
 use super::error::{Place, SceneError};
+use super::keys::Group;
 use super::motion::MotionTable;
-use super::parameter::{Group, input_names};
+use super::parameter::input_names;
 use super::schema::{fraction, one_of};
 use super::storeys::{StoreyTable, SupportsTable};
 use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};

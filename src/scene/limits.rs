@@ -12,9 +12,9 @@ use toml::{Spanned, Value};
 use crate::variables::GROUPS;
 
 use super::error::{Place, SceneError};
-use super::parameter::{number, unknown_key};
+use super::keys::unknown_key;
 use super::schema::{Described, Schema};
-use super::toml_text::parse_document;
+use super::syntax::{number, parse_document};
 
 /// What is wrong with a value of a file.
 #[derive(Debug)]

@@ -7,12 +7,14 @@
 
 mod document;
 mod error;
+mod keys;
 mod limits;
 mod motion;
 mod nearest;
 mod parameter;
 mod schema;
 mod storeys;
+mod syntax;
 mod toml_text;
 
 use std::borrow::Cow;
@@ -27,17 +29,18 @@ use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
+pub use keys::{Group, KINEMATICS, POINTS};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
-pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text, set_names};
+pub use parameter::{input_names, parameter_text, set_names};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::read_text;
 pub use error::{Place, SceneError};
+use keys::{BAR, OF_BAR, TIE_GROUP};
 pub use limits::{Fault, check_value};
 pub use nearest::suggestion;
-use parameter::{BAR, OF_BAR, TIE_GROUP};
-pub use parameter::{apply_group, check_limits, number};
+pub use parameter::{apply_group, check_limits};
 pub use schema::{
     Described, Schema, file_schema, fraction, names, object, one_of, parameter, parameters, positive, text,
     variable, with,
@@ -45,7 +48,8 @@ pub use schema::{
 #[doc(hidden)]
 pub use schema::{Field, describe_table};
 pub use storeys::read_floors;
-pub use toml_text::{parse_document, parse_toml, read_value};
+pub use syntax::{number, parse_document};
+pub use toml_text::{parse_toml, read_value};
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]

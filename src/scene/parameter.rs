@@ -1,6 +1,5 @@
 //! Parameters of a scene: names, groups, kinds and limits come from the model description.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
@@ -11,28 +10,12 @@ use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::error::{Place, SceneError};
+use super::keys::{
+    BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, unknown_key,
+};
 use super::nearest::suggestion;
-use super::toml_text::{NUMBER, parse_document, read_value};
-
-/// A table of parameters: names and values with their places.
-pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
-
-/// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
-pub const POINTS: &str = "points";
-/// The key in `[geometry]` that chooses small or full rotations.
-pub const KINEMATICS: &str = "kinematics";
-
-/// The key in `[tie]` of the bar, a table of its own.
-pub(super) const BAR: &str = "bar";
-/// The table that holds the tie.
-pub(super) const TIE_GROUP: &str = "tie";
-/// The parameters that follow from the bar of a tie.
-pub(super) const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
-
-/// The name in `force_law` that stands for a law of points.
-pub(super) const MULTILINEAR: &str = "multilinear";
-/// The table that holds the kinematics.
-pub(super) const KINEMATICS_GROUP: &str = "geometry";
+use super::syntax::{NUMBER, number, parse_document};
+use super::toml_text::read_value;
 
 /// Returns the names of the inputs of the model description.
 pub fn input_names() -> impl Iterator<Item = &'static str> {
@@ -220,16 +203,6 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Reads a number, whole or not.
-pub fn number(value: &Value) -> Option<f64> {
-    #[allow(clippy::cast_precision_loss, reason = "a whole number beyond 2⁵³ is beyond every limit too")]
-    match value {
-        Value::Float(number) => Some(*number),
-        Value::Integer(number) => Some(*number as f64),
-        _ => None,
-    }
-}
-
 /// Checks a number against the limits of a variable of the model description.
 ///
 /// # Errors
@@ -244,18 +217,4 @@ fn read_points(value: &Value) -> Option<Vec<[f64; 2]>> {
         _ => None,
     };
     value.as_array()?.iter().map(pair).collect()
-}
-
-/// Says of a key that a table does not hold where it belongs, or what the table holds; `table` is empty for
-/// the file itself.
-pub(super) fn unknown_key(name: &str, table: &str, known: &[&str]) -> String {
-    let is_of_wall = table.is_empty() || GROUPS.iter().any(|(group, _)| *group == table);
-    let group = GROUPS.iter().find(|(_, names)| names.contains(&name)).map(|(group, _)| *group);
-    let group = group.or((name == KINEMATICS).then_some(KINEMATICS_GROUP));
-    if let Some(group) = group.filter(|_| is_of_wall) {
-        return format!("{name:?} belongs in [{group}]");
-    }
-    let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
-    let meant = suggestion(name, known.iter().copied());
-    format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
 }

@@ -14,7 +14,7 @@ use toml::{Spanned, Table, Value};
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, BarNumber, Kinematics};
 
-use super::parameter::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
+use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
 
 /// What a schema says about a value, or about a whole file.
 pub type Schema = Table;
