@@ -21,8 +21,9 @@
 //! | `request` | what the page asks for, and what is wrong with it, field by field |
 //! | `parameters` | what the page's fields need to know of the model description |
 //! | `upload` | the record file that the user has dropped |
-//! | `check` | the check by a code |
+//! | `check_table` | the table `[check]` of a scene file |
 //! | `scene` | from a request to a scene, and to its text |
+//! | `check` | the check by a code |
 //! | `verdict` | the result in a sentence, and its numbers |
 //! | `charts` | the charts of a run |
 //! | `fragility` | the fragility of a wall under twenty synthetic motions |
@@ -33,6 +34,7 @@
 mod boundary;
 mod charts;
 mod check;
+mod check_table;
 mod fragility;
 mod parameters;
 mod request;

@@ -8,7 +8,7 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
-use crate::check;
+use crate::check_table;
 use crate::request::{Faults, Fields, Inputs, fault_of};
 use crate::upload::Upload;
 
@@ -42,7 +42,7 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
     // a multiple of the step of the motion
     scene.output_step *= (scene.stop_time / (MOST_POINTS * scene.output_step)).ceil().max(1.0);
     scene.title = title(&scene);
-    let toml = to_toml(&scene, &motion) + &check::table(&inputs.check);
+    let toml = to_toml(&scene, &motion) + &check_table::table(&inputs.check);
     Ok(Prepared { scene, wall, toml })
 }
 

@@ -4,6 +4,17 @@ use std::fmt::Write;
 
 use crate::escaped;
 
+/// What the axes count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Both count the values.
+    Linear,
+    /// x counts the values, spaced by their logarithms; y counts the values.
+    LogarithmicAcross,
+    /// x counts the values, spaced by their logarithms. y counts exponents of ten.
+    Logarithmic,
+}
+
 /// Writes a number as people do, with at most `digits` digits. Far from 1 it has a power of ten.
 ///
 /// ```

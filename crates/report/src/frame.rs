@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::axes::{label, number, ticks, write_text, write_upwards};
+use crate::axes::{Scale, label, number, ticks, write_text, write_upwards};
 use crate::escaped;
-use crate::plot::{Look, Scale, Series};
+use crate::series::{Look, Series};
 
 /// Width of a character of 12 px, about \[px\].
 pub(crate) const CHARACTER: f64 = 7.1;

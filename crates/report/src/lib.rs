@@ -27,6 +27,7 @@ pub mod page;
 pub mod palette;
 pub mod plot;
 pub mod points;
+mod series;
 pub mod sheet;
 pub mod table;
 pub mod template;

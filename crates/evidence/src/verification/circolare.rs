@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rocking_wall::scene::Scene;
 
-use super::studies::{SIX_DIGITS, within};
+use super::given::{SIX_DIGITS, within};
 use crate::{Comparison, EvidenceError};
 use check::CheckFile;
 use check::circolare::{

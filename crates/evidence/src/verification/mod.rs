@@ -1,12 +1,15 @@
 //! The formulas of `docs/model.md`, each against a reference that does not come from this program.
 //!
+//! Each module uses only modules above it in this table:
+//!
 //! | module | holds |
 //! |---|---|
 //! | `scenes` | the variables of a wall in scenes, and their references |
-//! | `studies` | numbers of spectra, capacity, fragilities |
+//! | `given` | computed numbers beside given ones |
 //! | `overturning` | rigid walls under pulses, and their steady rocking |
 //! | `circolare` | the worked examples of the check by Circolare 7/2019 |
 //! | `paper` | the paper's tables of damping ratios |
+//! | `studies` | numbers of spectra, capacity, fragilities |
 //! | [`page`] | the manual: on a terminal, as JSON, as Markdown, as a page |
 //!
 //! The texts and the scenes stand in `formulas.toml`, the references of the scenes in `references.csv`.
@@ -20,6 +23,7 @@
 //! ```
 
 mod circolare;
+mod given;
 mod overturning;
 pub mod page;
 mod paper;

@@ -11,12 +11,12 @@ use ground_motion::{Pulse, Shape};
 use rocking_wall::scene::SceneError;
 use rocking_wall::simulation::{Excitation, RunError, Simulation, segment_of};
 use rocking_wall::solver::Segment;
-use rocking_wall::variables::Impact;
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support};
 use run::bisection::first_true;
 use study::spectrum::{PulseForm, over_pulses};
 
-use super::studies::{Comparisons, rigid, within};
+use super::given::{Comparisons, within};
 use crate::EvidenceError;
 
 /// p of a parapet of 4 m without overburden \[1/s\], and a₀ of one with b/h = 0.1 \[m/s²\].
@@ -31,6 +31,15 @@ const HALVINGS: u32 = 16;
 /// Half the bracket of a threshold over it: of pulses that are sampled, and of those that are not.
 const SAMPLED: f64 = 1e-6;
 const UNSAMPLED: f64 = 1e-9;
+
+/// The default wall with the rigid-linear law, without damping.
+pub(super) fn rigid() -> Parameters {
+    Parameters {
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        ..Parameters::default()
+    }
+}
 
 fn restituted(restitution: f64) -> Parameters {
     Parameters { impact: Impact::Restitution, restitution, u_start: 0.0, ..rigid() }

@@ -8,14 +8,14 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
+use super::given::{Comparisons, SIX_DIGITS, within};
+use super::overturning::rigid;
 use super::{circolare, overturning, paper};
-use crate::{Comparison, EvidenceError};
+use crate::Comparison;
 use check::fractions::{Demand, Fractions, check};
 use study::fragility::{FragilityFunction, Lognormal, Sample, fit};
 use study::hazard::HazardCurve;
 use study::ida::Exceedance;
-
-pub(super) type Comparisons = Result<Vec<Comparison>, EvidenceError>;
 
 /// A name in `formulas.toml`, and what computes the numbers of a formula that no scene shows.
 type Study = (&'static str, fn() -> Comparisons);
@@ -45,28 +45,6 @@ pub(super) fn compare(name: &str) -> Comparisons {
 
 /// 45 units of rounding.
 const ROUNDING: f64 = 1e-14;
-/// Half a unit of the sixth digit.
-pub(super) const SIX_DIGITS: f64 = 5e-6;
-
-/// Compares computed numbers with given ones: case, quantity, unit, both numbers.
-pub(super) fn within<C: Into<String>, Q: Into<String>>(
-    allowed: f64,
-    rows: impl IntoIterator<Item = (C, Q, &'static str, f64, f64)>,
-) -> Vec<Comparison> {
-    let compare = |(case, quantity, unit, computed, given)| {
-        Comparison::new((case, quantity, unit), [computed, given], allowed)
-    };
-    rows.into_iter().map(compare).collect()
-}
-
-pub(super) fn rigid() -> Parameters {
-    Parameters {
-        force_law: ForceLaw::RigidLinear,
-        damping_model: DampingModel::None,
-        ..Parameters::default()
-    }
-}
-
 /// Eqs. (13), (14), (17) and (5) at e = 0.9 and θ₀/α = 0.9 in decimal arithmetic of 40 digits.
 fn equivalences() -> Vec<Comparison> {
     let [eq_13, eq_14] = [equivalence::priestley(0.9, 0.9, 2), equivalence::makris_konstantinidis(0.9)];

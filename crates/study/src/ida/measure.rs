@@ -1,10 +1,20 @@
 //! Intensity measures.
 
 use ground_motion::spectrum::AVERAGE_PERIODS;
-use ground_motion::{GroundMotion, GroundMotionError, STANDARD_GRAVITY, Spectrum};
+use ground_motion::{GroundMotion, GroundMotionError, STANDARD_GRAVITY, Spectrum, Unit};
 use rocking_wall::wall::Usual;
 
 use super::unit::IntensityUnit;
+
+/// Converts an intensity of a study file to SI units.
+pub type ToSi = fn(f64) -> f64;
+
+/// Units of velocities and lengths, with what converts them.
+const VELOCITIES: [(&str, ToSi); 3] = [("cm/s", |x| x / 100.0), ("m/s", |x| x), ("mm/s", |x| x / 1000.0)];
+const LENGTHS: [(&str, ToSi); 3] = [("cm", |x| x / 100.0), ("m", |x| x), ("mm", |x| x / 1000.0)];
+/// Units of the cumulative absolute velocity.
+const G_SECONDS: [(&str, ToSi); 3] =
+    [("g s", |x| x * STANDARD_GRAVITY), ("m/s", |x| x), ("cm/s", |x| x / 100.0)];
 
 /// Intensity measure by which records are scaled; spectral ones are at 5 % damping.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,8 +194,95 @@ impl IntensityMeasure {
             Self::Code { .. } => "a_g".into(),
         }
     }
+
+    /// Returns what converts an intensity in a unit to SI units; without a name, in the unit of results.
+    ///
+    /// # Errors
+    /// A message with the units of the measure, if the unit is none of them.
+    pub fn to_si(&self, unit: Option<&str>) -> Result<ToSi, String> {
+        let own = self.unit();
+        let name = unit.unwrap_or(own.name());
+        let units = match own {
+            IntensityUnit::Gravity => {
+                let unit: Unit = name.parse().map_err(|_| {
+                    format!("unit {name:?} of {}: expected m/s2, cm/s2, mm/s2 or g", self.name())
+                })?;
+                return Ok(match unit {
+                    Unit::MetrePerSecondSquared => |x| Unit::MetrePerSecondSquared.to_si(x),
+                    Unit::CentimetrePerSecondSquared => |x| Unit::CentimetrePerSecondSquared.to_si(x),
+                    Unit::MillimetrePerSecondSquared => |x| Unit::MillimetrePerSecondSquared.to_si(x),
+                    Unit::StandardGravity => |x| Unit::StandardGravity.to_si(x),
+                });
+            }
+            IntensityUnit::CentimetrePerSecond | IntensityUnit::MetrePerSecond => VELOCITIES,
+            IntensityUnit::Centimetre => LENGTHS,
+            IntensityUnit::GravitySecond => G_SECONDS,
+        };
+        let found = units.iter().find(|(known, _)| *known == name);
+        found.map(|(_, to_si)| *to_si).ok_or_else(|| {
+            let known: Vec<_> = units.iter().map(|(known, _)| *known).collect();
+            format!("unit {name:?} of {}: expected {}", self.name(), known.join(", "))
+        })
+    }
 }
 
 fn listed(values: &[f64]) -> String {
     values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_their_sizes() {
+        for (measure, unit, size) in [
+            (IntensityMeasure::Pga, None, 9.806_65),
+            (IntensityMeasure::Pga, Some("cm/s2"), 0.01),
+            (IntensityMeasure::Pgv, None, 0.01),
+            (IntensityMeasure::Pgv, Some("m/s"), 1.0),
+            (IntensityMeasure::Pgd, Some("mm"), 0.001),
+            (IntensityMeasure::Arias, None, 1.0),
+            (IntensityMeasure::Cav, None, 9.806_65),
+            (IntensityMeasure::Housner, None, 0.01),
+            (IntensityMeasure::Pga, Some("mm/s2"), 0.001),
+            (IntensityMeasure::Pga, Some("m/s2"), 1.0),
+            (IntensityMeasure::Pga, Some("g"), 9.806_65),
+            (IntensityMeasure::Pgv, Some("mm/s"), 0.001),
+            (IntensityMeasure::Pgd, Some("m"), 1.0),
+            (IntensityMeasure::Pgd, Some("cm"), 0.01),
+            (IntensityMeasure::Arias, Some("cm/s"), 0.01),
+            (IntensityMeasure::Cav, Some("m/s"), 1.0),
+            (IntensityMeasure::Cav, Some("cm/s"), 0.01),
+        ] {
+            assert_eq!(measure.to_si(unit).unwrap()(1.0), size, "{measure:?} {unit:?}");
+            // what is written is read again
+            let own = measure.unit();
+            assert_eq!(measure.to_si(Some(own.name())).unwrap()(1.0), own.size());
+        }
+        let told = IntensityMeasure::Arias.to_si(Some("cm")).unwrap_err();
+        assert_eq!(told, "unit \"cm\" of Arias: expected cm/s, m/s, mm/s");
+        let told = IntensityMeasure::Pgv.to_si(Some("g")).unwrap_err();
+        assert_eq!(told, "unit \"g\" of PGV: expected cm/s, m/s, mm/s");
+        assert_eq!(IntensityUnit::Gravity.shown(9.806_65), "9.80665 m/s² (1 g)");
+        assert_eq!(IntensityUnit::MetrePerSecond.shown(2.0), "2 m/s");
+    }
+
+    #[test]
+    fn units_have_their_names() {
+        for (measure, name, ending, si, si_ending, shown) in [
+            (IntensityMeasure::Pga, "g", "_g", "m/s²", "_m_s2", "0.5 m/s² (0.0509858 g)"),
+            (IntensityMeasure::Pgv, "cm/s", "_cm_s", "m/s", "_m_s", "0.5 m/s (50 cm/s)"),
+            (IntensityMeasure::Pgd, "cm", "_cm", "m", "_m", "0.5 m (50 cm)"),
+            (IntensityMeasure::Housner, "cm", "_cm", "m", "_m", "0.5 m (50 cm)"),
+            (IntensityMeasure::Arias, "m/s", "_m_s", "m/s", "_m_s", "0.5 m/s"),
+            (IntensityMeasure::Cav, "g s", "_g_s", "m/s", "_m_s", "0.5 m/s (0.0509858 g s)"),
+        ] {
+            let unit = measure.unit();
+            assert_eq!((unit.name(), unit.ending().as_str()), (name, ending));
+            assert_eq!((unit.si(), unit.si_ending().as_str()), (si, si_ending));
+            assert_eq!(unit.shown(0.5), shown);
+            assert_eq!(unit.of(0.5) * unit.size(), 0.5);
+        }
+    }
 }

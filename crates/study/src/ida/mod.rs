@@ -47,9 +47,9 @@ use run::walls::NamedWall;
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
-pub use measure::{IntensityMeasure, Misfit};
+pub use measure::{IntensityMeasure, Misfit, ToSi};
 pub use polarity::Polarity;
-pub use unit::{IntensityUnit, ToSi};
+pub use unit::IntensityUnit;
 
 /// Most combinations of a study whose runs and collapses are written as CSV too, with the sensitivity of each
 /// collapse. Runs of larger studies are in the parts only.
