@@ -8,15 +8,18 @@
 //! pieces of the restoring force per unit effective mass, and of the [`Corner`]s between them. A solver sees
 //! only the branch it is on.
 //!
-//! A file uses only those that stand before it here:
+//! Each module uses only modules above it in this table, or before it in its row:
 //!
-//! ```text
-//! equivalence   warning   error   sides   ratio   given          what can be said of numbers
-//! usual   bar   parameters   usage                               what is given
-//! mechanism   force_law   damping   trigonometric   tie          what is made of it
-//! restitution   statics   warnings
-//! branch   equation   layout   supports   capacity   facts       the wall
-//! ```
+//! | module | holds |
+//! |---|---|
+//! | [`equivalence`] | damping that restitution is worth, and the other way round |
+//! | `warning`, `error` | what a user is told |
+//! | `sides`, `ratio` | quantities of both sides; the ratios of damping |
+//! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
+//! | `bar`, `parameters`, `usage` | what is given, and which of it has an effect |
+//! | `mechanism`, `force_law`, `damping`, `trigonometric`, `tie` | what is made of it |
+//! | [`restitution`], `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
+//! | `branch`, `equation`, `layout`, `supports`, `capacity`, `facts` | the wall, its branches and its curve |
 
 mod bar;
 mod branch;

@@ -12,16 +12,16 @@
 //! One code serves a run by itself and eight side by side: a number is a vector of one lane.
 //! docs/record-path.md has the bounds, their proofs and the course of a run.
 //!
-//! A file uses only those that stand before it here:
+//! Each module uses only modules above it in this table, or before it in its row:
 //!
-//! ```text
-//! number   affine   forcing                  numbers of lanes; a step as a map; samples
-//! table   solver                             the branches of a wall, prepared
-//! responses   common   blocks   run          a record, prepared; a run
-//! lanes   branches   line                    runs in lanes, and where they are
-//! corners   turns   plain   regularised   curved   steps of lanes
-//! schedule   together   batch                which lane takes which step, and which run which lane
-//! ```
+//! | module | holds |
+//! |---|---|
+//! | `number`, `affine`, `forcing` | numbers of lanes; steps as maps; samples |
+//! | `table`, `solver` | the branches of a wall, prepared for a step |
+//! | `responses`, `common`, `blocks`, `run` | a record, prepared; a run, its end and its outcome |
+//! | `lanes`, `branches`, `line` | the runs in lanes, and the branches that they are on |
+//! | `corners`, `turns`, `plain`, `regularised`, `curved` | the steps |
+//! | `schedule`, `together`, `batch` | which lane takes which step, which run which lane |
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
