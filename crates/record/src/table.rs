@@ -43,7 +43,7 @@ pub(crate) enum Law {
     Stiffness,
 }
 
-/// How a branch is left at a corner: the numbers of `Table::exits`, in the order that `cross` compares.
+/// How a branch is left at a corner: the numbers of `BranchTable::exits`, in the order that `cross` compares.
 pub(crate) mod end_kind {
     /// By the general search for events.
     pub(crate) const CLOSED: f64 = 0.0;

@@ -7,7 +7,7 @@ mod output;
 use std::ffi::OsString;
 use std::io::Write;
 
-use clap::{CommandFactory, Parser};
+use clap::FromArgMatches;
 
 use commands::Arguments;
 use output::Console;
@@ -17,7 +17,7 @@ const BAD_INPUT: u8 = 2;
 
 /// Returns the commands of the program, with their help.
 pub fn command() -> clap::Command {
-    Arguments::command()
+    Arguments::described()
 }
 
 /// Runs the program with its arguments, the first of which is its name. Results go to `out`, messages to
@@ -34,7 +34,8 @@ pub fn run<T: Into<OsString> + Clone>(
     err: &mut dyn Write,
 ) -> u8 {
     let console = Console::new(out, err);
-    let told = match Arguments::try_parse_from(arguments) {
+    let parsed = command().try_get_matches_from(arguments);
+    let told = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments.run(&console),
         Err(refused) if refused.use_stderr() => {
             console.to_stderr(&args::in_plain_words(&refused));

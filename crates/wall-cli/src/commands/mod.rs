@@ -42,10 +42,10 @@ enum Command {
     /// Print what record files hold, or write a motion as CSV
     #[command(allow_negative_numbers = true)]
     Record(record::Arguments),
-    /// Run a study: ida, merge, spectrum, tie or calibrate
+    /// Run a study
     #[command(subcommand)]
     Study(study::Command),
-    /// Is the program right? formulas, tests, paper, accuracy, stability
+    /// Is the program right?
     #[command(subcommand)]
     Verify(verify::Subject),
     /// Print the JSON schema of scenes, studies or buildings
@@ -58,6 +58,18 @@ enum Command {
 }
 
 impl Arguments {
+    /// Returns the commands. What one with parts is for ends with their names.
+    pub(crate) fn described() -> clap::Command {
+        Self::command().mut_subcommands(|command| {
+            let parts: Vec<_> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let (Some(about), false) = (command.get_about(), parts.is_empty()) else { return command };
+            let about = about.to_string();
+            let colon = if about.ends_with('?') { "" } else { ":" };
+            let about = format!("{about}{colon} {}", parts.join(", "));
+            command.about(about)
+        })
+    }
+
     /// Runs the command with its arguments.
     pub(crate) fn run(&self, console: &Console<'_>) -> Result<u8> {
         match &self.command {
@@ -72,7 +84,7 @@ impl Arguments {
             Command::Schema(arguments) => schema::run(console, arguments),
             Command::Completions { shell } => {
                 let mut script = Vec::new();
-                clap_complete::generate(*shell, &mut Self::command(), "wall", &mut script);
+                clap_complete::generate(*shell, &mut Self::described(), "wall", &mut script);
                 console.print(&String::from_utf8_lossy(&script))
             }
         }
