@@ -34,6 +34,7 @@ pub mod file;
 pub mod free_motion;
 pub mod model;
 pub mod motions;
+mod named_wall;
 pub mod page;
 pub mod parallel;
 pub mod polarity;

@@ -7,8 +7,8 @@ use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text};
 use rocking_wall::wall::Parameters;
 
+use crate::named_wall::NamedWall;
 use crate::wall_parameters::{check_parameter, wall_parameters};
-use crate::walls::NamedWall;
 
 /// Largest table that is read.
 const MAX_FILE_BYTES: u64 = 256 << 20;

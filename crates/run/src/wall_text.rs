@@ -5,8 +5,8 @@ use rocking_wall::scene::{
 };
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
+use crate::named_wall::NamedWall;
 use crate::wall_parameters::{WALL_GROUPS, is_of_models};
-use crate::walls::NamedWall;
 
 /// Writes the parameters and storeys of a wall as tables of a study file.
 pub fn wall_text(wall: &NamedWall) -> String {

@@ -12,41 +12,9 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
+pub use crate::named_wall::{DECIDING, NamedWall, assumed};
 use crate::wall_parameters::{OF_MODELS, WALL_GROUPS, is_of_models};
 use crate::wall_table;
-
-/// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedWall {
-    /// Name in tables and messages.
-    pub name: String,
-    /// Parameters. The coefficient of restitution that they state or imply serves every model, ξ and c̄ each
-    /// model that takes it and has none of its own.
-    pub parameters: Parameters,
-    /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
-    pub floors: Option<Floors>,
-    /// Those of [`DECIDING`] that nobody stated.
-    pub assumed: Vec<&'static str>,
-    /// Parameters that its file states, and numbers of its bar by their names outside of `[tie.bar]`; `None`
-    /// of a wall of no file, of which nothing is a default.
-    pub stated: Option<Vec<&'static str>>,
-    /// The place of its table in the list of walls that was read.
-    pub entry: usize,
-}
-
-/// Parameters without which a wall is not checked, with their groups: no default decides a verdict.
-pub const DECIDING: [(&str, &str); 5] = [
-    ("geometry", "height"),
-    ("geometry", "thickness"),
-    ("geometry", "density"),
-    ("geometry", "hinge_ratio"),
-    ("force_law", "a1"),
-];
-
-/// Returns those of [`DECIDING`] that are not stated.
-pub fn assumed(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
-    DECIDING.into_iter().filter(|(group, name)| !is_stated(group, name)).map(|(_, name)| name).collect()
-}
 
 /// Returns the parameters that a file states, by their groups, and the numbers of a bar, of the group `bar`.
 fn stated(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
@@ -73,19 +41,6 @@ fn scene_and_stated(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneErro
     let bar = group("tie").and_then(|tie| tie.get("bar")?.get_ref().as_table());
     let of = |name: &str| if name == "bar" { bar } else { group(name) };
     Ok((scene, stated(|group, key| of(group).is_some_and(|group| group.contains_key(key)))))
-}
-
-impl NamedWall {
-    /// Takes the names of the parameters that its file states; no other is stated.
-    #[must_use]
-    pub(crate) fn stating(self, stated: Vec<&'static str>) -> Self {
-        Self { assumed: assumed(|_, name| stated.contains(&name)), stated: Some(stated), ..self }
-    }
-
-    /// Makes a wall on the ground, all of whose parameters are stated.
-    pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), stated: None, entry: 0 }
-    }
 }
 
 /// A wall of a study.
