@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Fault, GroundMotionError};
 use crate::fields::{lines, real};
+use crate::file::read_bounded;
 use crate::options::RecordOptions;
-use crate::record::read_bounded;
 use crate::times::Times;
 
 /// Returns whether a file has the times of a record beside it, as `dts_3.csv` of `acc_3.csv`; it is no

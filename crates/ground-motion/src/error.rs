@@ -2,8 +2,6 @@
 
 use std::io;
 
-use crate::format::Format;
-
 /// Why a ground motion could not be read or made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -54,11 +52,8 @@ pub enum GroundMotionError {
     #[error("{found:?} is not an acceleration; expected a number in m/s2, or one with a unit, such as 0.3g")]
     Acceleration { found: String },
     /// A record format that is not known.
-    #[error(
-        "unknown record format `{found}`; use one of {}",
-        Format::ALL.map(Format::name).join(", ")
-    )]
-    Format { found: String },
+    #[error("unknown record format `{found}`; use one of {known}")]
+    Format { found: String, known: String },
     /// The file could not be opened or read, or is not a regular file, or larger than any record.
     #[error("{file}: cannot be read: {reason}")]
     Io { file: String, reason: io::Error },

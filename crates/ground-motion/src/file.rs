@@ -4,7 +4,10 @@ use std::fs::{File, metadata};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-use crate::error::Fault;
+use crate::error::{Fault, GroundMotionError};
+
+/// Largest file that is read: about four million samples in AT2, hours of shaking.
+pub const MAX_FILE_BYTES: u64 = 64 << 20;
 
 /// Reads a regular file of at most `limit` bytes; `what` says in messages what it should be.
 ///
@@ -138,4 +141,10 @@ fn named(bytes: &[u8]) -> Option<[&'static str; 2]> {
 /// Returns the line, from 1, of a place in bytes.
 fn line_of(bytes: &[u8], at: usize) -> usize {
     bytes[..at].split(|&byte| byte == b'\n').count()
+}
+
+/// Reads a record file, or one beside it.
+pub(crate) fn read_bounded(path: &Path, name: &str) -> std::result::Result<Vec<u8>, GroundMotionError> {
+    read_file(path, "a record", MAX_FILE_BYTES)
+        .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
 }

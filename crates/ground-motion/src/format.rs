@@ -98,7 +98,10 @@ impl FromStr for Format {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let known = Self::ALL.into_iter().find(|format| text.trim().eq_ignore_ascii_case(format.name()));
-        known.ok_or_else(|| GroundMotionError::Format { found: text.chars().take(40).collect() })
+        known.ok_or_else(|| GroundMotionError::Format {
+            found: text.chars().take(40).collect(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
     }
 }
 

@@ -23,7 +23,20 @@
 //! damaged or which is cut short is refused; the message names file, line, what was expected, what was found
 //! and what to do. A [`GroundMotion`] that exists is valid: a positive step, at least two samples, all
 //! finite. Units are converted where a file is read and nowhere else.
+//!
+//! # Modules
+//! Each module uses only modules above it in this table, or before it in its row:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `error`, `unit`, `warning`, `motion` | what is refused and warned of; a motion |
+//! | `file`, `format`, `quantity`, `acceleration` | files; formats; what a unit measures |
+//! | `fields`, `options`, `times`, `vertical`, [`columns`] | numbers in texts; what the user states |
+//! | `parsed`, `readers` | one channel as a reader returns it; a reader for each format |
+//! | `companion`, `record`, `check` | record files, and how they are checked |
+//! | `pulse`, `synthetic`, [`spectrum`], `storeys`, `intensity`, `spectrum_file` | motions, and what they do |
 
+mod acceleration;
 mod check;
 pub mod columns;
 mod companion;
@@ -46,20 +59,23 @@ mod synthetic;
 mod times;
 mod unit;
 mod vertical;
+mod warning;
 
-pub use check::{Check, Warning};
+pub use acceleration::Acceleration;
+pub use check::Check;
 pub use companion::{is_companion, is_listed};
 pub use error::GroundMotionError;
-pub use file::{escapes, read_file, shown_path, utf8_text};
+pub use file::{MAX_FILE_BYTES, escapes, read_file, shown_path, utf8_text};
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;
 pub use pulse::{Pulse, Shape};
 pub use readers::CSV_HEADER;
-pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_channels};
+pub use record::{Record, parse, parse_channels, read, read_channels};
 pub use spectrum::{Maxima, Spectrum};
 pub use spectrum_file::SpectrumFile;
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
-pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};
+pub use unit::{STANDARD_GRAVITY, Unit};
 pub use vertical::is_vertical_channel;
+pub use warning::Warning;

@@ -2,10 +2,10 @@
 
 use std::iter::Peekable;
 
-use crate::check::Warning;
 use crate::error::Fault;
 use crate::fields::{Layout, Numbered, leading_real, rounding};
 use crate::unit::Unit;
+use crate::warning::Warning;
 
 /// How many lines of a header are kept, and how many characters of each.
 const HEADER_LINES: usize = 4;

@@ -1,6 +1,8 @@
 //! The quantity that a unit measures: an acceleration, or what files state in its place.
 
-use crate::error::Fault;
+use std::str::FromStr;
+
+use crate::error::{Fault, GroundMotionError};
 use crate::unit::Unit;
 
 /// The quantity of a unit.
@@ -200,4 +202,25 @@ fn parts(plain: &str) -> Option<(&str, u8)> {
     let squared = without(&SQUARED).map(|length| (length, 2));
     let (length, power) = squared.or(without(&PLAIN).map(|length| (length, 1))).unwrap_or((plain, 0));
     size_of(length, &LENGTHS).map(|_| (length, power))
+}
+
+/// Reads the usual spellings, in any case: `m/s2`, `m/s^2`, `m/s²`, `m/s**2`, `m/s/s`, `m/sec2`, `m/sec/sec`,
+/// `m s-2`, `m.s⁻²`, each of them with `cm` or `mm` too, and `gal` and `g`.
+impl FromStr for Unit {
+    type Err = GroundMotionError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match Quantity::of(text) {
+            Some(Quantity::Acceleration(unit)) => Ok(unit),
+            _ => Err(GroundMotionError::Unit { found: text.chars().take(40).collect() }),
+        }
+    }
+}
+
+impl TryFrom<String> for Unit {
+    type Error = GroundMotionError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
 }

@@ -2,19 +2,16 @@
 
 use std::path::Path;
 
-use crate::check::Warning;
 use crate::companion::Companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
-use crate::file::{check_is_text, read_file, shown_path};
+use crate::file::{check_is_text, read_bounded, shown_path};
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical;
-
-/// Largest file that is read: about four million samples in AT2, hours of shaking.
-pub const MAX_FILE_BYTES: u64 = 64 << 20;
+use crate::warning::Warning;
 
 /// Longest time step of a file that is read without being stated too (s).
 const LONGEST_STEP: f64 = 1.0;
@@ -84,7 +81,7 @@ impl Parsed {
 
 /// Reads a record file: its only channel, or the one that is asked for.
 ///
-/// Only regular files of at most [`MAX_FILE_BYTES`] are read; memory stays within a small multiple of the
+/// Only regular files of at most [`MAX_FILE_BYTES`](crate::MAX_FILE_BYTES) are read; memory stays within a small multiple of the
 /// file.
 ///
 /// # Errors
@@ -203,11 +200,6 @@ fn not_one(file: &str, wanted: &str, channels: &[String]) -> GroundMotionError {
     let more = if channels.len() > MOST { ", …" } else { "" };
     let found = if names.is_empty() { "one without a name".to_owned() } else { names.join(", ") + more };
     GroundMotionError::Channel { file: file.to_owned(), wanted: wanted.to_owned(), found }
-}
-
-pub(crate) fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
-    read_file(path, "a record", MAX_FILE_BYTES)
-        .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
 }
 
 /// Decodes UTF-8, or else Latin-1, in which old headers name stations.

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use crate::check::Warning;
 use crate::columns::{Columns, Name};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
 use crate::options::RecordOptions;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
+use crate::warning::Warning;
 
 /// Largest file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;

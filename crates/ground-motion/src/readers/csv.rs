@@ -17,7 +17,6 @@
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
 use super::numbers;
-use crate::check::Warning;
 use crate::columns::{Columns, Name};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close, no_unit};
@@ -25,6 +24,7 @@ use crate::parsed::Parsed;
 use crate::quantity::Quantity;
 use crate::times::Times;
 use crate::unit::Unit;
+use crate::warning::Warning;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
 /// name, so that no unit may follow it. They take the first column for the time whatever its name is, so the

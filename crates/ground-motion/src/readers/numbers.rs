@@ -9,7 +9,7 @@
 //! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
 //! table.
 
-use crate::check::Warning;
+use crate::warning::Warning;
 use crate::columns::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Numbered, all_lines, lines, real, touching};

@@ -19,11 +19,11 @@
 
 use super::components::{MOST, components, push_row};
 use super::header::value;
-use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Layout, Numbered, check_count, find, positive, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
+use crate::warning::Warning;
 
 /// Longest header; files have 109 lines, blank ones included.
 const HEADER_LINES: usize = 300;

@@ -19,13 +19,13 @@
 use std::iter::Peekable;
 
 use super::one_by_one;
-use crate::check::Warning;
 use crate::error::{CUT_SHORT, Fault, UNEVEN, excerpt};
 use crate::fields::{Layout, Numbered, after, find, leading_number, positive, real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical::is_vertical;
+use crate::warning::Warning;
 
 /// Longest text above the numbers of a channel.
 const TEXT_LINES: usize = 30;

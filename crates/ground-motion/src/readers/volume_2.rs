@@ -3,13 +3,13 @@
 
 use std::iter::Peekable;
 
-use crate::check::Warning;
 use crate::error::{CUT_SHORT, DAMAGED, Fault, excerpt};
 use crate::fields::{Layout, Numbered, after, find, leading_number, leading_real, untrimmed_lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical::is_vertical;
+use crate::warning::Warning;
 
 /// Longest name of a channel: enough for every name, short enough for a list of them.
 const NAME_CHARACTERS: usize = 40;
