@@ -9,6 +9,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `error` | errors |
+//! | `rows` | a table that grows wall by wall |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `tables` | the rows of the tables of all studies |
@@ -22,6 +23,7 @@
 //! | `subject` | walls and classes, with their fragilities |
 //! | `shown` | their tables and plots on the page, classes first |
 //! | `nrml` | fragility functions in the format of risk engines |
+//! | `pelicun` | fragilities as components of pelicun |
 //! | `rates` | annual rates of walls and classes |
 //! | `losses` | losses of walls and classes |
 //! | `samples` | samples of uncertain parameters, and what they explain |
@@ -61,7 +63,7 @@ pub(crate) use curves::each_wall;
 pub use error::FolderError;
 pub use merge::merge;
 pub use part::{decode, encode};
-pub(crate) use report::MOST_WALLS;
 pub use report::{Report, finish};
 pub(crate) use rows::Rows;
 pub use store::{FILES, Folder};
+pub(crate) use subject::MOST_WALLS;

@@ -22,10 +22,9 @@ use super::risk::Risk;
 use super::rows::Rows;
 use super::samples::Sampled;
 use super::store::{Folder, OPTIONAL, PAGE};
+use super::subject::MOST_WALLS;
 use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, with_ends};
 
-/// Most walls that the page and the summary show one by one.
-pub(crate) const MOST_WALLS: usize = 40;
 /// Most fits that a warning names.
 const NAMED: usize = 3;
 

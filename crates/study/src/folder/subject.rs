@@ -6,7 +6,9 @@ use crate::fragility::{
 use crate::results::WallResults;
 
 use super::contents::Manifest;
-use super::report::MOST_WALLS;
+
+/// Most walls that the page and the summary show one by one.
+pub(crate) const MOST_WALLS: usize = 40;
 
 /// A wall, or a class of walls.
 pub(crate) struct Subject<'a> {

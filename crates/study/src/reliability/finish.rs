@@ -1,10 +1,7 @@
 //! All results of a complete folder: tables and page, made wall by wall.
 
-use std::fmt::Write as _;
-
 use report::counted;
 use run::file;
-use run::sample::{fractile, sorted};
 
 use super::class::Class;
 use super::{FILES, Reliability, page, table};
@@ -45,35 +42,10 @@ pub fn finish(folder: &Folder, reliability: &Reliability, threads: usize) -> Res
     rows.commit()?;
     rules.commit()?;
     Ok(Report {
-        summary: words(&class, &models, reliability.target) + &summary.text(),
+        summary: table::words(&class, &models, reliability.target) + &summary.text(),
         warnings: warnings(&class),
         files: paths.into(),
     })
-}
-
-/// Says how safe the walls are, model by model.
-pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
-    let mut text = String::new();
-    for (model, name) in models.iter().enumerate() {
-        let falls = sorted(class.falls(model).map(|(_, found)| found.probability));
-        let fractile = |part: f64| fractile(&falls, part);
-        let (Some(least), Some(median), Some(most)) = (fractile(0.05), fractile(0.5), fractile(0.95)) else {
-            continue;
-        };
-        let above = falls.iter().filter(|probability| **probability > target).count();
-        // writing to a String cannot fail
-        let _ = writeln!(
-            text,
-            "{name}: {} that just pass{} fall with a probability of {} in the median ({} to {} from 5 to \
-             95 %); P > {target} for {above}",
-            counted(falls.len(), "wall"),
-            if falls.len() == 1 { "es" } else { "" },
-            table::probability(median, class.least),
-            table::probability(least, class.least),
-            table::probability(most, class.least),
-        );
-    }
-    text
 }
 
 fn warnings(class: &Class) -> Vec<String> {

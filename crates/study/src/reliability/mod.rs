@@ -10,10 +10,12 @@
 //!
 //! An event is that |u| exceeds the displacement capacity of a check, or that the wall falls.
 //!
+//! Each module uses only modules above it in this table:
+//!
 //! | module | holds |
 //! |---|---|
-//! | `wall` | one wall: its checks, its events, their probabilities |
 //! | `rules` | the numbers of the code that would give a stated probability |
+//! | `wall` | one wall: its checks, its events, their probabilities |
 //! | `class` | all walls together |
 //! | `table` | the tables |
 //! | `page` | the page |

@@ -10,7 +10,7 @@ use report::table::{Digits, Table};
 use report::{counted, escaped};
 
 use super::class::{Class, Found, QUANTITIES};
-use super::{Reliability, finish, table};
+use super::{Reliability, table};
 use crate::folder::Manifest;
 use crate::folder::tables::in_g;
 use crate::ida::Misfit;
@@ -26,7 +26,7 @@ pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let target = reliability.target;
     let code = reliability.codes.shared().entry().title;
-    let told = finish::words(class, &models, target);
+    let told = table::words(class, &models, target);
     let told: Vec<_> = told.lines().map(|line| format!("<li>{}</li>", escaped(line))).collect();
     let told = told.concat();
     let mut page = Page::new(&format!("{}: how safe is a wall that passes?", reliability.title))

@@ -8,8 +8,6 @@ use check::{Code, Rule, Subject};
 
 use crate::fragility::Lognormal;
 
-use super::wall::Checkpoint;
-
 /// Numbers at which a factor is tried, on each side of that of the code, and how many double it.
 const TRIED: i32 = 9;
 const TO_DOUBLE: f64 = 3.0;
@@ -34,20 +32,21 @@ pub struct Turned {
 
 /// Seeks the numbers, model by model; `fall` holds the fragility of the fall with each.
 pub(super) fn turned(
-    (code, subject): (&dyn Code, Subject<'_>),
-    checks: &[Checkpoint],
+    code: &dyn Code,
+    subject: Subject<'_>,
+    checks: impl Iterator<Item = &'static str>,
     fall: &[Option<Lognormal>],
     target: f64,
 ) -> Vec<Vec<Turned>> {
     let mut turned = vec![Vec::new(); fall.len()];
     for check in checks {
         for rule in Rule::ALL {
-            let Some(own) = code.rule(check.check, rule) else { continue };
+            let Some(own) = code.rule(check, rule) else { continue };
             // ln a_g with which the wall just passes
             let ground = |value: f64| {
-                let varied = code.with_rule(check.check, rule, value)?;
+                let varied = code.with_rule(check, rule, value)?;
                 let verdict = varied.check(subject).ok()?;
-                let rows = verdict.rows.iter().filter(|row| row.check == check.check);
+                let rows = verdict.rows.iter().filter(|row| row.check == check);
                 let least = rows.filter_map(|row| row.ground).map(|[ag, _]| ag).fold(f64::INFINITY, f64::min);
                 least.is_finite().then(|| libm::log(least * verdict.code.gravity))
             };
@@ -56,7 +55,7 @@ pub(super) fn turned(
             for (of_model, curve) in turned.iter_mut().zip(fall) {
                 let wanted = curve.map(|curve| libm::log(curve.intensity(target)));
                 let value = wanted.and_then(|wanted| nearest(&tried, own, wanted, &ground));
-                of_model.push(Turned { check: check.check, rule, code: own, value });
+                of_model.push(Turned { check, rule, code: own, value });
             }
         }
     }

@@ -1,6 +1,9 @@
 //! The tables of a study of reliability.
 
+use std::fmt::Write as _;
+
 use ground_motion::STANDARD_GRAVITY;
+use report::counted;
 use report::table::{Cell, Digits, Table};
 use run::sample::{fractile, sorted};
 
@@ -149,4 +152,29 @@ pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table
         table = table.number("", heading, THREE, move |(_, values)| fractile(values, part));
     }
     table.done()
+}
+
+/// Says how safe the walls are, model by model.
+pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
+    let mut text = String::new();
+    for (model, name) in models.iter().enumerate() {
+        let falls = sorted(class.falls(model).map(|(_, found)| found.probability));
+        let fractile = |part: f64| fractile(&falls, part);
+        let (Some(least), Some(median), Some(most)) = (fractile(0.05), fractile(0.5), fractile(0.95)) else {
+            continue;
+        };
+        let above = falls.iter().filter(|probability| **probability > target).count();
+        // writing to a String cannot fail
+        let _ = writeln!(
+            text,
+            "{name}: {} that just pass{} fall with a probability of {} in the median ({} to {} from 5 to \
+             95 %); P > {target} for {above}",
+            counted(falls.len(), "wall"),
+            if falls.len() == 1 { "es" } else { "" },
+            probability(median, class.least),
+            probability(least, class.least),
+            probability(most, class.least),
+        );
+    }
+    text
 }

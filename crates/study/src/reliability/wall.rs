@@ -129,7 +129,7 @@ impl WallReliability {
         let events: Vec<Event> = events.collect();
         let fall = events.last().map_or(&[][..], |fall| &fall.fragilities);
         let fall: Vec<Option<Lognormal>> = fall.iter().map(|summary| summary.fitted.ok()).collect();
-        let turned = rules::turned((code, subject), &checks, &fall, target);
+        let turned = rules::turned(code, subject, checks.iter().map(|check| check.check), &fall, target);
         let hinges = [parameters.hinge_ratio, verdict.details.parameters().hinge_ratio];
         let differs =
             parameters.mechanism == Mechanism::VerticalSpanning && (hinges[0] - hinges[1]).abs() > SAME_HINGE;
