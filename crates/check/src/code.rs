@@ -21,42 +21,17 @@
 
 use std::fmt;
 
-use rocking_wall::scene::{Floors, Scene, Schema};
+use rocking_wall::scene::{Floors, Scene};
 use rocking_wall::wall::Parameters;
 
+use crate::entry::Entry;
 use crate::error::CheckError;
-use crate::file::CheckFile;
 use crate::find::Sought;
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
 
-/// A code among the others.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// The value of `code` in `[check]`.
-    pub name: &'static str,
-    /// Its name for people.
-    pub title: &'static str,
-    /// Its source, for the head of a report.
-    pub source: &'static str,
-    /// Symbol of the ratio of capacity to demand, which names columns: `zeta_E`.
-    pub symbol: &'static str,
-    /// g in which its ground accelerations are stated \[m/s²\].
-    pub gravity: f64,
-    /// Names of the checks that tables of walls show.
-    pub checks: &'static [&'static str],
-    /// The smallest table `[check]` that it takes, in one line.
-    pub example: &'static str,
-    /// Keys that a wall of a file of walls may state alone; of `a|b` one replaces the other.
-    pub(crate) of_wall: &'static [&'static str],
-    /// Describes the keys of that table for a JSON schema.
-    pub(crate) describe: fn(&str, &mut Schema) -> Schema,
-    /// Reads that table.
-    pub(crate) read: fn(&CheckFile<'_>) -> Result<Box<dyn Code>, CheckError>,
-}
-
 /// What an engineer states by a code: the table `[check]`, validated, ready to check walls.
-pub trait Code: fmt::Debug + Send + Sync {
+pub trait Code: InStudies + fmt::Debug + Send + Sync {
     /// Which code.
     fn entry(&self) -> Entry;
 
@@ -69,7 +44,10 @@ pub trait Code: fmt::Debug + Send + Sync {
 
     /// The records that the table names.
     fn records(&self) -> &Records;
+}
 
+/// What searches and studies ask of a code beyond its verdict. Each default is that of a code without it.
+pub trait InStudies {
     /// The parameters of a wall with the tie that the table states.
     ///
     /// # Errors
@@ -165,6 +143,10 @@ impl Rule {
 
     /// Its name in tables.
     pub fn name(self) -> &'static str {
-        ["fraction of d_0", "factor of the period", "q"][self as usize]
+        match self {
+            Self::Fraction => "fraction of d_0",
+            Self::PeriodFactor => "factor of the period",
+            Self::BehaviourFactor => "q",
+        }
     }
 }

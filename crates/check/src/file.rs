@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{
-    Described, Fault, Place, SceneError, Schema, parse_document, read_text, read_value, suggestion,
-};
+use rocking_wall::scene::{Described, Fault, Place, SceneError, parse_document, read_text, read_value};
 use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -12,8 +10,6 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use crate::CODES;
-use crate::code::Code;
 use crate::error::CheckError;
 use crate::report::ReportTable;
 use crate::report::project::SiteOfProject;
@@ -21,31 +17,6 @@ use crate::site::Records;
 
 /// Largest grid of the hazard that is read.
 const MAX_GRID_BYTES: u64 = 64 << 20;
-
-/// Says how to write a table `[check]`.
-pub fn how_to_write() -> String {
-    let names = CODES.map(|code| format!("{:?}", code.name)).join(", ");
-    let example = CODES[0].example;
-    format!("the codes are {names}; in one line above all tables: {example}")
-}
-
-/// Reads the table `[check]` of a file.
-///
-/// # Errors
-/// [`CheckError`] without a table, of an unknown code, or of the first value that cannot be used.
-pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
-    let names = CODES.map(|code| format!("{:?}", code.name));
-    let Some(name) = file.code() else {
-        return Err(CheckError::wall(format!("the table [check] is missing; {}", how_to_write())));
-    };
-    if let Some(code) = CODES.into_iter().find(|code| code.name == name) {
-        return (code.read)(file);
-    }
-    let given = if name.is_empty() { "code is missing".to_owned() } else { format!("code = {name:?}") };
-    let meant = suggestion(name, CODES.iter().map(|code| code.name));
-    let message = format!("{given}{meant}; state one of {}", names.join(", "));
-    Err(CheckError::value(&["code"], message))
-}
 
 /// Returns the text of a file with assignments to its table `[check]`, such as `check.soil=C`, behind it: see
 /// [`CheckFile::parse_with`].
@@ -346,15 +317,4 @@ pub(crate) fn lines_of_grid(grid: &str, folder: &Path) -> Result<String, SceneEr
         return Ok(grid.to_owned());
     }
     read_text(&folder.join(grid), "a grid of the hazard (CSV)", MAX_GRID_BYTES)
-}
-
-/// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
-pub fn complete(schema: &mut Schema) {
-    let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") else { return };
-    let mut tables = Schema::new();
-    let codes = CODES.map(|code| (code.describe)("check", &mut tables)).to_vec();
-    check.insert("anyOf".to_owned(), codes.into());
-    if let Some(all) = schema["$defs"].as_table_mut() {
-        all.extend(tables);
-    }
 }

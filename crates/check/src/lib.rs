@@ -5,22 +5,25 @@ pub mod circolare;
 pub mod fractions;
 
 mod code;
+mod codes;
+mod entry;
 mod error;
 mod file;
 mod find;
+mod names;
 mod report;
 mod site;
 mod verdict;
 mod walls;
 
-pub use code::{Code, Entry, Rule, Subject};
+pub use code::{Code, InStudies, Rule, Subject};
+pub use codes::{CODES, complete, how_to_write, read};
+pub use entry::Entry;
 pub use error::CheckError;
-pub use file::{CheckFile, complete, how_to_write, read, with_assignments};
+pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
+pub use names::{Deciding, LimitState, Side};
 pub use report::{Figure, Language, Origin, ReportTable, page, page_of_walls, report_schema, terms};
 pub use site::{Level, Records};
 pub use verdict::{Details, Ends, Raise, Row, Verdict};
 pub use walls::{WallCodes, WallVerdicts, check_walls};
-
-/// The codes: a new one is a module above and an entry here.
-pub const CODES: [Entry; 2] = [circolare::ENTRY, fractions::ENTRY];

@@ -88,3 +88,33 @@ pub(crate) fn interpolated(points: &[(f64, f64)], period: f64) -> Result<f64, St
         }
     }
 }
+
+/// Returns `T_R` = −`V_R`/ln(1 − P) of NTC 2.4.3, in the unit of `V_R`.
+pub(crate) fn return_period(reference: f64, exceeded: f64) -> f64 {
+    -reference / libm::log1p(-exceeded)
+}
+
+/// Says why coordinates are no place; `None` where they are.
+pub(crate) fn no_place([latitude, longitude]: [f64; 2]) -> Option<String> {
+    let is_place = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
+    (!is_place).then(|| {
+        format!(
+            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
+             [42.35, 13.40]"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::return_period;
+
+    /// NTC 2.4.3: the years of ordinary buildings, `V_R` = 50 years, are printed as 50, 475 and 975.
+    #[test]
+    fn return_periods_are_those_of_the_code() {
+        for (exceeded, years) in [(0.63, 50.0), (0.10, 475.0), (0.05, 975.0)] {
+            // printed without decimals
+            assert!((return_period(50.0, exceeded) - years).abs() < 0.5, "{exceeded}");
+        }
+    }
+}

@@ -7,7 +7,7 @@ use report::table::{Column, Digits, Table};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
-use crate::code::Entry;
+use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::report::{Figure, Origin, overview, the_wall};
 
@@ -29,8 +29,8 @@ pub struct Verdict<'a> {
     pub raise: Option<Raise>,
     /// What is to be said of the rows, in sentences.
     pub notes: Vec<String>,
-    /// What the engineer should know, and [`Parameters::unusual`](rocking_wall::wall::Parameters::unusual); none of
-    /// it stops the check.
+    /// What the engineer should know, and
+    /// [`Parameters::unusual`](rocking_wall::wall::Parameters::unusual); none of it stops the check.
     pub warnings: Vec<String>,
     /// What only this code knows.
     pub details: Box<dyn Details + Send + 'a>,

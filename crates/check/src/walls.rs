@@ -10,10 +10,11 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
-use crate::CODES;
-use crate::code::{Code, Entry, Subject};
+use crate::code::{Code, Subject};
+use crate::codes::{CODES, read};
+use crate::entry::Entry;
 use crate::error::CheckError;
-use crate::file::{CheckFile, read};
+use crate::file::CheckFile;
 use crate::verdict::Verdict;
 
 /// The outcomes of walls by one code, the worst first.

@@ -3,12 +3,12 @@
 use report::apart;
 use rocking_wall::wall::TiePart;
 
-use super::side_verdict::SideVerdict;
+use super::sides::SideVerdict;
 use super::statement::Statement;
 use super::table::AtActivation;
-use super::verdict::Deciding;
 use crate::code::Subject;
 use crate::find::Sought;
+use crate::names::Deciding;
 
 /// Says what blocks a check of a wall that has the last value of a search.
 pub(super) fn reason(

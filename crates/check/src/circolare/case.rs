@@ -1,19 +1,17 @@
-//! A wall as the static checks take it, and its checks with the hinge in one place.
+//! A wall as the static checks take it.
 
 use rocking_wall::scene::Floors;
-use rocking_wall::variables::{Mechanism, Rocking, Softening, TieSide};
+use rocking_wall::variables::{ForceLaw, Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
 
-use super::checks::{Checks, modes_of_storeys};
-use super::curve::{Curve, has_plateau};
-use super::demand::Demand;
-use super::hinge;
+use super::demand::{Demand, Demands};
+use super::floor::modes_of_storeys;
 use super::statement::Statement;
 use super::states::{Source, StateStatement};
 use super::table::{Activation, Hinge, Rocks};
-use super::verdict::Side;
 use crate::code::Subject;
 use crate::error::CheckError;
+use crate::names::Side;
 
 /// A wall as the static checks take it.
 #[derive(Clone)]
@@ -32,11 +30,8 @@ pub(super) struct Case<'a> {
     /// Whether both sides are alike.
     pub(super) alike: bool,
     /// The demands, where they do not depend on the hinge.
-    shared: Option<Demands>,
+    pub(super) shared: Option<Demands>,
 }
-
-/// The demands of SLD, SLV and SLC; `None` for one that is not stated.
-pub(super) type Demands = [Option<Demand>; 3];
 
 impl<'a> Case<'a> {
     /// # Errors
@@ -104,7 +99,7 @@ impl<'a> Case<'a> {
             let demand = match &given.source {
                 Source::Code(ground) => {
                     let modes = if given.modes.is_empty() {
-                        modes_of_storeys(given, self.floors, body)?
+                        modes_of_storeys(self.floors, given.building_period, body)?
                     } else {
                         given.modes.clone()
                     };
@@ -117,66 +112,6 @@ impl<'a> Case<'a> {
             demands[given.state as usize] = Some(demand);
         }
         Ok(demands)
-    }
-
-    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h; `tied` says whether the
-    /// tie counts.
-    ///
-    /// # Errors
-    /// [`CheckError`] of a wall or a demand that has no check.
-    pub(super) fn at(
-        &self,
-        sign: f64,
-        hinge: Option<f64>,
-        tied: bool,
-    ) -> Result<(Curve, Checks), CheckError> {
-        self.of_these(sign, (hinge, tied), [true; 4])
-    }
-
-    /// The same with those of the checks that are wanted, in the order of
-    /// [`Deciding::ALL`](super::verdict::Deciding::ALL).
-    pub(super) fn of_these(
-        &self,
-        sign: f64,
-        (hinge, tied): (Option<f64>, bool),
-        wanted: [bool; 4],
-    ) -> Result<(Curve, Checks), CheckError> {
-        let named = |error: CheckError| match hinge {
-            Some(hinge) if self.rule != Some(Hinge::Given) => error.at_hinge(hinge),
-            _ => error,
-        };
-        let found = || {
-            let curve = Curve::new(self, sign, hinge, tied)?;
-            let demands = match &self.shared {
-                Some(shared) => shared,
-                None => &self.demands_at(curve.body())?,
-            };
-            let checks = Checks::new(&curve, self.statement, demands, wanted)?;
-            Ok((curve, checks))
-        };
-        found().map_err(named)
-    }
-
-    /// The place of the least α0 on a side, of h \[-\], C8.7.1.2.1.1.
-    pub(super) fn least_alpha0(&self, sign: f64) -> Result<f64, CheckError> {
-        let alpha0 = |x: f64| {
-            Curve::new(self, sign, Some(x), true).map(|curve| curve.alpha0).map_err(|error| error.at_hinge(x))
-        };
-        let range @ [from, to] = self.statement.hinge_range;
-        // F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r = O (b + 2c)/[2 (W + O) b]
-        if self.statement.masonry.is_none() && !has_plateau(&self.parameters) {
-            let curve = Curve::new(self, sign, Some(0.5 * (from + to)), true)?;
-            let Body { weight, overburden, height, .. } = *curve.body();
-            let first = 2.0 * (weight + overburden) * self.parameters.thickness;
-            let h1 = curve.body().hinge_height;
-            let second = (curve.body().strength.of(sign) - first / h1) * (height - h1);
-            let ratio = second / first;
-            // the ends are walls, too
-            alpha0(from)?;
-            alpha0(to)?;
-            return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
-        }
-        Ok(hinge::least(hinge::FINE, range, |x, _| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
     }
 }
 
@@ -213,8 +148,7 @@ fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activati
         let message = "the curve of the code has small rotations; set kinematics = \"linear\"";
         return Err(CheckError::wall(message));
     }
-    let is_rigid = parameters.multilinear.is_none()
-        && parameters.force_law == rocking_wall::variables::ForceLaw::RigidLinear;
+    let is_rigid = parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear;
     match statement.table.before_activation {
         // transverse walls hold it
         None if parameters.rocking != Rocking::TwoSided && !has_plateau(parameters) => Ok(Activation::Rigid),
@@ -244,4 +178,9 @@ fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f6
         ),
         (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
     }
+}
+
+/// Returns whether the law has a plateau or points of its own, not only a line from `a_0`.
+pub(super) fn has_plateau(parameters: &Parameters) -> bool {
+    parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear
 }

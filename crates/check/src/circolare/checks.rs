@@ -1,139 +1,23 @@
-//! The static checks of a side, and what governs a wall.
+//! The static checks of a side.
 
 use report::apart;
-use rocking_wall::scene::Floors;
-use rocking_wall::wall::{Body, Warning};
 use serde::Serialize;
 
-use super::case::{Case, Demands};
-use super::curve::Curve;
-use super::demand::Demand;
-use super::floor::Mode;
-use super::side_verdict::{ActivationCheck, AtActivationNumbers, DisplacementCheck, TieBreak};
+use super::case::Case;
+use super::curve::{Curve, TieBreak};
+use super::demand::{Demand, Demands};
 use super::statement::{Displacements, Statement};
 use super::states::StateStatement;
-use super::table::{AtActivation, Method, UseClass};
+use super::table::{AtActivation, Hinge, Method};
 use super::tie::TieAtLimit;
-use super::verdict::{Checked, Deciding, DynamicCheck, Governs, Outcome, Side, SideVerdicts};
-use super::{ENTRY, LimitState};
-use crate::code::Subject;
 use crate::error::CheckError;
+use crate::names::{Deciding, LimitState};
 
 /// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
 /// C8.7.1.2.1.6 \[-\].
 pub const LARGEST_LOSS: f64 = 0.5;
 /// Largest `u_y`/`u_0` of a tie that acts at the activation \[-\].
 const SOFTEST: f64 = 0.10;
-
-impl Statement {
-    /// Checks a wall.
-    ///
-    /// ```
-    /// use check::circolare::Statement;
-    /// use check::{CheckFile, Subject};
-    /// use rocking_wall::wall::Parameters;
-    ///
-    /// let text = r#"
-    /// [check]
-    /// code = "circolare-2019"
-    /// before_activation = "rigid"
-    /// soil = "B"
-    /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
-    /// "#;
-    /// let statement = Statement::read(&CheckFile::parse("scene.toml", text)?)?;
-    /// let parameters = Parameters::default();
-    /// let checked = statement.checked(Subject::new(&parameters))?;
-    /// assert!(!checked.outcome.passed && (checked.outcome.governs.zeta - 0.855812).abs() < 5e-7);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`CheckError`] of a statement that is missing or does not fit the wall, of a wall that the code does
-    /// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they
-    /// may be the cause.
-    pub fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
-        self.check_wall(subject).map_err(|error| {
-            let of_wall = subject.parameters.unusual();
-            error.with_doubts(of_wall.chain(super::warnings::improbable(self, subject.floors)).collect())
-        })
-    }
-
-    fn check_wall<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
-        let case = Case::new(self, subject)?;
-        let mut found_sides = [None, None];
-        let mut warnings = Vec::new();
-        for sign in case.sides().take(if case.alike { 1 } else { 2 }) {
-            let (verdict, found) = super::sides::side(&case, sign)?;
-            warnings.extend(found);
-            found_sides[Side::of(sign) as usize] = Some(verdict);
-        }
-        let [positive, negative] = found_sides;
-        let negative = if case.alike { positive.clone() } else { negative };
-        let sides = SideVerdicts { positive, negative };
-        let floors = subject.floors;
-        let dynamic = super::dynamic::check(subject.parameters, &case, &sides)?;
-        let governs = governing(self, &sides, dynamic.as_ref())?;
-        let passed = governs.zeta >= 1.0
-            && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
-        // the wall as it is drawn: with the hinge of the side that governs
-        let mut parameters = case.parameters.clone();
-        let hinge = sides.shown(governs.side).and_then(|side| side.curve.hinge);
-        parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
-        let wall = super::sides::drawn(&parameters)?;
-        let demands = case.demands_at(wall.body())?;
-        let of_statement = super::warnings::of_statement(self, &parameters, floors, &wall);
-        let of_demands = super::warnings::of_demands(self, &demands);
-        warnings.splice(0..0, of_statement.into_iter().chain(of_demands));
-        let of_sides = sides.iter().flat_map(|(_, side)| super::warnings::of_side(side, self, &demands));
-        warnings.extend(of_sides.collect::<Vec<_>>());
-        warnings.extend(super::warnings::of_untied_side(&case, &sides, governs.side));
-        warnings.extend(super::warnings::of_periods(&sides));
-        warnings.extend(super::warnings::of_verdict(&case, &sides, passed));
-        warnings.extend(super::warnings::of_sensitivity(&case, &sides));
-        if let Some(dynamic) = &dynamic {
-            warnings.extend(super::warnings::of_rocking(self, subject.parameters));
-            warnings.extend(dynamic.warnings(&case));
-        }
-        let mut seen = std::collections::BTreeSet::new();
-        warnings.retain(|warning| seen.insert(warning.clone()));
-        let alike = case.alike;
-        let outcome = Outcome { code: ENTRY.name, passed, governs, alike, sides, dynamic, warnings };
-        Ok(Checked { statement: self, parameters, floors, wall, rule: case.rule, demands, outcome })
-    }
-
-    /// Returns whether a static check decides. The runs of the dynamic method take the hinge of the checks by
-    /// displacement.
-    pub(super) fn decides(&self, check: Deciding) -> bool {
-        match check {
-            Deciding::Sld => self.table.use_class == Some(UseClass::IV),
-            Deciding::SlvWithQ => self.table.method == Method::Linear,
-            Deciding::Slv | Deciding::Slc => self.table.method != Method::Linear,
-        }
-    }
-}
-
-/// The modes of the storeys of a scene, `γ_k` `ψ_k` by the weights of the wall's supports. Their periods are
-/// in proportion where the limit state has its own T₁.
-pub(super) fn modes_of_storeys(
-    given: &StateStatement,
-    floors: Option<&Floors>,
-    body: &Body,
-) -> Result<Vec<Mode>, CheckError> {
-    let Some(floors) = floors else { return Ok(Vec::new()) };
-    let (bottom, top) = floors.supports(body.mechanism)?;
-    let [at_bottom, at_top] = body.support_weights;
-    let chain = floors.storeys();
-    let shape = |floor: usize, mode: usize| if floor == 0 { 0.0 } else { chain.participation(mode, floor) };
-    let periods = chain.periods();
-    let stretch = given.building_period.map_or(1.0, |period| period / periods[0]);
-    let mode = |(index, period): (usize, &f64)| Mode {
-        period: period * stretch,
-        participation: at_bottom * shape(bottom, index) + top.map_or(0.0, |top| at_top * shape(top, index)),
-    };
-    let modes: Vec<Mode> = periods.iter().enumerate().map(mode).collect();
-    // supports on the ground move with it
-    Ok(if modes.iter().all(|mode| mode.participation == 0.0) { Vec::new() } else { modes })
-}
 
 /// The checks of a side; `None` for one that is not made.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -153,6 +37,44 @@ pub struct Checks {
 }
 
 impl Checks {
+    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h; `tied` says whether the
+    /// tie counts.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a wall or a demand that has no check.
+    pub(super) fn at(
+        case: &Case<'_>,
+        sign: f64,
+        hinge: Option<f64>,
+        tied: bool,
+    ) -> Result<(Curve, Self), CheckError> {
+        Self::of_these(case, sign, (hinge, tied), [true; 4])
+    }
+
+    /// The same with those of the checks that are wanted, in the order of
+    /// [`Deciding::ALL`].
+    pub(super) fn of_these(
+        case: &Case<'_>,
+        sign: f64,
+        (hinge, tied): (Option<f64>, bool),
+        wanted: [bool; 4],
+    ) -> Result<(Curve, Self), CheckError> {
+        let named = |error: CheckError| match hinge {
+            Some(hinge) if case.rule != Some(Hinge::Given) => error.at_hinge(hinge),
+            _ => error,
+        };
+        let found = || {
+            let curve = Curve::new(case, sign, hinge, tied)?;
+            let demands = match &case.shared {
+                Some(shared) => shared,
+                None => &case.demands_at(curve.body())?,
+            };
+            let checks = Self::new(&curve, case.statement, demands, wanted)?;
+            Ok((curve, checks))
+        };
+        found().map_err(named)
+    }
+
     /// Makes those of the checks that are wanted, in the order of [`Deciding::ALL`]; SLD raises the last two.
     pub(super) fn new(
         curve: &Curve,
@@ -221,6 +143,84 @@ impl Checks {
         let deciding = all.filter(|(check, _)| statement.decides(*check));
         deciding.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((Deciding::Slv, f64::INFINITY))
     }
+}
+
+/// A wall at its activation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AtActivationNumbers {
+    /// α0 with the tie \[-\].
+    pub alpha0: f64,
+    /// a with the tie, without FC \[m/s²\].
+    #[serde(rename = "a")]
+    pub acceleration: f64,
+    /// T0 with the tie \[s\].
+    #[serde(rename = "T0")]
+    pub t0: f64,
+    /// N of the tie \[N\].
+    #[serde(rename = "tie_force")]
+    pub force: f64,
+}
+
+/// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ActivationCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// Capacity, with FC and, in the linear check, times q \[m/s²\].
+    pub capacity: f64,
+    /// Demand \[m/s²\].
+    pub demand: f64,
+    /// `ζ_E` = capacity/demand \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there \[g\].
+    pub ag: f64,
+    /// Strength of the tie at which `ζ_E` is 1; `None` without a tie, and for one with slack \[N\].
+    #[serde(rename = "tie_required")]
+    pub required: Option<f64>,
+    /// a of the activation, without FC and q \[m/s²\].
+    #[serde(skip)]
+    pub acceleration: f64,
+    /// T0 of the demand \[s\].
+    #[serde(skip)]
+    pub t0: f64,
+}
+
+/// A check of displacements, C8.7.1.2.1.8.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DisplacementCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<f64>,
+    /// `d_SLV` or `d_SLC` \[m\].
+    pub d: f64,
+    /// a there, with FC \[m/s²\].
+    pub a: f64,
+    /// `T_SLV` or `T_SLC` \[s\].
+    #[serde(rename = "T")]
+    pub period: f64,
+    /// `S_e` or `S_eZ` at that period \[m/s²\].
+    #[serde(rename = "S_e")]
+    pub acceleration: f64,
+    /// `S_d` \[m\].
+    pub demand: f64,
+    /// Both terms of [C8.7.1.12]; the second only behind b T₁ \[m\].
+    pub demand_terms: [Option<f64>; 2],
+    /// d/`S_d` \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
+    pub ag: f64,
+    /// `ζ_E` \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+    /// Whether the tie breaks there.
+    pub limited_by_tie: bool,
+    /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
+    #[serde(rename = "raised_to_SLD")]
+    pub raised: bool,
+    /// The tie there and at the demand.
+    #[serde(flatten)]
+    pub tie: Option<TieAtLimit>,
 }
 
 /// C8.7.1.2.1.5 with the capacity times `factor`: `a_0` of a wall that is held, or `a_y`, over FC, with the
@@ -366,31 +366,4 @@ fn displacement(
         raised,
         tie,
     })
-}
-
-/// Returns the smallest `ζ_E` of the checks that decide.
-fn governing(
-    statement: &Statement,
-    sides: &SideVerdicts,
-    dynamic: Option<&DynamicCheck>,
-) -> Result<Governs, CheckError> {
-    let is_dynamic = statement.table.method == Method::Dynamic;
-    let mut all = Vec::new();
-    for (side, verdict) in sides.iter() {
-        for (limit_state, zeta) in Deciding::ALL.into_iter().zip(verdict.checks.zetas()) {
-            let by_runs = is_dynamic && limit_state != Deciding::Sld;
-            if statement.decides(limit_state) && !by_runs && zeta.is_finite() {
-                all.push(Governs { side, limit_state, zeta });
-            }
-        }
-    }
-    if is_dynamic {
-        let Some(dynamic) = dynamic else {
-            let message = "method = \"dynamic\" needs records; add [check.records] with files";
-            return Err(CheckError::value(&["method"], message));
-        };
-        all.extend(dynamic.governs());
-    }
-    let least = all.into_iter().min_by(|a, b| a.zeta.total_cmp(&b.zeta));
-    least.ok_or_else(|| CheckError::wall("no limit state decides; give [check.SLV] or [check.SLC]"))
 }

@@ -15,13 +15,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rocking_wall::variables::{ForceLaw, Mechanism};
+use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
 use serde::Serialize;
 
-use super::case::Case;
+use super::case::{Case, has_plateau};
 use super::set_back::SetBack;
-use super::side_verdict::TieBreak;
 use super::table::Activation;
 use super::tie;
 use crate::error::CheckError;
@@ -86,6 +85,21 @@ pub struct Curve {
     pub dy: f64,
     /// `a_y`, without FC: the largest acceleration before the wall rocks \[m/s²\].
     pub ay: f64,
+}
+
+/// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieBreak {
+    /// u there \[m\].
+    pub u: f64,
+    /// a with the tie there \[m/s²\].
+    pub before: f64,
+    /// The largest a that the wall alone reaches from there on \[m/s²\].
+    pub after: f64,
+    /// The largest a of the whole curve \[m/s²\].
+    pub largest: f64,
+    /// What is lost over the largest \[-\].
+    pub loss: f64,
 }
 
 impl Curve {
@@ -297,9 +311,4 @@ impl Curve {
     pub(super) fn period(factor: f64, displacement: f64, acceleration: f64) -> f64 {
         factor * PI * (displacement / acceleration).sqrt()
     }
-}
-
-/// Returns whether the law has a plateau or points of its own, not only a line from `a_0`.
-pub(super) fn has_plateau(parameters: &Parameters) -> bool {
-    parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear
 }

@@ -4,14 +4,17 @@ use std::f64::consts::TAU;
 
 use ground_motion::{GroundMotion, Maxima, Spectrum};
 
-use super::LimitState;
 use super::floor::FloorSpectrum;
 use super::ground::GroundSpectrum;
 use crate::error::CheckError;
+use crate::names::LimitState;
 use crate::site::interpolated;
 
 /// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.
 pub const MEAN_COUNTS_FROM: usize = 7;
+
+/// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
+pub(super) const LONGEST_PERIOD: f64 = 4.0;
 
 /// Periods at which the largest `S_d` between T0 and `T_SLV` is searched.
 const SEARCHED: u32 = 200;
@@ -28,6 +31,9 @@ pub enum Demand {
     /// The mean spectrum of records at the wall's place, or their envelope.
     Records(Vec<GroundMotion>),
 }
+
+/// The demands of SLD, SLV and SLC; `None` for one that is not stated.
+pub(super) type Demands = [Option<Demand>; 3];
 
 impl Demand {
     /// The spectrum of the ground by the code, where the demand comes from it.

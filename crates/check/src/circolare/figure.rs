@@ -4,12 +4,13 @@ use ::report::palette::{BLACK, BLUE, GREEN, Mark, RED};
 use ::report::plot::{Axis, Look, Plot, Series};
 use ::report::points::simplified;
 
-use super::LimitState;
+use super::checks::DisplacementCheck;
 use super::demand::Demand;
-use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::sides::SideVerdict;
 use super::statement::Statement;
 use super::states::StateStatement;
 use crate::error::CheckError;
+use crate::names::LimitState;
 use crate::report::markup::shown;
 
 /// Size of spectra and of capacity over demand \[px\].

@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use rocking_wall::scene::{Floors, SceneError};
+use rocking_wall::wall::Body;
+
 use super::ground::{GroundSpectrum, damping_factor};
 
 /// a and b of C7.2.3: the spectrum has its largest value from a `T_k` to b `T_k`.
@@ -27,6 +30,29 @@ impl Mode {
         let n = f64::from(storeys);
         Self { period, participation: 3.0 * n / (2.0 * n + 1.0) * height_ratio }
     }
+}
+
+/// The modes of the storeys of a scene, `γ_k` `ψ_k` by the weights of the wall's supports. Their periods are
+/// in proportion where a first one is stated \[s\].
+pub(super) fn modes_of_storeys(
+    floors: Option<&Floors>,
+    first_period: Option<f64>,
+    body: &Body,
+) -> Result<Vec<Mode>, SceneError> {
+    let Some(floors) = floors else { return Ok(Vec::new()) };
+    let (bottom, top) = floors.supports(body.mechanism)?;
+    let [at_bottom, at_top] = body.support_weights;
+    let chain = floors.storeys();
+    let shape = |floor: usize, mode: usize| if floor == 0 { 0.0 } else { chain.participation(mode, floor) };
+    let periods = chain.periods();
+    let stretch = first_period.map_or(1.0, |period| period / periods[0]);
+    let mode = |(index, period): (usize, &f64)| Mode {
+        period: period * stretch,
+        participation: at_bottom * shape(bottom, index) + top.map_or(0.0, |top| at_top * shape(top, index)),
+    };
+    let modes: Vec<Mode> = periods.iter().enumerate().map(mode).collect();
+    // supports on the ground move with it
+    Ok(if modes.iter().all(|mode| mode.participation == 0.0) { Vec::new() } else { modes })
 }
 
 /// The spectrum of a limit state at the height of a wall.

@@ -26,34 +26,41 @@ pub enum Soil {
     E,
 }
 
+/// What Tab. 3.2.IV and 3.2.VII have of a soil.
+struct OfSoil {
+    /// `S_S` = a − b F0 `a_g`/g from a least to a largest value: a, b, least, largest.
+    amplification: [f64; 4],
+    /// `C_C` = c `T_C`*^d: c, d.
+    period_factor: [f64; 2],
+    /// `T_E` \[s\].
+    long_period: f64,
+}
+
 impl Soil {
+    fn row(self) -> OfSoil {
+        let row =
+            |amplification, period_factor, long_period| OfSoil { amplification, period_factor, long_period };
+        match self {
+            Self::A => row([1.00, 0.00, 1.00, 1.00], [1.00, 0.00], 4.5),
+            Self::B => row([1.40, 0.40, 1.00, 1.20], [1.10, -0.20], 5.0),
+            Self::C => row([1.70, 0.60, 1.00, 1.50], [1.05, -0.33], 6.0),
+            Self::D => row([2.40, 1.50, 0.90, 1.80], [1.25, -0.50], 6.0),
+            Self::E => row([2.00, 1.10, 1.00, 1.60], [1.15, -0.40], 6.0),
+        }
+    }
+
     /// `S_S` of Tab. 3.2.IV for F0 `a_g`/g \[-\].
     fn amplification(self, x: f64) -> f64 {
-        let ([most, slope, low, high], ..) = SOILS[self as usize];
+        let [most, slope, low, high] = self.row().amplification;
         (most - slope * x).clamp(low, high)
     }
 
     /// `C_C` of Tab. 3.2.IV for `T_C`* \[s\].
     fn period_factor(self, tc: f64) -> f64 {
-        let (_, [factor, exponent], _) = SOILS[self as usize];
+        let [factor, exponent] = self.row().period_factor;
         factor * libm::pow(tc, exponent)
     }
-
-    /// `T_E` of Tab. 3.2.VII \[s\].
-    fn long_period(self) -> f64 {
-        SOILS[self as usize].2
-    }
 }
-
-/// Of soils A to E: `S_S` = a − b F0 `a_g`/g from a least to a largest value, `C_C` = c `T_C`*^d of Tab.
-/// 3.2.IV, and `T_E` of Tab. 3.2.VII \[s\].
-const SOILS: [([f64; 4], [f64; 2], f64); 5] = [
-    ([1.00, 0.00, 1.00, 1.00], [1.00, 0.00], 4.5),
-    ([1.40, 0.40, 1.00, 1.20], [1.10, -0.20], 5.0),
-    ([1.70, 0.60, 1.00, 1.50], [1.05, -0.33], 6.0),
-    ([2.40, 1.50, 0.90, 1.80], [1.25, -0.50], 6.0),
-    ([2.00, 1.10, 1.00, 1.60], [1.15, -0.40], 6.0),
-];
 
 /// Category of topography of Tab. 3.2.V.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -80,7 +87,9 @@ impl Topography {
     pub(super) fn factor(self) -> f64 {
         match self {
             Self::Factor(factor) => factor,
-            Self::Category(category) => [1.0, 1.2, 1.2, 1.4][category as usize],
+            Self::Category(Category::T1) => 1.0,
+            Self::Category(Category::T2 | Category::T3) => 1.2,
+            Self::Category(Category::T4) => 1.4,
         }
     }
 }
@@ -163,7 +172,7 @@ impl GroundSpectrum {
             t_b: t_c / 3.0,
             t_c,
             t_d: 4.0 * ag + 1.6,
-            t_e: soil.long_period(),
+            t_e: soil.row().long_period,
         }
     }
 

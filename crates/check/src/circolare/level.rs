@@ -2,9 +2,10 @@
 
 use rocking_wall::scene::Floors;
 
-use super::G;
 use super::case::Case;
 use super::compatibility::{Compatibility, Ratios};
+use super::ground::G;
+use super::sides::SideVerdict;
 use super::statement::Statement;
 use super::states::{Source, StateStatement};
 use super::table::{Polarities, RecordScale};
@@ -34,13 +35,13 @@ pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
     // only a scale by the spectrum asks how far it counts
     if statement.table.record_scale == RecordScale::Spectrum {
         for sign in case.sides() {
-            let (side, _) = super::sides::side(&case, sign)?;
+            let side = SideVerdict::new(&case, sign)?;
             longest = longest.max(side.displacement(given.state).map_or(0.0, |check| check.period));
         }
     }
     let (factors, compatibility) = scaled(&case, given, longest)?;
     let of_records = compatibility.iter().flat_map(|own| own.warnings(name, factors.iter().copied()));
-    let of_rocking = super::warnings::of_rocking(statement, subject.parameters);
+    let of_rocking = statement.differs_in_rocking(subject.parameters);
     let warnings = of_rocking.into_iter().chain(of_records).collect();
     let both_signs = statement.table.polarities == Polarities::Both;
     let floors = subject.floors.map(|floors| floors.in_state(given.building_damping, given.building_period));

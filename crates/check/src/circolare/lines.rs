@@ -1,6 +1,7 @@
 //! Intermediate numbers of a side, in the order in which a terminal has them.
 
-use super::side_verdict::{DisplacementCheck, SideVerdict};
+use super::checks::DisplacementCheck;
+use super::sides::SideVerdict;
 
 /// A name, its unit, the number in that unit of a number in SI units, and that number of a side.
 pub(super) type Line = (&'static str, &'static str, f64, fn(&SideVerdict) -> Option<f64>);

@@ -3,28 +3,25 @@
 //!
 //! docs/model.md states the rule and the readings taken where the code can be read in two ways.
 //!
-//! | file | holds |
-//! |---|---|
-//! | `table` | the table `[check]` as it is written |
-//! | `statement`, `states` | the table `[check]`, validated |
-//! | `grid`, `site` | the hazard of a site from a grid, and what limit states take from it |
-//! | `ground`, `floor` | spectra on the ground and at a height |
-//! | `case` | a wall as the check takes it, and its checks with the hinge in one place |
-//! | `curve`, `set_back`, `tie` | a(d) of one side of a wall, its hinges and its tie |
-//! | `hinge` | the search of the hinge |
-//! | `sides` | a side by the rule on its hinge |
-//! | `demand` | what a limit state demands |
-//! | `checks` | the static checks and what governs |
-//! | `verdict`, `side_verdict` | the outcome |
-//! | `level`, `compatibility` | records at the level of a limit state, and their spectra |
-//! | `dynamic` | runs under records |
-//! | `blocks` | why no tie of a search passes |
-//! | `warnings` | what the engineer should know |
-//! | `rows` | the outcome as the verdict that every code has |
-//! | `figure`, `report` | spectra, curves, and the sections of the report |
+//! Files import downwards only, from the ground:
+//!
+//! | floor | file | holds |
+//! |---|---|---|
+//! | 1 | `table` | the table `[check]` as it is written |
+//! | 2 | `ground`, `floor`, `demand` | spectra on the ground and at a height; what a limit state demands |
+//! | 3 | `grid`, `site`, `states`, `statement` | the table, validated; the hazard of a site from a grid |
+//! | 4 | `case` | a wall as the check takes it |
+//! | 5 | `curve`, `set_back`, `tie` | a(d) of one side of a wall, its hinges and its tie |
+//! | 6 | `checks` | the static checks of a side with the hinge in one place |
+//! | 7 | `sides`, `hinge` | a side by the rule on its hinge; the search of the hinge |
+//! | 8 | `compatibility`, `level`, `runs`, `dynamic` | records at the level of a limit state; runs |
+//! | 9 | `outcome`, `warnings`, `check`, `blocks` | what governs, what to know; why no tie passes |
+//!
+//! `rows`, `lines`, `figure` and `report` show the outcome.
 
 mod blocks;
 mod case;
+mod check;
 mod checks;
 mod compatibility;
 mod curve;
@@ -37,57 +34,53 @@ mod ground;
 mod hinge;
 mod level;
 mod lines;
+mod outcome;
 mod report;
 mod rows;
+mod runs;
 mod set_back;
-mod side_verdict;
 mod sides;
 mod site;
 mod statement;
 mod states;
 mod table;
 mod tie;
-mod verdict;
 mod warnings;
 
-use rocking_wall::scene::Described;
 use rocking_wall::wall::Parameters;
 
-use crate::code::{Code, Entry, Rule, Subject};
+use crate::code::{Code, InStudies, Rule, Subject};
+use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::find::Sought;
+use crate::names::{Deciding, LimitState};
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
 
-pub use checks::{Checks, LARGEST_LOSS};
+pub use checks::{ActivationCheck, AtActivationNumbers, Checks, DisplacementCheck, LARGEST_LOSS};
 pub use compatibility::{BAND, Compatibility};
-pub use curve::Curve;
+pub use curve::{Curve, TieBreak};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
+pub use dynamic::DynamicCheck;
 pub use floor::{FloorSpectrum, Mode};
 pub use grid::GridUnit;
 pub use ground::{Category, G, GroundSpectrum, Hazard, Soil, Topography, damping_factor};
+pub use outcome::{Checked, Governs, Outcome};
+pub use runs::{DynamicRun, DynamicState, Judged};
 pub use set_back::SetBack;
-pub use side_verdict::{
-    ActivationCheck, AtActivationNumbers, DisplacementCheck, LeastAlpha0, Sensitivity, SideVerdict, TieBreak,
-    TieNumbers, Untied,
-};
-pub use statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
+pub use sides::{LeastAlpha0, Sensitivity, SideVerdict, SideVerdicts, TieNumbers, Untied};
+pub use statement::Statement;
 pub use states::{Source, StateStatement};
 pub use table::{
     Activation, AtActivation, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
-    LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable, UseClass,
+    LARGEST_CONFIDENCE_FACTOR, LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable,
+    UseClass,
 };
 pub use tie::{TieAtLimit, TieState};
-pub use verdict::{
-    Checked, Deciding, DynamicCheck, DynamicRun, DynamicState, Governs, Judged, Outcome, Side, SideVerdicts,
-};
-
-/// Fewest records, NTC 7.3.5.
-const FEWEST_RECORDS: usize = 3;
 
 /// This code among the others.
 pub const ENTRY: Entry = Entry {
-    name: "circolare-2019",
+    name: table::NAME,
     title: "Circolare 7/2019",
     source: "Check of local out-of-plane mechanisms by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
@@ -113,8 +106,6 @@ pub const ENTRY: Entry = Entry {
         "tie",
         "SLC.displacement",
     ],
-    describe: CheckTable::describe,
-    read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 
 impl Code for Statement {
@@ -123,13 +114,15 @@ impl Code for Statement {
     }
 
     fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError> {
-        Ok(self.checked(subject)?.verdict())
+        Ok(self.checked(subject)?.verdict(ENTRY))
     }
 
     fn records(&self) -> &Records {
         &self.records
     }
+}
 
+impl InStudies for Statement {
     fn prepared(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
         self.with_bar(parameters)
     }
@@ -185,45 +178,5 @@ impl Code for Statement {
     fn deciding(&self) -> Option<Box<dyn Code>> {
         let informs = !self.records.named.is_empty() && !self.takes_runs();
         informs.then(|| -> Box<dyn Code> { Box::new(Self { records: Records::default(), ..self.clone() }) })
-    }
-}
-
-/// A limit state of NTC 2018, 3.2.1, in the order in which they are reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-pub enum LimitState {
-    /// Damage.
-    #[serde(rename = "SLD")]
-    Sld,
-    /// Life safety.
-    #[serde(rename = "SLV")]
-    Slv,
-    /// Collapse.
-    #[serde(rename = "SLC")]
-    Slc,
-}
-
-impl LimitState {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Sld, Self::Slv, Self::Slc];
-
-    /// The key of its table.
-    pub fn key(self) -> &'static str {
-        ["SLD", "SLV", "SLC"][self as usize]
-    }
-
-    /// P of being exceeded in `V_R`, NTC Tab. 3.2.I \[-\].
-    pub fn exceeded(self) -> f64 {
-        crate::report::EXCEEDED[self as usize].1
-    }
-
-    /// ξ of the mechanism where nothing better is known, C8.7.1.2.1.5 and C8.7.1.2.1.8 \[-\].
-    pub fn damping(self) -> f64 {
-        [0.05, 0.08, 0.10][self as usize]
-    }
-}
-
-impl std::fmt::Display for LimitState {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.key())
     }
 }

@@ -7,23 +7,26 @@ use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::{Value, json};
 
+use super::checks::DisplacementCheck;
+use super::dynamic::DynamicCheck;
 use super::lines::{DISPLACEMENT, SIDE};
-use super::side_verdict::{DisplacementCheck, SideVerdict};
-use super::statement::Statement;
+use super::outcome::{Checked, Outcome};
+use super::runs::DynamicState;
+use super::sides::SideVerdict;
 use super::table::{Method, UseClass};
-use super::verdict::{Checked, Deciding, DynamicCheck, DynamicState, Outcome};
-use super::{ENTRY, LimitState};
+use crate::entry::Entry;
 use crate::error::CheckError;
+use crate::names::{Deciding, LimitState};
 use crate::report::markup::or_dash;
 use crate::report::{Figure, Origin};
 use crate::verdict::{Details, Ends, Raise, Row, Verdict, numbers};
 
 impl<'a> Checked<'a> {
     /// The verdict.
-    pub(super) fn verdict(self) -> Verdict<'a> {
+    pub(super) fn verdict(self, code: Entry) -> Verdict<'a> {
         let governs = self.outcome.governs;
         Verdict {
-            code: ENTRY,
+            code,
             passed: self.outcome.passed,
             governs: governs.limit_state.name(),
             side: (!self.outcome.alike).then(|| governs.side.name()),
@@ -120,7 +123,7 @@ impl<'a> Checked<'a> {
                 "Circolare 7/2019, C8.7.1.2.1; FC = {}; one resultant per body (C8.7.1.1), e* = 1.",
                 self.statement.confidence_factor
             ),
-            format!("{}; the other checks are for information.", deciding(self.statement)),
+            format!("{}; the other checks are for information.", self.statement.deciding_checks()),
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
         for (name, _, side) in self.sides() {
@@ -216,28 +219,6 @@ fn remark(state: LimitState, check: &DisplacementCheck) -> String {
     };
     let DisplacementCheck { ratio, zeta, ag, .. } = *check;
     format!("{state} {ratio:.3}, raised to {zeta:.3} by SLD (a_g {ag:.3} g){exceeded}")
-}
-
-/// Names the checks of the method, says that they decide, and where the code has them.
-pub(super) fn by_method(statement: &Statement) -> [&'static str; 3] {
-    let has = |state| statement.state(state).is_some();
-    match statement.table.method {
-        Method::Nonlinear if !has(LimitState::Slc) => ["SLV by displacement", "decides", "C8.7.1.2.1.8"],
-        Method::Nonlinear if !has(LimitState::Slv) => ["SLC by displacement", "decides", "C8.7.1.2.1.8"],
-        Method::Nonlinear => ["SLV and SLC by displacement", "decide", "C8.7.1.2.1.8"],
-        Method::Linear => ["SLV with q", "decides", "C8.7.1.2.1.7"],
-        Method::Dynamic => ["The runs under records", "decide", "C8.7.1.2.1.9"],
-    }
-}
-
-/// Names the checks that decide.
-fn deciding(statement: &Statement) -> String {
-    let has_sld = statement.state(LimitState::Sld).is_some();
-    let [method, decides, _] = by_method(statement);
-    if statement.table.use_class == Some(UseClass::IV) && has_sld {
-        return format!("{method} and SLD in use class IV decide");
-    }
-    format!("{method} {decides}")
 }
 
 /// The dynamic check of a limit state, and its runs.

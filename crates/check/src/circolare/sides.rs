@@ -1,32 +1,296 @@
 //! A side of a wall: its hinge by the rule that is stated, its numbers there, and what other rules give.
 
-use report::apart;
-use rocking_wall::variables::{DampingModel, Impact, Rocking};
-use rocking_wall::wall::{Parameters, Wall};
+use report::number;
+use rocking_wall::wall::Body;
+use serde::Serialize;
 
-use super::case::Case;
-use super::checks::{Checks, at_activation};
+use super::case::{Case, has_plateau};
+use super::checks::{AtActivationNumbers, Checks, DisplacementCheck, at_activation};
 use super::curve::Curve;
 use super::hinge::{self, Search};
-use super::side_verdict::{LeastAlpha0, Sensitivity, SideVerdict, TieNumbers, Untied};
 use super::states::Source;
 use super::table::{Activation, Hinge};
-use super::verdict::{Deciding, Side};
 use crate::error::CheckError;
+use crate::names::{Deciding, LimitState, Side};
 
-/// Share by which a searched hinge is said to be less favourable than the one given \[-\].
-const LOWER: f64 = 0.01;
 /// Factors on a₁ or E whose verdicts are told.
 const VARIED: [f64; 2] = [0.5, 2.0];
 
-/// Makes the wall of a drawing. Damping and impacts that do not go with the wall have no part in the static
-/// checks.
-pub(super) fn drawn(parameters: &Parameters) -> Result<Wall, CheckError> {
-    Ok(Wall::new(parameters).or_else(|_| {
-        let impact = if parameters.rocking == Rocking::TwoSided { Impact::None } else { Impact::Restitution };
-        let (damping_model, restitution) = (DampingModel::None, 0.5);
-        Wall::new(&Parameters { impact, damping_model, restitution, ..parameters.clone() })
-    })?)
+/// The outcome of one side.
+#[derive(Clone, Debug, Serialize)]
+pub struct SideVerdict {
+    /// The curve with the hinge of the check that governs, and its numbers.
+    #[serde(flatten)]
+    pub curve: Curve,
+    /// The checks.
+    #[serde(flatten)]
+    pub checks: Checks,
+    /// What the hinge of the least α0 gives, and the least favourable one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_alpha0: Option<LeastAlpha0>,
+    /// The wall at its activation, with the tie where it counts there.
+    pub activation: AtActivationNumbers,
+    /// The tie, on a side that it holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tie: Option<TieNumbers>,
+    /// `ζ_E` without the tie.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub untied: Option<Untied>,
+    /// `ζ_E` with half and twice a₁ or E.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<Sensitivity>,
+    /// Why other hinges could not be searched, where that failed.
+    #[serde(skip)]
+    pub unsearched: Option<String>,
+    /// The curves with the hinges of checks that have their own.
+    #[serde(skip)]
+    pub others: Vec<Curve>,
+}
+
+impl SideVerdict {
+    /// Checks a side.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a wall or a demand that has no check.
+    pub(super) fn new(case: &Case<'_>, sign: f64) -> Result<Self, CheckError> {
+        let (curve, checks) = by_rule(case, sign, case.rule, hinge::FINE)?;
+        let untied = curve.tie().is_some().then(|| Checks::at(case, sign, curve.hinge, false)).transpose()?;
+        let untied = untied.map(|(_, checks)| Untied {
+            slv: checks.slv.map(|check| check.zeta),
+            slc: checks.slc.map(|check| check.zeta),
+        });
+        let tie = curve.tie().map(|tie| TieNumbers {
+            engaged: tie.onset(),
+            yields: tie.strength_displacement(),
+            breaks: tie.fracture_displacement(),
+            loss: curve.tie_break().map(|broken| broken.loss),
+        });
+        let activation = at_activation(&curve, case.statement)?;
+        let mut others: Vec<Curve> = Vec::new();
+        for hinge in Deciding::ALL.into_iter().filter_map(|check| checks.hinge(check)) {
+            if curve.hinge != Some(hinge) && others.iter().all(|other| other.hinge != Some(hinge)) {
+                others.push(Curve::new(case, sign, Some(hinge), true)?);
+            }
+        }
+        let sensitivity = sensitivity(case, sign);
+        let (least_alpha0, unsearched) = (None, None);
+        let mut side =
+            Self { curve, checks, least_alpha0, activation, tie, untied, sensitivity, unsearched, others };
+        if let Some(rule) = case.rule {
+            side.look_beside(case, sign, rule)?;
+        }
+        Ok(side)
+    }
+
+    /// Finds what the hinge of the least α0 gives, and the least favourable one.
+    fn look_beside(&mut self, case: &Case<'_>, sign: f64, rule: Hinge) -> Result<(), CheckError> {
+        let statement = case.statement;
+        let (curve, at_least) = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
+            Err(error) if rule == Hinge::Given => {
+                self.unsearched = Some(error.to_string());
+                return Ok(());
+            }
+            found => found?,
+        };
+        let finite = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
+        let found = self.least_alpha0.insert(LeastAlpha0 {
+            alpha0: curve.alpha0,
+            hinge: curve.hinge.unwrap_or(f64::NAN),
+            zeta: finite(at_least.governing(statement).1),
+            worst: None,
+            worst_hinge: None,
+            worst_check: None,
+        });
+        // spectra of records at every hinge would take long for what only informs
+        let by_records = statement.states.iter().flatten().any(|given| given.source == Source::Records);
+        let worst = match rule {
+            Hinge::Worst => self.checks,
+            _ if by_records => return Ok(()),
+            Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst), hinge::FINE) {
+                Ok((_, checks)) => checks,
+                Err(error) => {
+                    self.unsearched = Some(error.to_string());
+                    return Ok(());
+                }
+            },
+        };
+        let (check, lowest) = worst.governing(statement);
+        found.worst = finite(lowest);
+        found.worst_hinge = worst.hinge(check);
+        found.worst_check = Some(check);
+        Ok(())
+    }
+
+    /// The curve with a hinge that a check has.
+    pub(super) fn at(&self, hinge: Option<f64>) -> &Curve {
+        self.others.iter().find(|other| other.hinge == hinge).unwrap_or(&self.curve)
+    }
+
+    /// The check of a limit state by displacement.
+    pub(super) fn displacement(&self, state: LimitState) -> Option<DisplacementCheck> {
+        match state {
+            LimitState::Sld => None,
+            LimitState::Slv => self.checks.slv,
+            LimitState::Slc => self.checks.slc,
+        }
+    }
+
+    /// The checks by displacement that are made.
+    pub(super) fn by_displacement(&self) -> impl Iterator<Item = (LimitState, DisplacementCheck)> {
+        LimitState::ALL.into_iter().filter_map(|state| Some((state, self.displacement(state)?)))
+    }
+}
+
+/// What the hinge of the least α0 gives, and beside it the least favourable one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LeastAlpha0 {
+    /// The least α0 \[-\].
+    pub alpha0: f64,
+    /// Its hinge, of h \[-\].
+    #[serde(rename = "hinge_ratio")]
+    pub hinge: f64,
+    /// The least `ζ_E` that decides with that hinge \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: Option<f64>,
+    /// The least `ζ_E` that decides with any hinge of the range; `None` where it was not searched \[-\].
+    #[serde(rename = "worst_zeta_E")]
+    pub worst: Option<f64>,
+    /// Its hinge, of h \[-\].
+    #[serde(rename = "worst_hinge_ratio")]
+    pub worst_hinge: Option<f64>,
+    /// The check that has it; `None` where it was not searched.
+    #[serde(skip)]
+    pub worst_check: Option<Deciding>,
+}
+
+/// Displacements u of a tie, and what its rupture takes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TieNumbers {
+    /// Where it begins to pull \[m\].
+    #[serde(rename = "u_engaged")]
+    pub engaged: f64,
+    /// Where it has its strength \[m\].
+    #[serde(rename = "u_yield")]
+    pub yields: Option<f64>,
+    /// Where it breaks \[m\].
+    #[serde(rename = "u_break")]
+    pub breaks: Option<f64>,
+    /// What the curve loses there, over its largest a \[-\].
+    pub loss: Option<f64>,
+}
+
+/// `ζ_E` of a side without its tie.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Untied {
+    /// SLV \[-\].
+    #[serde(rename = "SLV")]
+    pub slv: Option<f64>,
+    /// SLC \[-\].
+    #[serde(rename = "SLC")]
+    pub slc: Option<f64>,
+}
+
+/// The verdict on a side with another a₁ or E; without numbers where the check is impossible.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Sensitivity {
+    /// `a1` or `young_modulus`.
+    pub parameter: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// The least `ζ_E` that decides \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: Option<f64>,
+    /// Whether the side passes.
+    pub passed: Option<bool>,
+    /// `ζ_E` of SLV \[-\].
+    #[serde(rename = "SLV")]
+    pub slv: Option<f64>,
+    /// `ζ_E` of SLC \[-\].
+    #[serde(rename = "SLC")]
+    pub slc: Option<f64>,
+    /// `ζ_E` of each check, in the order of [`Deciding::ALL`]; infinite for one that is not made \[-\].
+    #[serde(skip)]
+    pub(super) zetas: [f64; 4],
+}
+
+impl Sensitivity {
+    /// Returns the parameter and its value for people: E in `MPa`.
+    pub(super) fn assigned(&self) -> String {
+        match self.parameter {
+            "young_modulus" => format!("E = {} MPa", number(1e-6 * self.value, 4)),
+            name => format!("{name} = {}", number(self.value, 4)),
+        }
+    }
+}
+
+/// The outcomes of both sides; `None` for one to which the wall cannot rock.
+#[derive(Clone, Debug, Serialize)]
+pub struct SideVerdicts {
+    /// u > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positive: Option<SideVerdict>,
+    /// u < 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub negative: Option<SideVerdict>,
+}
+
+impl SideVerdicts {
+    /// Checks the sides to which a wall rocks; of sides that are alike, once.
+    pub(super) fn new(case: &Case<'_>) -> Result<Self, CheckError> {
+        let mut sides = Self { positive: None, negative: None };
+        for sign in case.sides().take(if case.alike { 1 } else { 2 }) {
+            let verdict = Some(SideVerdict::new(case, sign)?);
+            match Side::of(sign) {
+                Side::Positive => sides.positive = verdict,
+                Side::Negative => sides.negative = verdict,
+            }
+        }
+        if case.alike {
+            sides.negative = sides.positive.clone();
+        }
+        Ok(sides)
+    }
+
+    /// The verdict of a side.
+    pub(super) fn of(&self, side: Side) -> Option<&SideVerdict> {
+        match side {
+            Side::Positive => self.positive.as_ref(),
+            Side::Negative => self.negative.as_ref(),
+        }
+    }
+
+    /// The verdict of a side; where the wall is not checked to that, of the other.
+    pub(super) fn shown(&self, side: Side) -> Option<&SideVerdict> {
+        self.of(side).or(self.positive.as_ref()).or(self.negative.as_ref())
+    }
+
+    /// The sides there are.
+    pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
+        let sides = [(Side::Positive, &self.positive), (Side::Negative, &self.negative)];
+        sides.into_iter().filter_map(|(side, verdict)| Some((side, verdict.as_ref()?)))
+    }
+}
+
+/// The place of the least α0 on a side, of h \[-\], C8.7.1.2.1.1.
+fn least_alpha0(case: &Case<'_>, sign: f64) -> Result<f64, CheckError> {
+    let alpha0 = |x: f64| {
+        Curve::new(case, sign, Some(x), true).map(|curve| curve.alpha0).map_err(|error| error.at_hinge(x))
+    };
+    let range @ [from, to] = case.statement.hinge_range;
+    // F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r = O (b + 2c)/[2 (W + O) b]
+    if case.statement.masonry.is_none() && !has_plateau(&case.parameters) {
+        let curve = Curve::new(case, sign, Some(0.5 * (from + to)), true)?;
+        let Body { weight, overburden, height, .. } = *curve.body();
+        let first = 2.0 * (weight + overburden) * case.parameters.thickness;
+        let h1 = curve.body().hinge_height;
+        let second = (curve.body().strength.of(sign) - first / h1) * (height - h1);
+        let ratio = second / first;
+        // the ends are walls, too
+        alpha0(from)?;
+        alpha0(to)?;
+        return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
+    }
+    Ok(hinge::least(hinge::FINE, range, |x, _| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
 }
 
 /// The checks of a side by a rule on the hinge, searched as finely as stated, and the curve with the hinge of
@@ -38,21 +302,21 @@ fn by_rule(
     search: Search,
 ) -> Result<(Curve, Checks), CheckError> {
     match rule {
-        None => case.at(sign, None, true),
-        Some(Hinge::Given) => case.at(sign, Some(case.parameters.hinge_ratio), true),
-        Some(Hinge::LeastAlpha0) => case.at(sign, Some(case.least_alpha0(sign)?), true),
+        None => Checks::at(case, sign, None, true),
+        Some(Hinge::Given) => Checks::at(case, sign, Some(case.parameters.hinge_ratio), true),
+        Some(Hinge::LeastAlpha0) => Checks::at(case, sign, Some(least_alpha0(case, sign)?), true),
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
             let places = hinge::least(search, range, |x, which| {
                 let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
-                let mut zetas = case.of_these(sign, (Some(x), true), wanted)?.1.zetas();
+                let mut zetas = Checks::of_these(case, sign, (Some(x), true), wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }
                 Ok::<_, CheckError>(zetas)
             })?;
-            let at = |which: usize| places[which].map(|x| case.at(sign, Some(x), true)).transpose();
+            let at = |which: usize| places[which].map(|x| Checks::at(case, sign, Some(x), true)).transpose();
             let found = [at(0)?, at(1)?, at(2)?, at(3)?];
             let [sld, slv_q, slv, slc] = found.each_ref().map(|found| found.as_ref().map(|found| found.1));
             let checks = Checks {
@@ -64,126 +328,10 @@ fn by_rule(
             let (governs, _) = checks.governing(case.statement);
             let curve = match found.into_iter().nth(governs as usize).flatten() {
                 Some((curve, _)) => curve,
-                None => case.at(sign, Some(case.least_alpha0(sign)?), true)?.0,
+                None => Checks::at(case, sign, Some(least_alpha0(case, sign)?), true)?.0,
             };
             Ok((curve, checks))
         }
-    }
-}
-
-/// Checks a side; returns what the engineer should know of it, too.
-pub(super) fn side(case: &Case<'_>, sign: f64) -> Result<(SideVerdict, Vec<String>), CheckError> {
-    let (curve, checks) = by_rule(case, sign, case.rule, hinge::FINE)?;
-    let mut warnings = super::warnings::of_curve(&curve, case);
-    let beside = case.rule.map(|rule| beside(case, sign, rule, &checks, &mut warnings));
-    let least_alpha0 = beside.transpose()?.flatten();
-    let untied = curve.tie().is_some().then(|| case.at(sign, curve.hinge, false)).transpose()?;
-    let untied = untied.map(|(_, checks)| Untied {
-        slv: checks.slv.map(|check| check.zeta),
-        slc: checks.slc.map(|check| check.zeta),
-    });
-    let tie = curve.tie().map(|tie| TieNumbers {
-        engaged: tie.onset(),
-        yields: tie.strength_displacement(),
-        breaks: tie.fracture_displacement(),
-        loss: curve.tie_break().map(|broken| broken.loss),
-    });
-    let activation = at_activation(&curve, case.statement)?;
-    let mut others: Vec<Curve> = Vec::new();
-    for hinge in Deciding::ALL.into_iter().filter_map(|check| checks.hinge(check)) {
-        if curve.hinge != Some(hinge) && others.iter().all(|other| other.hinge != Some(hinge)) {
-            others.push(Curve::new(case, sign, Some(hinge), true)?);
-        }
-    }
-    let sensitivity = sensitivity(case, sign);
-    Ok((SideVerdict { curve, checks, least_alpha0, activation, tie, untied, sensitivity, others }, warnings))
-}
-
-/// What the hinge of the least α0 gives; warns where another rule gives another verdict.
-fn beside(
-    case: &Case<'_>,
-    sign: f64,
-    rule: Hinge,
-    checks: &Checks,
-    warnings: &mut Vec<String>,
-) -> Result<Option<LeastAlpha0>, CheckError> {
-    let statement = case.statement;
-    let side = case.name(Side::of(sign));
-    let (curve, at_least) = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
-        Err(error) if rule == Hinge::Given => {
-            warnings.push(format!("{side}: other hinges could not be searched: {error}"));
-            return Ok(None);
-        }
-        found => found?,
-    };
-    let least = at_least.governing(statement).1;
-    let (governs, own) = checks.governing(statement);
-    let found = LeastAlpha0 {
-        alpha0: curve.alpha0,
-        hinge: curve.hinge.unwrap_or(f64::NAN),
-        zeta: Some(least).filter(|zeta| zeta.is_finite()),
-        worst: None,
-        worst_hinge: None,
-    };
-    // spectra of records at every hinge would take long for what only informs
-    let by_records = statement.states.iter().flatten().any(|given| given.source == Source::Records);
-    let worst = match rule {
-        Hinge::Worst => *checks,
-        _ if by_records => return Ok(Some(found)),
-        Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst), hinge::FINE) {
-            Ok((_, checks)) => checks,
-            Err(error) => {
-                warnings.push(format!("{side}: other hinges could not be searched: {error}"));
-                return Ok(Some(found));
-            }
-        },
-    };
-    let (of, lowest) = worst.governing(statement);
-    let place = worst.hinge(of).unwrap_or(f64::NAN);
-    let passed = |zeta: f64| if zeta >= 1.0 { "passed" } else { "not passed" };
-    let turns = (lowest >= 1.0) != (own >= 1.0);
-    match rule {
-        Hinge::Given if turns || lowest < own * (1.0 - LOWER) => warnings.push(format!(
-            "{side}: the hinge is given at {}; at {place:.4} {} has zeta_E = {lowest:.3}, {}; state hinge = \
-             \"worst\"",
-            case.parameters.hinge_ratio,
-            of.name(),
-            passed(lowest)
-        )),
-        Hinge::Worst | Hinge::LeastAlpha0 if (lowest >= 1.0) != (least >= 1.0) => warnings.push(format!(
-            "{side}: the hinge turns the verdict: {lowest:.3}, {}, at the least favourable hinge {place:.4}; \
-             {least:.3}, {}, at that of the least alpha0, {:.4}",
-            passed(lowest),
-            passed(least),
-            found.hinge
-        )),
-        _ => {}
-    }
-    about_place(case, (sign, rule), checks.hinge(governs), warnings);
-    let some = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
-    Ok(Some(LeastAlpha0 { worst: some(lowest), worst_hinge: worst.hinge(of), ..found }))
-}
-
-/// Warns where the hinge that governs is at an end of its range, or so near an end of the wall that a body is
-/// squat.
-fn about_place(case: &Case<'_>, (sign, rule): (f64, Hinge), hinge: Option<f64>, warnings: &mut Vec<String>) {
-    let side = case.name(Side::of(sign));
-    let [from, to] = case.statement.hinge_range;
-    let is_end = |x: &f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
-    if let Some(at) = hinge.filter(is_end).filter(|_| rule != Hinge::Given) {
-        warnings.push(format!(
-            "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]"
-        ));
-    }
-    let Parameters { height, thickness, .. } = case.parameters;
-    let at = hinge.unwrap_or(0.5);
-    let shortest = height * at.min(1.0 - at);
-    if shortest < thickness {
-        let [shortest, _] = apart([shortest, thickness], 4);
-        warnings.push(format!(
-            "{side}: with the hinge at {at:.4} a body is {shortest} m high, lower than b = {thickness} m: \
-             small rotations no longer hold"
-        ));
     }
 }
 

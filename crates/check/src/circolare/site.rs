@@ -8,9 +8,9 @@ use rocking_wall::wall::Usual;
 
 use crate::error::CheckError;
 use crate::file::lines_of_grid;
-use crate::report::{no_place, return_period};
+use crate::names::LimitState;
+use crate::site::{no_place, return_period};
 
-use super::LimitState;
 use super::grid::{Grid, SiteHazard};
 use super::table::{CheckTable, SiteTable};
 

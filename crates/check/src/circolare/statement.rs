@@ -1,25 +1,24 @@
 //! The table `[check]`, validated.
 
-use rocking_wall::wall::{ParameterError, Parameters};
+use rocking_wall::scene::Floors;
+use rocking_wall::wall::{ParameterError, Parameters, Usual, Warning};
 use run::records::motions;
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::names::{Deciding, LimitState};
 use crate::site::Records;
 
-use super::case::Demands;
-use super::demand::Demand;
+use super::demand::{Demand, Demands};
 use super::site::{self, FromGrid};
-use super::states::{StateStatement, limit_state};
+use super::states::{Source, StateStatement, limit_state};
 use super::table::{
-    Activation, AtActivation, CheckTable, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel, Method,
-    STRESS_BLOCK,
+    Activation, AtActivation, CheckTable, F0, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel,
+    LARGEST_CONFIDENCE_FACTOR, Method, STRESS_BLOCK, TC, UseClass, YOUNG_MODULUS,
 };
-use super::warnings::YOUNG_MODULUS;
-use super::{FEWEST_RECORDS, LimitState};
 
-/// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
-pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
+/// Fewest records, NTC 7.3.5.
+const FEWEST_RECORDS: usize = 3;
 
 /// The rule of a limit state by displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,6 +196,70 @@ impl Statement {
             .iter()
             .flatten()
             .filter_map(|given| Some((given, demands[given.state as usize].as_ref()?)))
+    }
+
+    /// Returns whether a static check decides. The runs of the dynamic method take the hinge of the checks by
+    /// displacement.
+    pub(super) fn decides(&self, check: Deciding) -> bool {
+        match check {
+            Deciding::Sld => self.table.use_class == Some(UseClass::IV),
+            Deciding::SlvWithQ => self.table.method == Method::Linear,
+            Deciding::Slv | Deciding::Slc => self.table.method != Method::Linear,
+        }
+    }
+
+    /// Names the checks of the method, says that they decide, and where the code has them.
+    pub(super) fn by_method(&self) -> [&'static str; 3] {
+        let has = |state| self.state(state).is_some();
+        match self.table.method {
+            Method::Nonlinear if !has(LimitState::Slc) => ["SLV by displacement", "decides", "C8.7.1.2.1.8"],
+            Method::Nonlinear if !has(LimitState::Slv) => ["SLC by displacement", "decides", "C8.7.1.2.1.8"],
+            Method::Nonlinear => ["SLV and SLC by displacement", "decide", "C8.7.1.2.1.8"],
+            Method::Linear => ["SLV with q", "decides", "C8.7.1.2.1.7"],
+            Method::Dynamic => ["The runs under records", "decide", "C8.7.1.2.1.9"],
+        }
+    }
+
+    /// Names the checks that decide.
+    pub(super) fn deciding_checks(&self) -> String {
+        let has_sld = self.state(LimitState::Sld).is_some();
+        let [method, decides, _] = self.by_method();
+        if self.table.use_class == Some(UseClass::IV) && has_sld {
+            return format!("{method} and SLD in use class IV decide");
+        }
+        format!("{method} {decides}")
+    }
+
+    /// Where runs rock as the scene does, and the static checks do not.
+    pub(super) fn differs_in_rocking(&self, scene: &Parameters) -> Option<String> {
+        let stated = self.table.rocking?.rocking();
+        (stated != scene.rocking).then(|| {
+            format!(
+                "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state the \
+                 same in [impact]",
+                stated.name(),
+                scene.rocking.name()
+            )
+        })
+    }
+
+    /// Finds what the engineer states that is improbable, and what may be meant.
+    pub(super) fn improbable(&self, floors: Option<&Floors>) -> Vec<Warning> {
+        let mut found: Vec<_> =
+            self.table.young_modulus.and_then(|e| YOUNG_MODULUS.warning(e)).into_iter().collect();
+        for given in self.states.iter().flatten() {
+            if let Source::Code(ground) = &given.source {
+                let tc = ground.t_c / ground.period_factor;
+                found.extend(F0.warning(ground.f0).into_iter().chain(TC.warning(tc)));
+            }
+            let (name, period) = match given.building_period {
+                Some(period) => ("building_period", Some(period)),
+                None => ("period of the building", given.modes.first().map(|mode| mode.period)),
+            };
+            found.extend(period.and_then(|period| Usual::period(name).warning(period)));
+        }
+        found.extend(floors.into_iter().flat_map(Floors::improbable));
+        found
     }
 
     /// Returns the statements about a limit state; `None` where its check is not made.

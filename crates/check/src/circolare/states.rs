@@ -1,11 +1,11 @@
 //! What the table `[check]` states of a limit state, of its ground and of the building.
 
 use crate::error::CheckError;
+use crate::names::LimitState;
 use crate::site::check_points;
 
-use super::LimitState;
 use super::floor::{FloorSpectrum, Mode};
-use super::ground::{GroundSpectrum, Hazard, Topography};
+use super::ground::{G, GroundSpectrum, Hazard, Topography};
 use super::table::{BuildingTable, CheckTable, LimitStateTable, RecordScale};
 
 /// What is stated of a limit state.
@@ -107,7 +107,7 @@ fn source(
             let points: Vec<_> = points.iter().map(|[period, sa]| (*period, *sa)).collect();
             let place = |index| format!("point {} of the spectrum", index + 1);
             check_points(&points, "g", place).map_err(|message| refused(state, "spectrum", &message))?;
-            let in_si = points.into_iter().map(|(period, sa)| (period, sa * super::G));
+            let in_si = points.into_iter().map(|(period, sa)| (period, sa * G));
             Ok(Source::Points(in_si.collect(), damping))
         }
         (None, None, None)

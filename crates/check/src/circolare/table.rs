@@ -1,24 +1,27 @@
 //! The table `[check]` of a scene or a study.
 
 use rocking_wall::variables::Rocking;
-use rocking_wall::wall::Bar;
+use rocking_wall::wall::{Bar, Usual};
 use rocking_wall::{choices, tables};
 use run::records::RecordsTable;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::ENTRY;
 use super::floor::Mode;
 use super::grid::GridUnit;
 use super::ground::{Category, Soil, Topography};
-use super::statement::LARGEST_CONFIDENCE_FACTOR;
+
+/// The name of the code.
+pub(super) const NAME: &str = "circolare-2019";
+/// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
+pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
 
 tables! {
     /// Check of the wall by a code, which `wall check` reads.
     #[derive(Clone, Debug)]
     pub struct CheckTable {
         /// The code: Circolare 7/2019 to NTC 2018.
-        #[key(enum = vec![ENTRY.name])]
+        #[key(enum = vec![NAME])]
         pub code: String,
         /// The wall before it rocks: held, elastic as its law, or a beam.
         pub before_activation: Option<Activation>,
@@ -210,6 +213,19 @@ pub(super) const STRESS_BLOCK: f64 = 0.85;
 /// The least `f_m`; less is in another unit \[Pa\].
 const LEAST_STRENGTH: f64 = 1e5;
 
+/// Usual E of masonry: 1e8 to 5e10 Pa. NTC Tab. C8.5.I has 0.69e9 to 3.36e9 Pa.
+pub(super) const YOUNG_MODULUS: Usual = Usual {
+    name: "young_modulus",
+    unit: "Pa",
+    range: [1e8, 5e10],
+    others: &[("in MPa", 1e6), ("in GPa", 1e9)],
+};
+/// Usual F0: from the least of NTC 3.2.3.2.1 on; the hazard of Italy stays well below 4.
+pub(super) const F0: Usual =
+    Usual { name: "F0", unit: "", range: [2.2, 4.0], others: &[("without its decimal point", 0.1)] };
+/// Usual `T_C`*: the hazard of Italy has 0.15 to 0.9 s.
+pub(super) const TC: Usual = Usual { name: "TC", unit: "s", range: [0.1, 1.0], others: &[("in ms", 1e-3)] };
+
 /// Where the hinge of a strip is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -225,7 +241,11 @@ pub enum Hinge {
 impl Hinge {
     /// Returns the value of the key.
     pub fn name(self) -> &'static str {
-        ["least_alpha0", "worst", "given"][self as usize]
+        match self {
+            Self::LeastAlpha0 => "least_alpha0",
+            Self::Worst => "worst",
+            Self::Given => "given",
+        }
     }
 }
 
@@ -244,7 +264,11 @@ pub enum Rocks {
 impl Rocks {
     /// Returns the same as a parameter of a wall.
     pub(super) fn rocking(self) -> Rocking {
-        [Rocking::TwoSided, Rocking::OneSidedPositive, Rocking::OneSidedNegative][self as usize]
+        match self {
+            Self::TwoSided => Rocking::TwoSided,
+            Self::OneSidedPositive => Rocking::OneSidedPositive,
+            Self::OneSidedNegative => Rocking::OneSidedNegative,
+        }
     }
 }
 

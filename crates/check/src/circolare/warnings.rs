@@ -1,24 +1,50 @@
 //! What the engineer should know of a check that can be made.
 
+use std::collections::BTreeSet;
+
 use report::apart;
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
+use rocking_wall::wall::{Parameters, Wall};
 
-use super::LimitState;
-use super::case::{Case, Demands};
+use super::case::Case;
+use super::checks::DisplacementCheck;
 use super::curve::Curve;
-use super::side_verdict::{DisplacementCheck, SideVerdict};
-use super::statement::{LARGEST_CONFIDENCE_FACTOR, Statement};
-use super::states::Source;
-use super::table::{AtActivation, Method, UseClass};
+use super::demand::{Demands, LONGEST_PERIOD};
+use super::dynamic::DynamicCheck;
+use super::outcome::Checked;
+use super::sides::{LeastAlpha0, SideVerdict, SideVerdicts};
+use super::statement::Statement;
+use super::table::{AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, Method, UseClass};
 use super::tie::TieState;
-use super::verdict::{Deciding, Side, SideVerdicts};
+use crate::names::{Deciding, LimitState, Side};
 
-/// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
-pub(super) const LONGEST_PERIOD: f64 = 4.0;
+/// Share by which a searched hinge is said to be less favourable than the one given \[-\].
+const LOWER: f64 = 0.01;
 
-pub(super) fn of_statement(
+/// All warnings of a check in their order, each once; `scene` is the wall of the runs.
+pub(super) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) -> Vec<String> {
+    let Checked { statement, parameters, floors, wall, demands, outcome, .. } = checked;
+    let (sides, governs) = (&outcome.sides, outcome.governs.side);
+    // of sides that are alike one is told
+    let told = || sides.iter().take(if case.alike { 1 } else { 2 });
+    let ordered: [Vec<String>; 10] = [
+        of_statement(statement, parameters, *floors, wall),
+        of_demands(statement, demands),
+        told().flat_map(|(side, verdict)| of_hinges(case, side, verdict)).collect(),
+        told().flat_map(|(_, verdict)| of_side(verdict, statement, demands)).collect(),
+        of_untied_side(case, sides, governs).into_iter().collect(),
+        of_periods(sides).collect(),
+        of_verdict(case, sides, outcome.passed),
+        of_sensitivity(case, sides),
+        outcome.dynamic.iter().filter_map(|_| statement.differs_in_rocking(scene)).collect(),
+        outcome.dynamic.iter().flat_map(|dynamic: &DynamicCheck| dynamic.warnings(case)).collect(),
+    ];
+    let mut seen = BTreeSet::new();
+    ordered.into_iter().flatten().filter(|warning| seen.insert(warning.clone())).collect()
+}
+
+fn of_statement(
     statement: &Statement,
     parameters: &Parameters,
     floors: Option<&Floors>,
@@ -56,7 +82,7 @@ pub(super) fn of_statement(
         );
     }
     let of_wall = parameters.unusual();
-    warnings.extend(of_wall.chain(improbable(statement, floors)).map(|warning| warning.to_string()));
+    warnings.extend(of_wall.chain(statement.improbable(floors)).map(|warning| warning.to_string()));
     if statement.confidence_factor > LARGEST_CONFIDENCE_FACTOR {
         warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));
     }
@@ -74,40 +100,8 @@ pub(super) fn of_statement(
     warnings
 }
 
-/// Usual E of masonry: 1e8 to 5e10 Pa. NTC Tab. C8.5.I has 0.69e9 to 3.36e9 Pa.
-pub(super) const YOUNG_MODULUS: Usual = Usual {
-    name: "young_modulus",
-    unit: "Pa",
-    range: [1e8, 5e10],
-    others: &[("in MPa", 1e6), ("in GPa", 1e9)],
-};
-/// Usual F0: from the least of NTC 3.2.3.2.1 on; the hazard of Italy stays well below 4.
-const F0: Usual =
-    Usual { name: "F0", unit: "", range: [2.2, 4.0], others: &[("without its decimal point", 0.1)] };
-/// Usual `T_C`*: the hazard of Italy has 0.15 to 0.9 s.
-const TC: Usual = Usual { name: "TC", unit: "s", range: [0.1, 1.0], others: &[("in ms", 1e-3)] };
-
-/// Finds what the engineer states that is improbable, and what may be meant.
-pub(super) fn improbable(statement: &Statement, floors: Option<&Floors>) -> Vec<Warning> {
-    let mut found: Vec<_> =
-        statement.table.young_modulus.and_then(|e| YOUNG_MODULUS.warning(e)).into_iter().collect();
-    for given in statement.states.iter().flatten() {
-        if let Source::Code(ground) = &given.source {
-            let tc = ground.t_c / ground.period_factor;
-            found.extend(F0.warning(ground.f0).into_iter().chain(TC.warning(tc)));
-        }
-        let (name, period) = match given.building_period {
-            Some(period) => ("building_period", Some(period)),
-            None => ("period of the building", given.modes.first().map(|mode| mode.period)),
-        };
-        found.extend(period.and_then(|period| Usual::period(name).warning(period)));
-    }
-    found.extend(floors.into_iter().flat_map(Floors::improbable));
-    found
-}
-
 /// What the printed `a_Z` lets pass: an acceleration below that of the ground.
-pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String> {
+fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String> {
     let below = statement.demanded(demands).filter_map(|(given, demand)| {
         let (state, floor) = (given.state, demand.floor()?);
         let (place, ground) = (floor.printed_peak(), floor.ground().acceleration(0.0, 0.05));
@@ -120,8 +114,77 @@ pub(super) fn of_demands(statement: &Statement, demands: &Demands) -> Vec<String
     below.collect()
 }
 
+/// What the curve of a side and its hinge leave to be known.
+fn of_hinges(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> Vec<String> {
+    let (mut warnings, name) = (of_curve(case, &verdict.curve), case.name(side));
+    if let Some(error) = &verdict.unsearched {
+        warnings.push(format!("{name}: other hinges could not be searched: {error}"));
+    }
+    let searched = verdict.least_alpha0.filter(|found| found.worst_check.is_some());
+    if let (Some(rule), Some(found)) = (case.rule, searched) {
+        warnings.extend(of_rules(case, (name, rule), verdict, found));
+        warnings.extend(of_place(case, (name, rule), verdict));
+    }
+    warnings
+}
+
+/// Where another rule on the hinge gives another verdict.
+fn of_rules(
+    case: &Case<'_>,
+    (side, rule): (&str, Hinge),
+    verdict: &SideVerdict,
+    found: LeastAlpha0,
+) -> Option<String> {
+    let own = verdict.checks.governing(case.statement).1;
+    let [least, lowest] = [found.zeta, found.worst].map(|zeta| zeta.unwrap_or(f64::INFINITY));
+    let place = found.worst_hinge.unwrap_or(f64::NAN);
+    let passed = |zeta: f64| if zeta >= 1.0 { "passed" } else { "not passed" };
+    let turns = (lowest >= 1.0) != (own >= 1.0);
+    match rule {
+        Hinge::Given if turns || lowest < own * (1.0 - LOWER) => Some(format!(
+            "{side}: the hinge is given at {}; at {place:.4} {} has zeta_E = {lowest:.3}, {}; state hinge = \
+             \"worst\"",
+            case.parameters.hinge_ratio,
+            found.worst_check?.name(),
+            passed(lowest)
+        )),
+        Hinge::Worst | Hinge::LeastAlpha0 if (lowest >= 1.0) != (least >= 1.0) => Some(format!(
+            "{side}: the hinge turns the verdict: {lowest:.3}, {}, at the least favourable hinge {place:.4}; \
+             {least:.3}, {}, at that of the least alpha0, {:.4}",
+            passed(lowest),
+            passed(least),
+            found.hinge
+        )),
+        _ => None,
+    }
+}
+
+/// Where the hinge that governs is at an end of its range, or so near an end of the wall that a body is squat.
+fn of_place(case: &Case<'_>, (side, rule): (&str, Hinge), verdict: &SideVerdict) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let hinge = verdict.checks.hinge(verdict.checks.governing(case.statement).0);
+    let [from, to] = case.statement.hinge_range;
+    let is_end = |x: &f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
+    if let Some(at) = hinge.filter(is_end).filter(|_| rule != Hinge::Given) {
+        warnings.push(format!(
+            "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]"
+        ));
+    }
+    let Parameters { height, thickness, .. } = case.parameters;
+    let at = hinge.unwrap_or(0.5);
+    let shortest = height * at.min(1.0 - at);
+    if shortest < thickness {
+        let [shortest, _] = apart([shortest, thickness], 4);
+        warnings.push(format!(
+            "{side}: with the hinge at {at:.4} a body is {shortest} m high, lower than b = {thickness} m: \
+             small rotations no longer hold"
+        ));
+    }
+    warnings
+}
+
 /// What the curve of a side leaves to be known.
-pub(super) fn of_curve(curve: &Curve, case: &Case<'_>) -> Vec<String> {
+fn of_curve(case: &Case<'_>, curve: &Curve) -> Vec<String> {
     let statement = case.statement;
     let mut warnings = Vec::new();
     if curve.tie().is_some_and(|tie| tie.strength_displacement().is_none()) {
@@ -136,7 +199,7 @@ pub(super) fn of_curve(curve: &Curve, case: &Case<'_>) -> Vec<String> {
 }
 
 /// A side that the tie of the wall does not hold, and whether it governs.
-pub(super) fn of_untied_side(case: &Case<'_>, sides: &SideVerdicts, governs: Side) -> Option<String> {
+fn of_untied_side(case: &Case<'_>, sides: &SideVerdicts, governs: Side) -> Option<String> {
     let has_tie = case.parameters.tie_stiffness > 0.0;
     let (untied, _) = sides.iter().find(|(_, side)| has_tie && side.tie.is_none())?;
     let which = if untied == governs { "; the side without a tie governs" } else { "" };
@@ -160,21 +223,8 @@ fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<String> {
     }
 }
 
-/// Where runs rock as the scene does, and the static checks do not.
-pub(super) fn of_rocking(statement: &Statement, scene: &Parameters) -> Option<String> {
-    let stated = statement.table.rocking?.rocking();
-    (stated != scene.rocking).then(|| {
-        format!(
-            "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state the \
-             same in [impact]",
-            stated.name(),
-            scene.rocking.name()
-        )
-    })
-}
-
 /// Where a spectrum at a height is below that of the ground at T0.
-pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<String> {
+fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<String> {
     let mut warnings = Vec::new();
     for (given, demand) in statement.demanded(demands) {
         let Some(floor) = demand.floor() else { continue };
@@ -192,7 +242,7 @@ pub(super) fn of_side(side: &SideVerdict, statement: &Statement, demands: &Deman
 }
 
 /// What a verdict owes to the raise by SLD, or lacks without it.
-pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) -> Vec<String> {
+fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) -> Vec<String> {
     let (mut warnings, statement) = (Vec::new(), case.statement);
     let decides = statement.table.method != Method::Linear;
     for (side, verdict) in sides.iter() {
@@ -228,7 +278,7 @@ pub(super) fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passed: bool) ->
     warnings
 }
 
-pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
+fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
     let checks = sides.iter().flat_map(|(_, side)| side.by_displacement());
     let long = checks.filter(|(_, check)| check.period > LONGEST_PERIOD);
     long.map(|(state, DisplacementCheck { period, .. })| {
@@ -240,7 +290,7 @@ pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
 }
 
 /// Where another a₁ or E turns the verdict on a side: which check turns, and whether the wall does.
-pub(super) fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<String> {
+fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<String> {
     let statement = case.statement;
     if statement.table.method == Method::Dynamic {
         // the runs decide, and no a₁ of theirs is varied

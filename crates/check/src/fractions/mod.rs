@@ -16,16 +16,17 @@ use std::path::PathBuf;
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{SpectrumFile, Unit};
 use rocking_wall::scene::{Described, Schema, with};
-use rocking_wall::wall::{Parameters, Wall, Warning};
+use rocking_wall::wall::{Parameters, Wall};
 use run::records::RecordsTable;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use toml::Spanned;
 
-use crate::circolare::Side;
-use crate::code::{Code, Entry, Subject};
+use crate::code::{Code, InStudies, Subject};
+use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::names::Side;
 use crate::report::Figure;
 use crate::site::{Records, check_points};
 use crate::verdict::{Details, Ends, Row, Verdict, numbers};
@@ -46,8 +47,6 @@ pub const ENTRY: Entry = Entry {
     checks: &["onset", "displacement"],
     example: "check = { code = \"fractions\", spectrum = [[0, 2.0], [0.5, 5.0], [4, 0.6]], unit = \"m/s2\" }",
     of_wall: &[],
-    describe: FractionsTable::describe,
-    read: |file| Ok(Box::new(Statement::read(file)?)),
 };
 
 rocking_wall::tables! {
@@ -106,7 +105,7 @@ pub struct Statement {
 }
 
 impl Statement {
-    fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
+    pub(crate) fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
         let table: FractionsTable = file.table()?;
         let Fractions { displacement, secant } = Fractions::default();
         let mut statement = Self {
@@ -198,6 +197,8 @@ impl Statement {
         Ok(Checked { statement: self, parameters, wall, demand, source, sides, warnings })
     }
 }
+
+impl InStudies for Statement {}
 
 impl Code for Statement {
     fn entry(&self) -> Entry {

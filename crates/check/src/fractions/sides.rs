@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use rocking_wall::wall::{Tie, Wall};
 use serde::Serialize;
 
-use crate::circolare::Side;
 use crate::error::CheckError;
+use crate::names::Side;
 
 /// The displacements at which capacity is read, as fractions of `u_ins`.
 #[derive(Clone, Copy, Debug, PartialEq)]

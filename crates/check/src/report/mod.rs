@@ -27,7 +27,6 @@ pub use language::{Language, terms};
 use language::{translated, with_symbols};
 use markup::{list, table};
 use project::as_written;
-pub(crate) use project::{EXCEEDED, no_place, return_period};
 pub use project::{ReportTable, report_schema};
 pub use walls::page_of_walls;
 

@@ -7,6 +7,8 @@ use serde::Deserialize;
 
 use super::language::Language;
 use super::markup::{number, table};
+use crate::names::LimitState;
+use crate::site::{no_place, return_period};
 
 tables! {
     /// What the report of a check says of the project. What is left out is left out of the report.
@@ -59,25 +61,6 @@ pub fn report_schema() -> Schema {
         Some(toml::Value::Table(table)) => table,
         _ => described,
     }
-}
-
-/// Limit states and their probabilities of exceedance in `V_R`, NTC Tab. 3.2.I \[-\].
-pub(crate) const EXCEEDED: [(&str, f64); 3] = [("SLD", 0.63), ("SLV", 0.10), ("SLC", 0.05)];
-
-/// Returns `T_R` = −`V_R`/ln(1 − P) of NTC 2.4.3, in the unit of `V_R`.
-pub(crate) fn return_period(reference: f64, exceeded: f64) -> f64 {
-    -reference / libm::log1p(-exceeded)
-}
-
-/// Says why coordinates are no place; `None` where they are.
-pub(crate) fn no_place([latitude, longitude]: [f64; 2]) -> Option<String> {
-    let is_place = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
-    (!is_place).then(|| {
-        format!(
-            "coordinates = [{latitude}, {longitude}] must be latitude and longitude in degrees, such as \
-             [42.35, 13.40]"
-        )
-    })
 }
 
 /// What the user writes stands as it is in every language.
@@ -139,7 +122,8 @@ impl ReportTable {
         if let (Some(life), Some(factor)) = (self.nominal_life, self.use_coefficient) {
             let reference = life * factor;
             rows.push(["Reference period V_R = V_N C_U".into(), years(reference)]);
-            rows.extend(EXCEEDED.map(|(state, exceeded)| {
+            rows.extend(LimitState::ALL.map(|state| {
+                let exceeded = state.exceeded();
                 let name = format!("Return period T_R of {state} (probability of exceedance {} %)", {
                     number(100.0 * exceeded, 3)
                 });
@@ -175,18 +159,4 @@ fn taken<T: PartialEq + std::fmt::Debug>(
 /// A coefficient with at least one decimal.
 fn decimal(value: f64) -> String {
     if value.fract() == 0.0 { format!("{value:.1}") } else { number(value, 4) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::return_period;
-
-    /// NTC 2.4.3: the years of ordinary buildings, `V_R` = 50 years, are printed as 50, 475 and 975.
-    #[test]
-    fn return_periods_are_those_of_the_code() {
-        for (exceeded, years) in [(0.63, 50.0), (0.10, 475.0), (0.05, 975.0)] {
-            // printed without decimals
-            assert!((return_period(50.0, exceeded) - years).abs() < 0.5, "{exceeded}");
-        }
-    }
 }

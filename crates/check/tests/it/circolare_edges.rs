@@ -2,9 +2,9 @@
 #![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
 
 use check::circolare::{
-    Deciding, FloorSpectrum, GroundSpectrum, Hazard, Mode, Outcome, Soil, TieState, damping_factor,
+    FloorSpectrum, GroundSpectrum, Hazard, Mode, Outcome, Soil, TieState, damping_factor,
 };
-use check::{CheckFile, read};
+use check::{CheckFile, Deciding, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};

@@ -1,10 +1,11 @@
 //! The capacity curve: its numbers, and the curve over the demand.
 
+use crate::names::{Deciding, Side};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use crate::circolare::figure::over_demand;
-use crate::circolare::{Activation, Checked, Side, SideVerdict};
+use crate::circolare::{Activation, Checked, SideVerdict};
 use crate::error::CheckError;
 use crate::report::Figure;
 use rocking_wall::variables::Mechanism;
@@ -12,8 +13,7 @@ use rocking_wall::wall::Parameters;
 
 use super::spectrum::gives;
 use super::{by_side, calculation, eccentricity};
-use crate::circolare::curve::{Curve, has_plateau};
-use crate::circolare::verdict::Deciding;
+use crate::circolare::{case::has_plateau, curve::Curve};
 use crate::report::markup::{Calculation, formula, millimetres, shown as n, table};
 
 pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {

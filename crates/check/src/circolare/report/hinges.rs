@@ -1,10 +1,11 @@
 //! The hinges: what each rule on the hinge of a strip gives, and how far hinges are set back.
 
+use crate::names::{Deciding, Side};
 use rocking_wall::variables::Mechanism;
 
 use super::{by_side, calculation};
 use crate::circolare::table::{Hinge, STRESS_BLOCK};
-use crate::circolare::{Checked, Deciding, Side, SideVerdict};
+use crate::circolare::{Checked, SideVerdict};
 use crate::report::markup::{Calculation, formula, or_dash, shown as n, table};
 
 /// The section, if the wall is a strip or its hinges are set back.

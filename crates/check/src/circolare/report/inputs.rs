@@ -1,11 +1,11 @@
 //! The statements of the engineer, with where they come from.
 
-use crate::circolare::{Activation, Checked, LARGEST_CONFIDENCE_FACTOR, LimitState, Source, Statement};
+use crate::circolare::{Activation, Checked, LARGEST_CONFIDENCE_FACTOR, Source, Statement};
+use crate::names::LimitState;
 use crate::report::Origin;
 use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
-use crate::circolare::rows::by_method;
 use crate::circolare::table::{Hinge, STRESS_BLOCK};
 
 use crate::report::markup::{formula, stated, table};
@@ -48,7 +48,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if let Some(class) = statement.table.use_class {
         state(format!("Use class {class:?}."), &["use_class"]);
     }
-    let [method, decides, clause] = by_method(statement);
+    let [method, decides, clause] = statement.by_method();
     state(format!("{method} {decides} ({clause})."), &["method"]);
     if is_dynamic {
         let peak = format!("The peak of each record is brought to {}.", formula("a_g S"));

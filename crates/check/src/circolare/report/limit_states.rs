@@ -3,14 +3,14 @@
 use crate::circolare::curve::Curve;
 use crate::circolare::statement::Displacements;
 use crate::circolare::{
-    ActivationCheck, Checked, Deciding, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
-    StateStatement,
+    ActivationCheck, Checked, Demand, DisplacementCheck, MEAN_COUNTS_FROM, SideVerdict, StateStatement,
 };
+use crate::names::{Deciding, LimitState};
 use rocking_wall::wall::Parameters;
 
 use super::calculation;
 use super::spectrum::gives;
-use crate::circolare::warnings::LONGEST_PERIOD;
+use crate::circolare::demand::LONGEST_PERIOD;
 use crate::report::markup::{Calculation, formula, result, shown as n, side_head};
 
 /// The sections of all checks that are made.

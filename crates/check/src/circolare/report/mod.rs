@@ -12,13 +12,14 @@ mod spectrum;
 pub(super) mod symbols;
 mod ties;
 
+use crate::names::Side;
 use rocking_wall::variables::EccentricityMode;
 use rocking_wall::wall::Parameters;
 
 use super::curve::Curve;
-use super::side_verdict::SideVerdict;
+use super::sides::SideVerdict;
 use super::table::{Activation, Hinge};
-use super::verdict::{Checked, Side};
+use crate::circolare::Checked;
 use crate::error::CheckError;
 use crate::report::markup::{Calculation, side_head};
 use crate::report::{Origin, the_wall};

@@ -1,6 +1,7 @@
 //! The dynamic check: its runs.
 
-use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM, Side};
+use crate::circolare::{Checked, DynamicRun, DynamicState, MEAN_COUNTS_FROM};
+use crate::names::{LimitState, Side};
 use ::report::escaped;
 
 use super::spectrum::gives;

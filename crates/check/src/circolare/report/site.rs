@@ -2,10 +2,11 @@
 
 use crate::circolare::figure::{Drawn, spectra};
 use crate::circolare::{
-    BuildingTable, CheckTable, Checked, Demand, DisplacementCheck, FloorSpectrum, GroundSpectrum, LimitState,
+    BuildingTable, CheckTable, Checked, Demand, DisplacementCheck, FloorSpectrum, GroundSpectrum,
     MEAN_COUNTS_FROM, Mode, Source, StateStatement, Topography,
 };
 use crate::error::CheckError;
+use crate::names::LimitState;
 use crate::report::Figure;
 
 use crate::report::markup::{formula, or_dash, shown, table};

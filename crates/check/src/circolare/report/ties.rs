@@ -1,12 +1,13 @@
 //! The tie: what its bar makes of it, where it yields and breaks, and the forces of its anchors.
 
+use crate::names::Side;
 use std::f64::consts::{PI, TAU};
 
 use rocking_wall::wall::{Parameters, TiePart};
 
 use super::{by_side, calculation};
 use crate::circolare::tie::{TieState, anchors};
-use crate::circolare::{Checked, LARGEST_LOSS, Side, SideVerdict, TieBreak, TieNumbers};
+use crate::circolare::{Checked, LARGEST_LOSS, SideVerdict, TieBreak, TieNumbers};
 use crate::report::markup::{Calculation, kilonewtons, millimetres, or_dash, shown as n, table};
 
 /// The section, if the wall has a tie on a side to which it rocks.
