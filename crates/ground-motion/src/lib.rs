@@ -34,7 +34,7 @@
 //! | `fields`, `options`, `times`, `vertical`, [`columns`] | numbers in texts; what the user states |
 //! | `parsed`, `readers` | one channel as a reader returns it; a reader for each format |
 //! | `companion`, `record`, `check` | record files, and how they are checked |
-//! | `pulse`, `synthetic`, [`spectrum`], `storeys`, `intensity`, `spectrum_file` | motions, and what they do |
+//! | `pulse`, `synthetic`, [`spectrum`], `storeys`, `intensity`, `spectrum_file` | motions and their effect |
 
 mod acceleration;
 mod check;

@@ -81,8 +81,8 @@ impl Parsed {
 
 /// Reads a record file: its only channel, or the one that is asked for.
 ///
-/// Only regular files of at most [`MAX_FILE_BYTES`](crate::MAX_FILE_BYTES) are read; memory stays within a small multiple of the
-/// file.
+/// Only regular files of at most [`MAX_FILE_BYTES`](crate::MAX_FILE_BYTES) are read; memory stays within a
+/// small multiple of the file.
 ///
 /// # Errors
 /// If the file cannot be read or is not a record, or if it has several channels and none of them is asked

@@ -54,7 +54,8 @@ impl<'a> Blocks<'a> {
         Self { responses, ..record }
     }
 
-    /// Returns what a run of a wall through this record has in common with others; `None` if it goes by itself.
+    /// Returns what a run of a wall through this record has in common with others; `None` if it goes by
+    /// itself.
     pub(crate) fn common<'s>(&self, solver: &'s RecordSolver<'s>) -> Option<Common<'s>> {
         if self.responses.as_ref().is_some_and(|responses| std::ptr::eq(responses.solver, solver)) {
             return Some(Common::Prepared(std::ptr::from_ref(solver)));

@@ -235,8 +235,8 @@ impl Statement {
         let stated = self.table.rocking?.rocking();
         (stated != scene.rocking).then(|| {
             format!(
-                "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state the \
-                 same in [impact]",
+                "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state \
+                 the same in [impact]",
                 stated.name(),
                 scene.rocking.name()
             )

@@ -159,7 +159,8 @@ fn of_rules(
     }
 }
 
-/// Where the hinge that governs is at an end of its range, or so near an end of the wall that a body is squat.
+/// Where the hinge that governs is at an end of its range, or so near an end of the wall that a body is
+/// squat.
 fn of_place(case: &Case<'_>, (side, rule): (&str, Hinge), verdict: &SideVerdict) -> Vec<String> {
     let mut warnings = Vec::new();
     let hinge = verdict.checks.hinge(verdict.checks.governing(case.statement).0);

@@ -9,12 +9,12 @@
 //! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
 //! table.
 
-use crate::warning::Warning;
 use crate::columns::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Numbered, all_lines, lines, real, touching};
 use crate::options::{RecordOptions, no_unit};
 use crate::parsed::Parsed;
+use crate::warning::Warning;
 
 /// Returns whether the first lines are numbers only, several on some of them, and not a table that starts
 /// with times. Two numbers a line are taken for times and accelerations unless a step is stated.
