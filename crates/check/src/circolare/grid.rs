@@ -270,7 +270,11 @@ pub enum GridUnit {
 impl GridUnit {
     /// Returns the unit \[g\].
     pub(super) fn in_g(self) -> f64 {
-        [1.0, 0.1, 1.0 / G][self as usize]
+        match self {
+            Self::G => 1.0,
+            Self::TenthOfG => 0.1,
+            Self::MetresPerSecondSquared => 1.0 / G,
+        }
     }
 }
 

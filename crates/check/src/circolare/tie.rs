@@ -42,7 +42,12 @@ impl TieState {
 
     /// Returns the state in words.
     pub fn name(self) -> &'static str {
-        ["slack", "elastic", "at its strength", "broken"][self as usize]
+        match self {
+            Self::Slack => "slack",
+            Self::Elastic => "elastic",
+            Self::AtStrength => "at its strength",
+            Self::Broken => "broken",
+        }
     }
 }
 

@@ -30,7 +30,10 @@ impl Language {
 
     /// Returns the value of the key `language`.
     pub fn name(self) -> &'static str {
-        ["en", "it"][self as usize]
+        match self {
+            Self::En => "en",
+            Self::It => "it",
+        }
     }
 }
 

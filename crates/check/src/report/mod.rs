@@ -5,6 +5,7 @@ pub(crate) mod drawing;
 pub(crate) mod inputs;
 pub(crate) mod language;
 pub(crate) mod markup;
+mod origin;
 pub(crate) mod project;
 mod walls;
 
@@ -13,12 +14,9 @@ use std::path::Path;
 
 use ::report::escaped;
 use ::report::page::Page;
-use ::report::plot::Plot;
 use rocking_wall::scene::{SceneError, fingerprint};
-use run::walls::NamedWall;
 
 use crate::error::CheckError;
-use crate::file::CheckFile;
 use crate::site::Records;
 use crate::verdict::Verdict;
 
@@ -26,52 +24,10 @@ pub(crate) use inputs::{overview, the_wall};
 pub use language::{Language, terms};
 use language::{translated, with_symbols};
 use markup::{list, table};
+pub use origin::{Figure, Origin};
 use project::as_written;
 pub use project::{ReportTable, report_schema};
 pub use walls::page_of_walls;
-
-/// Width of a figure on a phone \[px\].
-const NARROW: f64 = 390.0;
-
-/// Where the wall of a report comes from.
-#[derive(Clone, Copy)]
-pub struct Origin<'a> {
-    /// Title of the wall, or of the file of walls.
-    pub title: &'a str,
-    /// The wall, where the file has several.
-    pub wall: Option<&'a NamedWall>,
-    /// Its file.
-    pub file: &'a CheckFile<'a>,
-    /// What `--set` replaces.
-    pub set: &'a [String],
-    /// The records that were read.
-    pub records: &'a Records,
-    /// What the report says of the project, with its date and language.
-    pub report: &'a ReportTable,
-}
-
-/// A picture with its caption.
-pub struct Figure {
-    /// Markup.
-    pub caption: String,
-    /// Picture.
-    pub plot: Plot,
-}
-
-impl Figure {
-    /// The figure as markup with its legend, and with a form for phones.
-    pub fn html(&self) -> String {
-        let Self { caption, plot } = self;
-        let narrow = Plot { size: [NARROW, 300.0], ..plot.clone() };
-        format!(
-            "<figure><figcaption>{caption} <span class=\"key\">{}</span></figcaption><div class=\"plot \
-             wide\">{}</div><div class=\"plot narrow\">{}</div></figure>\n",
-            plot.key(false),
-            plot.svg(),
-            narrow.svg()
-        )
-    }
-}
 
 /// Makes the page of a report: the verdict, warnings, the sections of its code, and the fingerprints of what
 /// was read.
@@ -89,7 +45,7 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
 /// Begins a page: what it is, the verdict where it is one, and the data of the project.
 fn begun(title: &str, verdict: &Verdict<'_>, headline: &str, origin: &Origin<'_>) -> Page {
     let page = Page::new(title).styled(include_str!("page.css"));
-    let page = page.styled(&footer("", &origin.footer(None))).text(&(origin.source(verdict) + headline));
+    let page = page.styled(&footer("", &origin.footer(None))).text(&(source(origin, verdict) + headline));
     let project = origin.report.project_data();
     if project.is_empty() { page } else { page.section("Project", &project) }
 }
@@ -203,28 +159,13 @@ fn signed(origin: &Origin<'_>) -> String {
     format!("<div class=\"signed\"><p>Date</p><p>Stamp and signature{designer}</p></div>")
 }
 
-impl Origin<'_> {
-    /// The code and the date as markup.
-    fn source(&self, verdict: &Verdict<'_>) -> String {
-        let (source, date) = (escaped(verdict.code.source), self.date());
-        format!(
-            "<p class=\"kind\">Calculation report</p>\n<p class=\"subtitle\">{source}</p>\n\
-             <p class=\"subtitle\">{date}</p>"
-        )
-    }
-
-    /// Project, revision and wall for the foot of a page.
-    fn footer(&self, wall: Option<&str>) -> String {
-        let project = self.report.project.as_deref().unwrap_or(self.title);
-        let revision = self.report.revision.as_deref().map(|revision| format!("rev. {revision}"));
-        let parts = [Some(project), revision.as_deref(), wall];
-        parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
-    }
-
-    /// The date as markup, as the user gives it.
-    fn date(&self) -> String {
-        self.report.date.as_deref().map_or_else(String::new, as_written)
-    }
+/// The code and the date as markup.
+fn source(origin: &Origin<'_>, verdict: &Verdict<'_>) -> String {
+    let (source, date) = (escaped(verdict.code.source), origin.date());
+    format!(
+        "<p class=\"kind\">Calculation report</p>\n<p class=\"subtitle\">{source}</p>\n\
+         <p class=\"subtitle\">{date}</p>"
+    )
 }
 
 /// Program, version, date, and the fingerprints of what was read.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use ground_motion::{GroundMotion, Spectrum, Storey, Storeys, spectrum::AVERAGE_PERIODS};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
+use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::given::{Comparisons, SIX_DIGITS, within};

@@ -1,0 +1,66 @@
+//! Where the wall of a report comes from, and a picture of it.
+
+use ::report::plot::Plot;
+use run::walls::NamedWall;
+
+use super::project::{ReportTable, as_written};
+use crate::file::CheckFile;
+use crate::site::Records;
+
+/// Width of a figure on a phone \[px\].
+const NARROW: f64 = 390.0;
+
+/// Where the wall of a report comes from.
+#[derive(Clone, Copy)]
+pub struct Origin<'a> {
+    /// Title of the wall, or of the file of walls.
+    pub title: &'a str,
+    /// The wall, where the file has several.
+    pub wall: Option<&'a NamedWall>,
+    /// Its file.
+    pub file: &'a CheckFile<'a>,
+    /// What `--set` replaces.
+    pub set: &'a [String],
+    /// The records that were read.
+    pub records: &'a Records,
+    /// What the report says of the project, with its date and language.
+    pub report: &'a ReportTable,
+}
+
+/// A picture with its caption.
+pub struct Figure {
+    /// Markup.
+    pub caption: String,
+    /// Picture.
+    pub plot: Plot,
+}
+
+impl Figure {
+    /// The figure as markup with its legend, and with a form for phones.
+    pub fn html(&self) -> String {
+        let Self { caption, plot } = self;
+        let narrow = Plot { size: [NARROW, 300.0], ..plot.clone() };
+        format!(
+            "<figure><figcaption>{caption} <span class=\"key\">{}</span></figcaption><div class=\"plot \
+             wide\">{}</div><div class=\"plot narrow\">{}</div></figure>\n",
+            plot.key(false),
+            plot.svg(),
+            narrow.svg()
+        )
+    }
+}
+
+impl Origin<'_> {
+    /// Project, revision and wall for the foot of a page.
+    pub(super) fn footer(&self, wall: Option<&str>) -> String {
+        let project = self.report.project.as_deref().unwrap_or(self.title);
+        let revision = self.report.revision.as_deref().map(|revision| format!("rev. {revision}"));
+        let parts = [Some(project), revision.as_deref(), wall];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+    }
+
+    /// The date as markup, as the user gives it.
+    pub(super) fn date(&self) -> String {
+        self.report.date.as_deref().map_or_else(String::new, as_written)
+    }
+}
