@@ -135,7 +135,7 @@ fn each_parameter_may_be_extreme() {
                         refused += 1;
                     }
                     Fate::GaveUp(text) => {
-                        assert!(is_asked_for(&parameters), "{name} = {value:e}: {text} {parameters:?}")
+                        assert!(is_asked_for(&parameters), "{name} = {value:e}: {text} {parameters:?}");
                     }
                 }
             }

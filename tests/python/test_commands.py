@@ -40,7 +40,7 @@ NOT_RUN = {
 SLOW = {
     "python examples/coupling/run.py building": "test_coupling.py checks the schemes that it compares",
     "wall verify paper": "crates/wall-cli/tests/it/paper.rs",
-    "python examples/python/passing_walls.py": "an hour; test_reliability.py makes some of its walls and tables",
+    "python examples/python/passing_walls.py": "an hour; test_reliability.py makes a part",
 }
 # What has to be done before, where a document says so in words: every job of an array.
 BEFORE = {"wall study merge shards": "wall study ida study.toml -o shards"}

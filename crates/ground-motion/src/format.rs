@@ -32,7 +32,7 @@ pub enum Format {
     Smc,
     /// CSMIP or CDMG volume 2.
     Csmip,
-    /// SLIST, TSPAIR and GeoCSV of data centres.
+    /// SLIST, TSPAIR and `GeoCSV` of data centres.
     Fdsn,
     /// A text table: times and accelerations between commas, semicolons, tabs or blanks; or one column.
     Csv,

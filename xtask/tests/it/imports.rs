@@ -4,6 +4,7 @@
 //! re-exports counts as the file that defines it. Comments, tests and inline modules of tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use crate::tidy::files;
 
@@ -188,7 +189,7 @@ impl Sources {
 /// Returns whether a file is Rust of a crate, and not of its tests.
 fn is_product(name: &str) -> bool {
     let is_test = name.contains("/tests/") || name.ends_with("/tests.rs") || name.starts_with("fuzz/");
-    name.ends_with(".rs") && !is_test
+    Path::new(name).extension().is_some_and(|found| found == "rs") && !is_test
 }
 
 /// Returns a text without comments, and without what is compiled for tests only.
@@ -198,7 +199,7 @@ fn code(text: &str) -> String {
     for line in text.lines() {
         let bare = line.trim();
         let opened = |line: &str| {
-            let count = |letter| line.matches(letter).count() as i32;
+            let count = |letter| i32::try_from(line.matches(letter).count()).expect("a line is short");
             count('{') - count('}')
         };
         if skips {

@@ -58,12 +58,8 @@ impl Grid {
         let text = with_periods(text.trim_start_matches('\u{feff}'));
         let columns = Columns::of_texts(&text, forms).map_err(fault)?;
         let head = columns.line();
-        let names: Vec<String> = columns
-            .names()
-            .iter()
-            .map(Name::written)
-            .map(|name| name.replace('*', "").to_lowercase().replace("fo_", "f0_"))
-            .collect();
+        let plain = |name: &Name| name.written().replace('*', "").to_lowercase().replace("fo_", "f0_");
+        let names: Vec<String> = columns.names().iter().map(plain).collect();
         let column = |names_of: &[&str]| {
             let found = names.iter().position(|name| names_of.contains(&name.as_str()));
             found.ok_or_else(|| (head, format!("the grid has no column {:?}; it needs {forms}", names_of[0])))

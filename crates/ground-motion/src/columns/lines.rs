@@ -17,8 +17,9 @@ const LONGEST_CELL: usize = 20;
 /// Returns whether a line among rows is a comment: its mark stands alone, twice, or before a blank.
 pub(crate) fn is_comment(line: &str) -> bool {
     let rest = line.strip_prefix(COMMENTS);
-    rest.is_some_and(|rest| rest.starts_with(char::is_whitespace) || rest.trim_start_matches(COMMENTS) == "")
-        && !line.starts_with("###")
+    rest.is_some_and(|rest| {
+        rest.starts_with(char::is_whitespace) || rest.trim_start_matches(COMMENTS).is_empty()
+    }) && !line.starts_with("###")
 }
 
 /// Returns whether a line above the rows is a comment: any that starts with its mark and is no error of a

@@ -15,7 +15,7 @@ fn column(header: &str) -> String {
 
 /// Eight samples a line, in fields of twelve characters.
 fn numbers() -> String {
-    let row = |row: &[f64]| row.iter().map(|a| format!("{a:12.6}")).collect::<String>() + "\n";
+    let row = |row: &[f64]| row.iter().fold(String::new(), |line, a| line + &format!("{a:12.6}")) + "\n";
     motion().chunks(8).map(row).collect()
 }
 
@@ -118,7 +118,7 @@ fn missing_samples_are_warned_of_with_their_lines() {
         column("").replace('\n', "\n\n"),
         "\n\n".to_owned() + &column("a\n\n\n") + "\n\n",
         numbers(),
-        column("# a\n").replace("\n", "\r\n"),
+        column("# a\n").replace('\n', "\r\n"),
     ] {
         let found = warnings(&text, &with_step(0.01));
         assert!(!found.iter().any(|warning| warning.starts_with("samples")), "{found:?}");

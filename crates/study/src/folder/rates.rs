@@ -134,7 +134,7 @@ impl<'a> Rates<'a> {
         if let Some(target) = self.hazard.target {
             let _ = write!(words, "; target {target:e} a year");
         }
-        let warnings: String = self.warnings().iter().map(|one| format!(" {}.", escaped(one))).collect();
+        let warnings = self.warnings().iter().fold(String::new(), |all, one| all + " " + &escaped(one) + ".");
         let table = self.shown.table();
         let html = format!(
             "<section><h2>Annual rates</h2><p class=\"subtitle\">{}.{warnings}</p>{}\

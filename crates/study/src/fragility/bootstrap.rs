@@ -172,7 +172,7 @@ impl Bootstrap {
             ends(counts, fit(counts, &near))
         });
         let resampled =
-            |(state, all): (usize, [f64; 3])| self.curves(all, samples.iter().map(|sample| sample[state]));
+            |(state, all): (usize, [f64; 3])| self.curves(all, &samples.iter().map(|sample| sample[state]));
         ends(&ones, near.clone()).into_iter().enumerate().map(resampled).collect()
     }
 
@@ -188,7 +188,7 @@ impl Bootstrap {
     pub(super) fn curves(
         &self,
         [least, most, beta]: [f64; 3],
-        samples: impl Iterator<Item = [f64; 3]> + Clone,
+        samples: &(impl Iterator<Item = [f64; 3]> + Clone),
     ) -> [Resampled; 2] {
         let n = (self.records / self.group).max(3) as f64;
         let power = (n * (n + 1.0) / ((n - 1.0) * (n - 2.0))).sqrt();

@@ -176,7 +176,7 @@ impl Fragility {
                     [curve.median, curve.median, curve.dispersion]
                 })
             };
-            let curves = bootstrap.curves(ends(own.ok()), resampled.iter().map(|fit| ends(*fit)));
+            let curves = bootstrap.curves(ends(own.ok()), &resampled.iter().map(|fit| ends(*fit)));
             let counts = [cloud.records(), cloud.collapsed()];
             let fitted = bootstrap.correct(own.map(|fit| fit.fragility(fraction)));
             Self::new(fitted, counts, curves[0].clone(), curves)
