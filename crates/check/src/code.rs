@@ -109,7 +109,7 @@ pub struct Subject<'a> {
     pub parameters: &'a Parameters,
     /// Storeys between ground and wall; a code that does not apply them warns of that.
     pub floors: Option<&'a Floors>,
-    /// Parameters that decide, and that nobody stated: see [`CheckFile::assumed`].
+    /// Parameters that decide, and that nobody stated: see [`assumed`](crate::CheckFile::assumed).
     pub assumed: &'a [&'static str],
 }
 

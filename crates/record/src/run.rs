@@ -9,7 +9,8 @@ use crate::solver::RecordSolver;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunStart {
     /// The state at the first sample: u \[m\], u̇ \[m/s\], the branch u is on, and the peaks so far.
-    /// [`Motion::start`] and [`Motion::start_under`] return it.
+    /// [`Motion::start`](rocking_wall::solver::Motion::start) and
+    /// [`Motion::start_under`](rocking_wall::solver::Motion::start_under) return it.
     pub state: State,
     /// The factor of the [`Forcing`](crate::Forcing) \[-\], of either sign.
     pub factor: f64,
