@@ -146,7 +146,8 @@ fn strength(peak: f64) -> String {
 }
 
 impl Warning {
-    /// Warns about the peak of a scaled motion (m/s²), as [`GroundMotion::warning`](crate::GroundMotion::warning) does.
+    /// Warns about the peak of a scaled motion (m/s²), as
+    /// [`GroundMotion::warning`](crate::GroundMotion::warning) does.
     pub fn of_peak(peak: f64) -> Option<Self> {
         (peak != 0.0 && !is_credible(peak, CREDIBLE_PEAK)).then_some(Self::Strength { peak })
     }
