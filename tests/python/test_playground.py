@@ -180,7 +180,7 @@ def test_a_record_of_the_user_gives_the_numbers_of_the_command_line(browser, wal
     record = tmp_path / "bare.csv"
     record.write_text("time,a\n0,0\n0.1,2\n0.2,0\n")
     browser.find_element(By.ID, "field_record").send_keys(str(record))
-    assert "give `unit`" in wait(browser, lambda: text_of(browser, "fault_record"))
+    assert "state the unit as `unit`" in wait(browser, lambda: text_of(browser, "fault_record"))
     Select(browser.find_element(By.ID, "field_unit")).select_by_value("m/s2")
     wait(browser, lambda: not browser.find_element(By.ID, "fault_record").is_displayed())
 
