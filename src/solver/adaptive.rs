@@ -10,7 +10,7 @@
 
 use crate::wall::{Branch, DampingSeries};
 
-use oscillator::{HIGHEST_ORDER, KinematicState, Polynomial};
+use oscillator::{Bounds, HIGHEST_ORDER, KinematicState, Polynomial};
 
 use super::event::Piece;
 use super::secant::Secant;
@@ -23,7 +23,7 @@ pub(super) struct Series<'a> {
     horizon: f64,
     /// The motion at the horizon, and the bounds on |ü| and on the jerk up to there.
     end: KinematicState,
-    bounds: (f64, f64),
+    bounds: Bounds,
     /// What gives ü instead of the series, and bounds it.
     law: Option<Law<'a>>,
 }
@@ -146,7 +146,8 @@ impl<'a> Series<'a> {
 
     /// Computes the motion on a branch with secant damping under the forcing p₀ + p₁ t.
     pub(super) fn secant(
-        (secant, branch): (&Secant, &'a Branch),
+        secant: &Secant,
+        branch: &'a Branch,
         now: [f64; 2],
         forcing: [f64; 2],
         remaining: f64,
@@ -200,7 +201,7 @@ impl Piece for Series<'_> {
         if time == self.horizon { self.end } else { self.polynomial.at(time) }
     }
 
-    fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
+    fn bounds(&self, _from: KinematicState, _length: f64) -> Bounds {
         // over the whole piece, which is short
         self.bounds
     }
@@ -214,7 +215,7 @@ impl Piece for Series<'_> {
     }
 
     fn curvatures(&self, [left, right]: [f64; 2], from: KinematicState) -> [f64; 3] {
-        let (acceleration, jerk) =
+        let Bounds { acceleration, jerk } =
             if right == self.horizon { self.bounds } else { self.polynomial.bounds(right) };
         let snap = match &self.law {
             Some(law) => law.snap([left, right], [from, self.at(right)], acceleration),
@@ -277,8 +278,8 @@ mod tests {
                 let start = KinematicState { displacement, velocity, acceleration: 0.0 };
                 let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 1.0, 0.01, tolerances);
                 let secant = Secant::new(&branch).expect("secant damping");
-                let (law, now) = ((&secant, &branch), [displacement, velocity]);
-                let own = Series::secant(law, now, [0.4, 2.0], 0.01, tolerances);
+                let now = [displacement, velocity];
+                let own = Series::secant(&secant, &branch, now, [0.4, 2.0], 0.01, tolerances);
                 let time = any.horizon().min(own.horizon());
                 let (any, own) = (any.at(time), own.at(time));
                 assert!((any.displacement - own.displacement).abs() < 1e-12, "{any:?} {own:?}");
@@ -310,7 +311,7 @@ mod tests {
             let series = |now: [f64; 2], time: f64, length: f64, tolerance: f64| {
                 let tolerances = Tolerances { displacement: tolerance, velocity: tolerance };
                 let forcing = [forcing[0] + forcing[1] * time, forcing[1]];
-                Series::secant((&secant, &branch), now, forcing, length, tolerances)
+                Series::secant(&secant, &branch, now, forcing, length, tolerances)
             };
             for (u, v) in [(0.1, 0.3), (0.25, -0.4), (0.02, 0.3)] {
                 let piece = series([u, v], 0.0, 0.005, 1e-14);

@@ -189,7 +189,7 @@ impl Motion {
             return None;
         }
         let is_watched = watch.is_none_or(|watch| {
-            let bounds = [most.0, most.1, oscillator.snap(most)];
+            let bounds = [most.acceleration, most.jerk, oscillator.snap(most)];
             watch.include_ends(branch, state.overturned, [start, end], bounds)
         });
         is_watched.then_some(end)

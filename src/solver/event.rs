@@ -1,6 +1,6 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
-use oscillator::KinematicState;
+use oscillator::{Bounds, KinematicState};
 
 use super::state::Peaks;
 
@@ -22,7 +22,7 @@ pub(super) trait Piece {
     fn at(&self, time: f64) -> KinematicState;
 
     /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
-    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64);
+    fn bounds(&self, from: KinematicState, length: f64) -> Bounds;
 
     /// Returns the motion at a time, with ü by the equation of motion. A series whose u and u̇ are within the
     /// tolerance may be far from it in ü.
@@ -139,12 +139,12 @@ pub(super) enum Shape {
 pub(super) fn settle(
     [from, to]: [KinematicState; 2],
     length: f64,
-    (most_acceleration, most_jerk): (f64, f64),
+    most: Bounds,
     [lower, upper]: [f64; 2],
     peaks: &Peaks,
 ) -> Shape {
     // |u(t) − chord| ≤ L²/8 max|ü|
-    let sag = 0.125 * length * length * most_acceleration;
+    let sag = 0.125 * length * length * most.acceleration;
     let highest = from.displacement.max(to.displacement) + sag;
     let lowest = from.displacement.min(to.displacement) - sag;
     if highest <= upper && lowest >= lower && peaks.cover(lowest, highest) {
@@ -153,11 +153,11 @@ pub(super) fn settle(
     let (v0, v1) = (from.velocity, to.velocity);
     let apart = v0 * v1 < 0.0;
     // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero where the two values add up to more than max|ü| L
-    if !apart && v0.abs() + v1.abs() > most_acceleration * length {
+    if !apart && v0.abs() + v1.abs() > most.acceleration * length {
         return Shape::Monotone;
     }
     let (a0, a1) = (from.acceleration, to.acceleration);
-    let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
+    let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most.jerk * length;
     match (steady, apart) {
         (true, true) if v0 > 0.0 && highest <= upper.min(peaks.positive) => Shape::Back,
         (true, true) if v0 < 0.0 && lowest >= lower.max(-peaks.negative) => Shape::Back,
@@ -260,7 +260,7 @@ impl<P: Piece> Search<'_, P> {
         // the chord of u̇
         let share = (from.velocity / (from.velocity - to.velocity)).clamp(0.0, 1.0);
         let guess = left.time + (right.time - left.time) * share;
-        let jerk = self.piece.bounds(from, right.time - left.time).1;
+        let jerk = self.piece.bounds(from, right.time - left.time).jerk;
         root([left.time, right.time], guess, from.velocity < 0.0, |time| {
             let motion = self.piece.at(time);
             let KinematicState { velocity, acceleration, .. } = motion;
@@ -312,7 +312,7 @@ impl<P: Piece> Search<'_, P> {
     /// Finds the one exit in an interval, from a guess of the time after its start.
     fn exit(&self, [left, right]: [Node; 2], guess: f64, upwards: bool) -> Exit {
         let bound = self.bounds[usize::from(upwards)];
-        let jerk = self.piece.bounds(left.motion, right.time - left.time).1;
+        let jerk = self.piece.bounds(left.motion, right.time - left.time).jerk;
         let exit = root([left.time, right.time], left.time + guess, upwards, |time| {
             let motion = self.piece.at(time);
             let KinematicState { displacement, velocity, acceleration } = motion;

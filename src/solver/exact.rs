@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use oscillator::{KinematicState, Oscillator, Polynomial, Regime};
+use oscillator::{Bounds, KinematicState, Oscillator, Polynomial, Regime};
 
 use super::event::Piece;
 use super::state::Peaks;
@@ -89,13 +89,13 @@ impl Piece for ClosedForm<'_> {
         }
     }
 
-    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64) {
+    fn bounds(&self, from: KinematicState, length: f64) -> Bounds {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
     fn curvatures(&self, [left, right]: [f64; 2], from: KinematicState) -> [f64; 3] {
         let bounds = self.bounds(from, right - left);
-        [bounds.0, bounds.1, self.oscillator.snap(bounds)]
+        [bounds.acceleration, bounds.jerk, self.oscillator.snap(bounds)]
     }
 
     fn period(&self) -> f64 {

@@ -6,7 +6,7 @@
 
 use super::motion::Motion;
 use super::state::{Phase, State};
-use super::transition::{self, Event, Rebound};
+use super::transition::{self, Event, Reached, Rebound};
 
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
@@ -91,7 +91,7 @@ impl Motion {
                 Phase::Moving => match self.exit(state) {
                     None => break,
                     Some(upwards) => {
-                        let corner = (state.branch + usize::from(upwards), upwards);
+                        let corner = Reached { corner: state.branch + usize::from(upwards), upwards };
                         let rebound = |state: &State| self.late_rebound(state, forcing);
                         event.add(transition::pass_corner(self, state, corner, [forcing, 0.0], rebound));
                     }

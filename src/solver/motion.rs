@@ -5,7 +5,7 @@ use std::fmt;
 use oscillator::Oscillator;
 
 use crate::choices::Solver;
-use crate::wall::{Branch, ParameterError, Parameters, TieMemory, Wall};
+use crate::wall::{Branch, Choice, ParameterError, Parameters, TieMemory, Wall};
 
 use super::secant::Secant;
 use super::tolerances::Tolerances;
@@ -57,8 +57,10 @@ impl Method {
         match parameters.solver {
             Solver::Automatic | Solver::Exact if exact => Ok(Self::Exact),
             Solver::Exact => Err(ParameterError::conflict(
-                ("solver", "exact"),
-                ("damping_model", parameters.damping_model.name()),
+                [
+                    Choice::new("solver", "exact"),
+                    Choice::new("damping_model", parameters.damping_model.name()),
+                ],
                 "solver = automatic or adaptive: exact needs damping that is constant on each branch",
             )),
             Solver::Automatic | Solver::Adaptive => Ok(Self::Adaptive { tolerance }),

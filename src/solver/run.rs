@@ -8,7 +8,7 @@ use super::exact::ClosedForm;
 use super::memo::Propagators;
 use super::motion::{Method, Motion};
 use super::state::{Phase, Report, SolverError, State};
-use super::transition::{self, Rebound};
+use super::transition::{self, Reached, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
 
@@ -137,7 +137,7 @@ impl<'a> Run<'a> {
         }
         if let Some(secant) = &motion.secants[index] {
             let (now, forcing) = ([displacement, velocity], [forcing, self.rate]);
-            let piece = Series::secant((secant, branch), now, forcing, remaining, motion.tolerances);
+            let piece = Series::secant(secant, branch, now, forcing, remaining, motion.tolerances);
             return self.follow_piece(&piece);
         }
         let viscous = Viscous::new(branch, start, [forcing, self.rate]);
@@ -260,7 +260,8 @@ impl<'a> Run<'a> {
             Rebound { velocity, rests: too_many || velocity.abs() < motion.rest_speed }
         };
         let forcing = [forcing, self.rate];
-        let event = transition::pass_corner(motion, &mut self.state, (corner, upwards), forcing, rebound);
+        let event =
+            transition::pass_corner(motion, &mut self.state, Reached { corner, upwards }, forcing, rebound);
         self.report.work.add(event.work);
         self.report.put_to_rest |= too_many && event.work.impacts > 0;
         if event.fractured {

@@ -121,12 +121,20 @@ pub(super) struct Rebound {
     pub(super) rests: bool,
 }
 
-/// Takes `state` through the corner it has reached, upwards or downwards, under the forcing p and its rate
+/// A corner that the wall reaches, and the way on which it does.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    /// Its number.
+    pub(super) corner: usize,
+    pub(super) upwards: bool,
+}
+
+/// Takes `state` through the corner it has reached, under the forcing p and its rate
 /// \[m/s², m/s³\]. `rebound` gives the motion after an impact there.
 pub(super) fn pass_corner(
     motion: &Motion,
     state: &mut State,
-    (corner, upwards): (usize, bool),
+    Reached { corner, upwards }: Reached,
     forcing: [f64; 2],
     rebound: impl FnOnce(&State) -> Rebound,
 ) -> Event {

@@ -3,7 +3,7 @@
 use crate::choices::DampingModel;
 
 use super::equivalence;
-use super::error::ParameterError;
+use super::error::{Choice, ParameterError};
 use super::force_law::{Line, RestoringForce};
 use super::given::given;
 use super::mechanism::Body;
@@ -275,8 +275,7 @@ impl DampingLaw {
         let model = asked.model;
         if force.elastic_stiffness.is_none() && model.needs_elastic_branch() {
             return Err(ParameterError::conflict(
-                ("damping_model", model.name()),
-                ("force_law", "rigid_linear"),
+                [Choice::new("damping_model", model.name()), Choice::new("force_law", "rigid_linear")],
                 "force_law = bilinear, since the model needs an elastic branch, damping_model = \
                  free_standing_block, or none with impact = restitution",
             ));

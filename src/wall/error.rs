@@ -2,6 +2,18 @@
 
 use super::warning::Warning;
 
+/// A parameter with the value that is chosen.
+pub(crate) struct Choice {
+    name: &'static str,
+    value: String,
+}
+
+impl Choice {
+    pub(crate) fn new(name: &'static str, value: impl ToString) -> Self {
+        Self { name, value: value.to_string() }
+    }
+}
+
 /// A relation between parameters that does not hold. Each message names the values, the limit and the remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
@@ -110,13 +122,9 @@ impl ParameterError {
 
     /// Refuses two choices that do not go together, each a parameter with its value; `remedy` says what to
     /// set.
-    pub(crate) fn conflict(
-        (choice, chosen): (&'static str, impl ToString),
-        (name, value): (&'static str, impl ToString),
-        remedy: impl Into<String>,
-    ) -> Self {
-        let (chosen, value, remedy) = (chosen.to_string(), value.to_string(), remedy.into());
-        Self::Conflict { choice, chosen, name, value, remedy }
+    pub(crate) fn conflict([choice, other]: [Choice; 2], remedy: impl Into<String>) -> Self {
+        let (Choice { name: choice, value: chosen }, Choice { name, value }) = (choice, other);
+        Self::Conflict { choice, chosen, name, value, remedy: remedy.into() }
     }
 
     /// Adds the numbers that may be the cause.

@@ -74,7 +74,7 @@ impl Wall {
             let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
             let (line, tie) = self.tie().map_or((own, TieAction::None), |tie| {
                 let (memory, action) = (self.tie_memory(), tie.action(lower, upper, self.tie_memory()));
-                (tie.added_to(own, (action, middle), memory, m), action)
+                (tie.added_to(own, action, middle, memory, m), action)
             });
             let Line { anchor, force, slope: stiffness } = line;
             Branch { lower, upper, anchor, force, stiffness, own, tie, damping }

@@ -52,6 +52,7 @@ pub use capacity::CapacityPoint;
 pub(crate) use damping::DampingSeries;
 pub use damping::{BranchDamping, Damping};
 pub use equation::Wall;
+pub(crate) use error::Choice;
 pub use error::ParameterError;
 pub use facts::Fact;
 pub use force_law::Line;

@@ -3,7 +3,7 @@
 use crate::choices::{Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::damping::Damping;
-use super::error::ParameterError;
+use super::error::{Choice, ParameterError};
 use super::given::given;
 use super::mechanism::Body;
 use super::parameters::Parameters;
@@ -98,7 +98,8 @@ fn one_sided(
 ) -> Result<f64, ParameterError> {
     let conflict = |name, value: &dyn ToString, remedy: &str| {
         let (rocking, remedy) = (parameters.rocking.name(), format!("{remedy}, or rocking = two_sided"));
-        Err(ParameterError::conflict(("rocking", rocking), (name, value.to_string()), remedy))
+        let choices = [Choice::new("rocking", rocking), Choice::new(name, value.to_string())];
+        Err(ParameterError::conflict(choices, remedy))
     };
     if parameters.impact != Impact::Restitution {
         return conflict("impact", &parameters.impact.name(), "impact = restitution");

@@ -17,7 +17,7 @@
 
 use crate::choices::{Mechanism, TieSide};
 
-use super::error::ParameterError;
+use super::error::{Choice, ParameterError};
 use super::force_law::{Line, RestoringForce};
 use super::given::given;
 use super::mechanism::Body;
@@ -113,8 +113,10 @@ impl Tie {
         }
         if parameters.mechanism != Mechanism::Parapet {
             return Err(ParameterError::conflict(
-                ("tie_stiffness", stiffness),
-                ("mechanism", parameters.mechanism.name()),
+                [
+                    Choice::new("tie_stiffness", stiffness),
+                    Choice::new("mechanism", parameters.mechanism.name()),
+                ],
                 "tie_stiffness = 0 or mechanism = parapet",
             ));
         }
@@ -270,7 +272,8 @@ impl Tie {
     pub(super) fn added_to(
         &self,
         own: Line,
-        (action, sign): (TieAction, f64),
+        action: TieAction,
+        sign: f64,
         memory: &TieMemory,
         m: f64,
     ) -> Line {

@@ -45,7 +45,7 @@
 
 use crate::choices::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
-use super::error::ParameterError;
+use super::error::{Choice, ParameterError};
 use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
@@ -246,7 +246,8 @@ fn forces(b: f64, [h1, h2]: [f64; 2], [m1, m2]: [f64; 2], body: &Body, c: f64) -
 /// Says what does not go with full rotations, and what to set.
 pub(super) fn conflict(name: &'static str, value: &dyn ToString, remedy: &str) -> ParameterError {
     let remedy = format!("{remedy}, or kinematics = linear");
-    ParameterError::conflict(("kinematics", "trigonometric"), (name, value.to_string()), remedy)
+    let choices = [Choice::new("kinematics", "trigonometric"), Choice::new(name, value.to_string())];
+    ParameterError::conflict(choices, remedy)
 }
 
 /// # Errors

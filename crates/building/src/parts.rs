@@ -166,7 +166,7 @@ fn storey(
         starts: &starts.collect::<Vec<_>>(),
         experiment: experiment(building.stop_time, step),
     };
-    let unit = general.unit(("floor.toml", payload), &reduction);
+    let unit = general.unit("floor.toml", payload, &reduction);
     let (archive, _) = unit.map_err(|error| BuildingError::of_floor(&floor.name, error))?;
     Ok(archive)
 }

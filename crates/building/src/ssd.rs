@@ -33,7 +33,7 @@ pub(crate) fn text(building: &Building, system: &System, step: f64) -> String {
     } else {
         String::new()
     };
-    let elements: String = system.components.iter().map(component).collect();
+    let elements: String = system.components.iter().map(|(name, own)| component(name, own)).collect();
     let connections: String = system.described().map(|each| connection(system, each)).collect();
     let (units, stop_time) = (units(system), building.stop_time);
     format!(
@@ -74,7 +74,7 @@ pub(crate) fn text(building: &Building, system: &System, step: f64) -> String {
     )
 }
 
-fn component((name, own): &(String, Vec<&Variable>)) -> String {
+fn component(name: &str, own: &[&Variable]) -> String {
     let source = fmu_path(name);
     format!(
         "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\" source=\"{source}\" \

@@ -35,7 +35,9 @@ pub struct Comparison {
 impl Comparison {
     /// Compares a number with a reference, relative to the reference.
     pub fn new(
-        (case, quantity, unit): (impl Into<String>, impl Into<String>, &'static str),
+        case: impl Into<String>,
+        quantity: impl Into<String>,
+        unit: &'static str,
         [computed, given]: [f64; 2],
         allowed: f64,
     ) -> Self {
@@ -52,7 +54,7 @@ impl Comparison {
         decimals: usize,
     ) -> Self {
         let allowed = (0.5 + 1e-9) * unit_of(decimals);
-        let comparison = Self::new((case, quantity, "-"), numbers, allowed);
+        let comparison = Self::new(case, quantity, "-", numbers, allowed);
         Self { scale: 1.0, decimals: Some(decimals), ..comparison }
     }
 

@@ -27,4 +27,4 @@ mod polynomial;
 
 pub use green::Green;
 pub use oscillator::{Oscillator, Regime};
-pub use polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};
+pub use polynomial::{Bounds, HIGHEST_ORDER, KinematicState, Polynomial};

@@ -1,7 +1,7 @@
 //! The oscillator: its Green's functions, series, propagation and bounds.
 
 use crate::green::{Green, Phi, phi1};
-use crate::polynomial::{HIGHEST_ORDER, KinematicState, Polynomial};
+use crate::polynomial::{Bounds, HIGHEST_ORDER, KinematicState, Polynomial};
 
 /// A linear oscillator ü + c u̇ + k u = p₀ + p₁ t.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -319,7 +319,7 @@ impl Oscillator {
     /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] for `length` seconds after an instant, under a load
     /// that changes at `rate` \[m/s³\]. Damping must not be negative.
     #[inline]
-    pub fn bounds(&self, from: KinematicState, rate: f64, length: f64) -> (f64, f64) {
+    pub fn bounds(&self, from: KinematicState, rate: f64, length: f64) -> Bounds {
         let k = self.stiffness;
         let acceleration = from.acceleration.abs();
         // ü obeys the free equation, starting from ü and the jerk
@@ -327,21 +327,22 @@ impl Oscillator {
         if k > 0.0 {
             // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
             let most = acceleration + jerk * self.inverse_root;
-            (most, most * self.root)
+            Bounds { acceleration: most, jerk: most * self.root }
         } else {
             // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
             let (growth_rate, x) = (self.root, -k * length * length);
             // cosh x − 1 ≤ 0.5431 x² for x ≤ 1
             let growth = if x <= 1.0 { 1.0 + 0.5431 * x } else { x.sqrt().cosh() };
             let most = (acceleration + jerk * length) * growth;
-            (most, jerk * growth + growth_rate * growth_rate * length * most)
+            let jerk = jerk * growth + growth_rate * growth_rate * length * most;
+            Bounds { acceleration: most, jerk }
         }
     }
 
     /// Bounds the second derivative of ü \[m/s⁴\] where |ü| and the jerk keep within [bounds](Self::bounds):
     /// u⁗ = −c u‴ − k ü.
     #[inline]
-    pub fn snap(&self, (acceleration, jerk): (f64, f64)) -> f64 {
+    pub fn snap(&self, Bounds { acceleration, jerk }: Bounds) -> f64 {
         self.damping * jerk + self.stiffness.abs() * acceleration
     }
 }

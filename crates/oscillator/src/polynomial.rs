@@ -14,6 +14,15 @@ pub struct KinematicState {
     pub acceleration: f64,
 }
 
+/// Bounds on a motion over a length of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// On |ü| \[m/s²\].
+    pub acceleration: f64,
+    /// On the jerk \[m/s³\].
+    pub jerk: f64,
+}
+
 /// Motion as a polynomial in time, u(t) = Σ uₙ tⁿ.
 #[derive(Clone, Copy, Debug)]
 pub struct Polynomial {
@@ -55,7 +64,7 @@ impl Polynomial {
     /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻²
     /// and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
     #[inline]
-    pub fn bounds(&self, horizon: f64) -> (f64, f64) {
+    pub fn bounds(&self, horizon: f64) -> Bounds {
         let (mut acceleration, mut jerk) = (0.0, 0.0);
         for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
             let second = (n * (n - 1)) as f64 * coefficient.abs();
@@ -64,7 +73,7 @@ impl Polynomial {
                 jerk = jerk * horizon + second * (n - 2) as f64;
             }
         }
-        (acceleration, jerk)
+        Bounds { acceleration, jerk }
     }
 
     /// Bounds the rate of the jerk \[m/s⁴\] up to the time T = `horizon` \[s\]: Σ n(n−1)(n−2)(n−3) |uₙ|
@@ -124,7 +133,7 @@ mod tests {
         let mut signed = motion;
         signed.coefficients.iter_mut().skip(1).step_by(2).for_each(|u| *u = -*u);
         for bounded in [motion, signed] {
-            let (acceleration, jerk) = bounded.bounds(time);
+            let Bounds { acceleration, jerk } = bounded.bounds(time);
             near(acceleration, wanted[2]);
             near(jerk, wanted[3]);
             near(bounded.snap(time), wanted[4]);

@@ -112,7 +112,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (parameters, threads) = (&scene.parameters, threads_of(threads)?.get());
     spectrum(py, [&sizes.1, &slendernesses.1], |columns, rows| {
-        over_walls(parameters, &motion, (size, columns), (slenderness, rows), threads)
+        over_walls(parameters, &motion, size, columns, slenderness, rows, threads)
     })
 }
 
@@ -183,7 +183,7 @@ pub(crate) fn tie_of_wall<'py>(
     let given = given.as_ref().map(samples).transpose()?.unwrap_or_default();
     let varied = tie::ALL.iter().find(|varied| varied.parameter == parameter);
     let varied = varied.unwrap_or_else(|| unreachable!("the package names those that there are"));
-    let study = TieStudy::new(scene, (varied, &given), motions, both_polarities || both_signs);
+    let study = TieStudy::new(scene, varied, &given, motions, both_polarities || both_signs);
     let study = study.map_err(refused)?;
     let threads = threads_of(threads)?.get();
     let rows = stoppable(py, || study.rows(threads))?.map_err(|error| match error {

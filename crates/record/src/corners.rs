@@ -66,6 +66,14 @@ impl<N: Number> Arrival<N> {
     }
 }
 
+/// When lanes pass a corner, and u̇ there; `found` are those in which that is known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passage<N: Number> {
+    pub(crate) found: N::Mask,
+    pub(crate) time: N,
+    pub(crate) velocity: N,
+}
+
 impl<N: Number> Part<N> {
     /// Returns a whole step on one branch.
     #[inline(always)]
@@ -92,7 +100,7 @@ impl<N: Number> Part<N> {
 
     /// Finds when lanes whose u̇ keeps its sign reach a corner, and u̇ there.
     #[inline(always)]
-    fn find(&self, corner: N, terms: usize) -> (N::Mask, N, N) {
+    fn find(&self, corner: N, terms: usize) -> Passage<N> {
         let sought = self.lanes & (self.from[0].below(corner) | corner.below(self.from[0]));
         self.find_near(sought, self.guess(corner), corner, terms)
     }
@@ -100,13 +108,7 @@ impl<N: Number> Part<N> {
     /// Finds when u passes a corner, and u̇ there: a guess is corrected by the derivatives at its time, again
     /// and again until the correction is small (docs/record-path.md, Eq. (4)).
     #[inline(always)]
-    pub(crate) fn find_near(
-        &self,
-        mut sought: N::Mask,
-        mut time: N,
-        corner: N,
-        terms: usize,
-    ) -> (N::Mask, N, N) {
+    pub(crate) fn find_near(&self, mut sought: N::Mask, mut time: N, corner: N, terms: usize) -> Passage<N> {
         let Self { line, from, length, rate, .. } = *self;
         let zero = corner.like(0.0);
         let (mut found, mut found_time, mut found_velocity) = (sought & !sought, zero, zero);
@@ -134,7 +136,7 @@ impl<N: Number> Part<N> {
             }
             time = N::select(sought, next, time);
         }
-        (found, found_time, found_velocity)
+        Passage { found, time: found_time, velocity: found_velocity }
     }
 
     /// Returns about when u reaches a corner: by constant ü, and then by the jerk at the start.
@@ -201,7 +203,7 @@ impl<O: Observer> Lanes<'_, O> {
         first: usize,
         part: &Part<N>,
         [corner, exit]: [N; 2],
-        (found, time, velocity): (N::Mask, N, N),
+        Passage { found, time, velocity }: Passage<N>,
     ) -> (Part<N>, N::Mask) {
         let (rows, zero) = (&self.rows, N::splat(token, 0.0));
         let upwards = part.from[0].below(part.to[0]);

@@ -88,6 +88,13 @@ fn respond<N: Number>(by: &[[N; 2]; MOST_AT_ONCE + 1], part: usize, p: [N; MOST_
     ((a[part] * p[0] + b[part] * p[1]) + (c[part] * p[2] + d[part] * p[3])) + e[part] * p[4]
 }
 
+/// Lanes that may take plain steps, one bit for each, and how few of them are too few to go on.
+#[derive(Clone, Copy)]
+struct Ready {
+    lanes: u8,
+    few: u32,
+}
+
 impl<O: Observer> Lanes<'_, O> {
     /// Takes steps of the lanes from `first` on, until some wait for what is not done here; returns these.
     #[inline(always)]
@@ -109,9 +116,9 @@ impl<O: Observer> Lanes<'_, O> {
             let goes = if N::LANES == 1 {
                 self.plain_alone(token, first, &range, ready)
             } else if N::ONE_TABLE {
-                self.plain_in_lanes(token, first, &range, (ready, few))
+                self.plain_in_lanes(token, first, &range, Ready { lanes: ready, few })
             } else {
-                self.plain_by_samples(token, first, &range, (ready, few))
+                self.plain_by_samples(token, first, &range, Ready { lanes: ready, few })
             };
             ready = N::bits(goes & open(&self.rows)) & busy;
         }
@@ -147,7 +154,7 @@ impl<O: Observer> Lanes<'_, O> {
         token: N::Token,
         first: usize,
         range: &Range<N>,
-        ready: (u8, u32),
+        ready: Ready,
     ) -> N::Mask {
         let (rows, records) = (&self.rows, self.records);
         let mut ahead: [&[[f64; 2]]; WIDTH] = [&[]; WIDTH];
@@ -168,7 +175,7 @@ impl<O: Observer> Lanes<'_, O> {
         token: N::Token,
         first: usize,
         range: &Range<N>,
-        ready: (u8, u32),
+        ready: Ready,
     ) -> N::Mask {
         let (solvers, records) = (self.solvers, self.records);
         let at_once = solvers[first].table.at_once;
@@ -216,7 +223,7 @@ impl<O: Observer> Lanes<'_, O> {
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
         let p = record.forcing.from(sample, (count - 1) * at_once + MOST_AT_ONCE + 1);
-        self.plain_steps(token, first, range, (ready, 0), count, |row| {
+        self.plain_steps(token, first, range, Ready { lanes: ready, few: 0 }, count, |row| {
             let response = map.respond(&p[row * at_once..][..=MOST_AT_ONCE]);
             N::unzip(token, |_| response)
         })
@@ -230,7 +237,7 @@ impl<O: Observer> Lanes<'_, O> {
         token: N::Token,
         first: usize,
         range: &Range<N>,
-        (ready, few): (u8, u32),
+        Ready { lanes: ready, few }: Ready,
         count: usize,
         mut response: impl FnMut(usize) -> [N; 2],
     ) -> N::Mask {

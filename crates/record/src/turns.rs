@@ -57,7 +57,7 @@ impl Part<f64> {
 
     /// Finds when u passes the corner to which ü points, and u̇ there.
     #[inline(always)]
-    fn find_after_turn(&self, corner: f64, terms: usize) -> (bool, f64, f64) {
+    fn find_after_turn(&self, corner: f64, terms: usize) -> Passage<f64> {
         let Self { lanes, line, from: [u, v, a], length, rate, .. } = *self;
         // by constant ü, of the two forms of the root that without cancellation, and then by the jerk
         let speed = (v * v + 2.0 * a * (corner - u)).max(0.0).sqrt();
@@ -65,10 +65,9 @@ impl Part<f64> {
         let time = if v * a < 0.0 { sum / a.abs() } else { 2.0 * (corner - u).abs() / sum };
         let jerk = rate - line.c * a - line.k * v;
         let late = jerk * (time * time * time) / (6.0 * (v + a * time));
-        let (found, time, velocity) =
-            self.find_near(lanes, (time - late).max(0.0).min(length), corner, terms);
+        let passage = self.find_near(lanes, (time - late).max(0.0).min(length), corner, terms);
         // the corner from which u starts is passed with u̇ against ü
-        (found && velocity * a > 0.0, time, velocity)
+        Passage { found: passage.found && passage.velocity * a > 0.0, ..passage }
     }
 }
 

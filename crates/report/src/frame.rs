@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::axes::{Scale, label, number, ticks, write_text, write_upwards};
 use crate::escaped;
+use crate::points::Point;
 use crate::series::{Look, Series};
 
 /// Width of a character of 12 px, about \[px\].
@@ -43,7 +44,7 @@ impl Frame<'_> {
     }
 
     /// Returns the place of a point \[px\].
-    pub(crate) fn place(&self, (x, y): (f64, f64)) -> [f64; 2] {
+    pub(crate) fn place(&self, (x, y): Point) -> [f64; 2] {
         let ([left, right, top, bottom], [across, up]) = (self.area(), self.ranges);
         let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
         let across = match self.scale {

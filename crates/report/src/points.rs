@@ -1,7 +1,10 @@
 //! Broken lines: cut to the axes, and without points that nobody would see.
 
+/// A point in the plane: x and y.
+pub type Point = (f64, f64);
+
 /// Points in the plane.
-pub type Points = Vec<(f64, f64)>;
+pub type Points = Vec<Point>;
 
 /// Columns of pixels of a plot area: a history needs no more than its extremes in each.
 const COLUMNS: usize = 532;
@@ -9,14 +12,14 @@ const COLUMNS: usize = 532;
 const TOLERANCE: f64 = 0.3;
 
 /// Keeps the extremes of each pixel column, in order of time. The line looks as one of all points would.
-pub fn decimated(points: &[(f64, f64)], end: f64) -> Points {
+pub fn decimated(points: &[Point], end: f64) -> Points {
     if points.len() <= 2 * COLUMNS {
         return points.to_vec();
     }
     let column = |time: f64| (time / end * COLUMNS as f64).floor();
     let mut kept = Vec::with_capacity(2 * COLUMNS + 2);
     for part in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
-        let by = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let by = |a: &&Point, b: &&Point| a.1.total_cmp(&b.1);
         let (Some(low), Some(high)) = (part.iter().min_by(by), part.iter().max_by(by)) else { continue };
         kept.extend(if low.0 <= high.0 { [*low, *high] } else { [*high, *low] });
     }
@@ -24,7 +27,7 @@ pub fn decimated(points: &[(f64, f64)], end: f64) -> Points {
 }
 
 /// Returns the pieces of a line inside ranges of x and y, cut at their edges.
-pub fn within(points: &[(f64, f64)], ranges: [[f64; 2]; 2]) -> Vec<Points> {
+pub fn within(points: &[Point], ranges: [[f64; 2]; 2]) -> Vec<Points> {
     let mut pieces: Vec<Points> = Vec::new();
     for pair in points.windows(2) {
         let Some([from, to]) = inside(pair[0], pair[1], ranges) else { continue };
@@ -37,7 +40,7 @@ pub fn within(points: &[(f64, f64)], ranges: [[f64; 2]; 2]) -> Vec<Points> {
 }
 
 /// The part of a segment inside ranges (Liang and Barsky, 1984); none of one without a value.
-fn inside(a: (f64, f64), b: (f64, f64), [x, y]: [[f64; 2]; 2]) -> Option<[(f64, f64); 2]> {
+fn inside(a: Point, b: Point, [x, y]: [[f64; 2]; 2]) -> Option<[Point; 2]> {
     let way = (b.0 - a.0, b.1 - a.1);
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (from, way, range) in [(a.0, way.0, x), (a.1, way.1, y)] {
@@ -56,7 +59,7 @@ fn inside(a: (f64, f64), b: (f64, f64), [x, y]: [[f64; 2]; 2]) -> Option<[(f64, 
 
 /// Leaves out points that make no visible difference (Douglas and Peucker, 1973). `scale` turns data into
 /// pixels.
-pub fn simplified(points: &[(f64, f64)], scale: [f64; 2]) -> Points {
+pub fn simplified(points: &[Point], scale: [f64; 2]) -> Points {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -76,8 +79,8 @@ pub fn simplified(points: &[(f64, f64)], scale: [f64; 2]) -> Points {
 }
 
 /// Distance of a point from a chord \[px\].
-fn distance(point: (f64, f64), [from, to]: [(f64, f64); 2], scale: [f64; 2]) -> f64 {
-    let vector = |a: (f64, f64), b: (f64, f64)| [(b.0 - a.0) * scale[0], (b.1 - a.1) * scale[1]];
+fn distance(point: Point, [from, to]: [Point; 2], scale: [f64; 2]) -> f64 {
+    let vector = |a: Point, b: Point| [(b.0 - a.0) * scale[0], (b.1 - a.1) * scale[1]];
     let (chord, way) = (vector(from, to), vector(from, point));
     let length = chord[0] * chord[0] + chord[1] * chord[1];
     let along = if length > 0.0 { (chord[0] * way[0] + chord[1] * way[1]) / length } else { 0.0 };

@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use crate::escaped;
 use crate::palette::{Mark, SERIES};
-use crate::points::within;
+use crate::points::{Points, within};
 
 /// Points that belong together, and how they look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// x and y; one whose y is NaN is a gap in a line.
-    pub points: Vec<(f64, f64)>,
+    pub points: Points,
     /// A colour of the [palette](crate::palette).
     pub color: &'static str,
     /// A line, or marks.
@@ -38,23 +38,23 @@ pub enum Look {
 impl Series {
     /// A solid line with a name, in a colour of the palette by its number; series that belong together share
     /// one.
-    pub fn line(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+    pub fn line(name: &str, color: usize, points: Points) -> Self {
         Self { name: name.into(), ..Self::stroke(SERIES[color % SERIES.len()].0, 1.4, points) }
     }
 
     /// A dashed line, as [`Self::line`].
-    pub fn dashed(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+    pub fn dashed(name: &str, color: usize, points: Points) -> Self {
         Self { look: Look::Dashed, ..Self::line(name, color, points) }
     }
 
     /// Marks without a line, as [`Self::line`].
-    pub fn marks(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
+    pub fn marks(name: &str, color: usize, points: Points) -> Self {
         let look = Look::Marks(SERIES[color % SERIES.len()].1);
         Self { look, width: 3.5, ..Self::line(name, color, points) }
     }
 
     /// A solid line of a colour and a width \[px\].
-    pub fn stroke(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
+    pub fn stroke(color: &'static str, width: f64, points: Points) -> Self {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
     }
 

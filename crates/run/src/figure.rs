@@ -9,7 +9,7 @@
 
 use report::palette::{AMBER, BLUE, DARK_GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
-use report::points::{decimated, within};
+use report::points::{Point, Points, decimated, within};
 use rocking_wall::response::Sample;
 use rocking_wall::wall::{Tie, Wall};
 
@@ -109,7 +109,7 @@ pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, heigh
 
 /// Draws periods with small rotations over those with full ones, against the slenderness \[rad\]; `wall`
 /// marks a point of its own.
-pub fn period_ratios(ratios: Vec<(f64, f64)>, wall: (f64, f64), height: f64) -> Plot {
+pub fn period_ratios(ratios: Points, wall: Point, height: f64) -> Plot {
     let lowest = ratios.iter().map(|point| point.1).fold(1.0, f64::min);
     let widest = ratios.iter().map(|point| point.0).fold(0.0, f64::max);
     let room = 0.08 * (1.0 - lowest).max(1e-6);

@@ -67,7 +67,8 @@ impl General {
     /// As [`Description::reduced`]; and a variable that FMI 3.0 has another use for.
     pub fn unit(
         self,
-        (name, payload): (&str, &str),
+        name: &str,
+        payload: &str,
         reduction: &Reduction<'_>,
     ) -> Result<(Archive, Description), SceneFmuError> {
         let Self { mut archive, description, sources, guid } = self;

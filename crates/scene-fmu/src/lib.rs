@@ -83,7 +83,7 @@ pub fn of_scene_in(
         experiment,
     };
     let general_variables = general.description.variable_names().count();
-    let (archive, reduced) = general.unit(("scene.toml", &text), &reduction)?;
+    let (archive, reduced) = general.unit("scene.toml", &text, &reduction)?;
     let variables = reduced.variable_names().count();
     Ok(SceneFmu { archive, scene: text, variables, general_variables })
 }

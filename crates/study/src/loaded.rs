@@ -74,7 +74,7 @@ impl LoadedStudy {
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
         open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
-        let study = Self::assemble(&name, text, file, (all, records))?;
+        let study = Self::assemble(&name, text, file, all, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings: [study.warnings, warnings].concat(), ..study })
     }
@@ -92,7 +92,7 @@ impl LoadedStudy {
         let mut file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
-        let study = Self::assemble(name, text, file, (walls, records))?;
+        let study = Self::assemble(name, text, file, walls, records)?;
         Ok(Self { warnings: [warnings, study.warnings].concat(), ..study })
     }
 
@@ -146,7 +146,7 @@ impl LoadedStudy {
         };
         let records = sent.records.into_iter().map(record).collect::<Result<_, SceneError>>()?;
         // they were told where it was sent
-        let study = Self::assemble(name, sent.text, file, (walls, records))?;
+        let study = Self::assemble(name, sent.text, file, walls, records)?;
         Ok(Self { warnings: Vec::new(), ..study })
     }
 
@@ -154,7 +154,8 @@ impl LoadedStudy {
         name: &str,
         text: String,
         mut file: StudyFile,
-        (given, records): (Vec<NamedWall>, Vec<NamedRecord>),
+        given: Vec<NamedWall>,
+        records: Vec<NamedRecord>,
     ) -> Result<Self, SceneError> {
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         for class in &file.report.classes {
@@ -172,7 +173,7 @@ impl LoadedStudy {
         // of samples the first of each wall
         let every = walls.len().checked_div(sampled.len()).unwrap_or(1).max(1);
         warnings.extend(defaults(name, walls.iter().step_by(every)));
-        warn(walls.iter().step_by(every), (&file.models, &file.measure), &mut warnings);
+        warn(walls.iter().step_by(every), &file.models, &file.measure, &mut warnings);
         let StudyFile { title, models, measure, select, levels, report, target, .. } = file;
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
@@ -284,7 +285,8 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
 /// the intensity measure and the models.
 fn warn<'a>(
     walls: impl Iterator<Item = &'a NamedWall>,
-    (models, measure): (&[Model], &IntensityMeasure),
+    models: &[Model],
+    measure: &IntensityMeasure,
     warnings: &mut Vec<String>,
 ) {
     for NamedWall { name, parameters, floors, .. } in walls {

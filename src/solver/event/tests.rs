@@ -52,13 +52,13 @@ impl Piece for Sway {
         self.motion(time)
     }
 
-    fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
+    fn bounds(&self, _from: KinematicState, _length: f64) -> Bounds {
         let acceleration = self.amplitude * self.rate * self.rate;
-        (acceleration, acceleration * self.rate)
+        Bounds { acceleration, jerk: acceleration * self.rate }
     }
 
     fn curvatures(&self, _between: [f64; 2], from: KinematicState) -> [f64; 3] {
-        let (acceleration, jerk) = self.bounds(from, 0.0);
+        let Bounds { acceleration, jerk } = self.bounds(from, 0.0);
         [acceleration, jerk, jerk * self.rate]
     }
 

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use oscillator::Oscillator;
+use oscillator::{Bounds, Oscillator};
 
 use super::super::demand::Extremes;
 use super::super::event::tests::Sway;
@@ -206,7 +206,7 @@ impl<P: Piece> Piece for Counted<P> {
         self.inner.at(time)
     }
 
-    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64) {
+    fn bounds(&self, from: KinematicState, length: f64) -> Bounds {
         self.inner.bounds(from, length)
     }
 

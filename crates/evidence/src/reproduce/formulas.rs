@@ -34,9 +34,12 @@ fn row(name: impl Into<String>, formula: &str, computed: f64, printed: f64) -> C
 /// Returns the rows of Table 1 for one mechanism: `m_eff` as printed and its factor, λ, and the force as
 /// printed with its formula.
 fn parameter_rows(
-    (name, wall): (&str, &Wall),
-    (m_eff, factor, lambda): (&str, f64, f64),
-    (formula, force): (&str, impl Fn(f64) -> f64),
+    name: &str,
+    wall: &Wall,
+    m_eff: &str,
+    [factor, lambda]: [f64; 2],
+    formula: &str,
+    force: impl Fn(f64) -> f64,
 ) -> Vec<Comparison> {
     let body = wall.body();
     let mass = factor * body.mass / 1e3;
@@ -67,7 +70,7 @@ pub(super) fn tables_1_and_2() -> Result<[PaperTable; 2], ParameterError> {
     let p_f0 = ((w + o) * b / h + 2.0 / h * o * c) / 1e3;
     let p_u = (2.0 / h * (w + o) * b / 2.0 - 2.0 / h * o * c) / (2.0 / h * (w + 2.0 * o));
     let formula = "2/h W (b/2 − u) + 2/h O (b/2 − c − 2u)";
-    let mut first = parameter_rows(("PW", &parapet), ("4/3 m", 4.0 / 3.0, 0.75), (formula, force));
+    let mut first = parameter_rows("PW", &parapet, "4/3 m", [4.0 / 3.0, 0.75], formula, force);
     let [h, h1, h2, b, c, w, o] = symbols(&strip);
     let force = |u: f64| {
         2.0 / h1 * w * (b - u) + h / (h1 * h2) * o * (b + 2.0 * c - u) + 2.0 / h1 * o * (b - 2.0 * c)
@@ -75,7 +78,7 @@ pub(super) fn tables_1_and_2() -> Result<[PaperTable; 2], ParameterError> {
     let s_f0 = 2.0 / h1 * (w + o) * b + o / h2 * (b + 2.0 * c);
     let s_u = s_f0 / (2.0 / h1 * (w + o) + 2.0 * o / h2);
     let formula = "2/h₁ W (b − u) + h/(h₁h₂) O (b + 2c − u) + 2/h₁ O (b − 2c)";
-    first.extend(parameter_rows(("VSSW", &strip), ("2/3 (m₁ + m₂)", 2.0 / 3.0, 1.5), (formula, force)));
+    first.extend(parameter_rows("VSSW", &strip, "2/3 (m₁ + m₂)", [2.0 / 3.0, 1.5], formula, force));
     let strength = |wall: &Wall| wall.body().strength.positive / 1e3;
     let instability = |wall: &Wall| wall.body().instability.positive;
     let second = vec![

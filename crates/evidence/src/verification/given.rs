@@ -14,7 +14,7 @@ pub(super) fn within<C: Into<String>, Q: Into<String>>(
     rows: impl IntoIterator<Item = (C, Q, &'static str, f64, f64)>,
 ) -> Vec<Comparison> {
     let compare = |(case, quantity, unit, computed, given)| {
-        Comparison::new((case, quantity, unit), [computed, given], allowed)
+        Comparison::new(case, quantity, unit, [computed, given], allowed)
     };
     rows.into_iter().map(compare).collect()
 }

@@ -73,9 +73,11 @@ pub(super) fn compare(
             simulation.advance_to(time, motion, None).map_err(SceneError::from)?;
             let at = if time == 0.0 { String::new() } else { format!(" at {time:.3} s") };
             let unit = variable(quantity).map_or(Some("J"), |known| known.unit);
-            let what = (name, format!("{quantity}{at}"), unit.filter(|unit| *unit != "1").unwrap_or("-"));
+            let unit = unit.filter(|unit| *unit != "1").unwrap_or("-");
             let computed = computed(&simulation, support(time), quantity);
-            comparisons.push(Comparison { scale, ..Comparison::new(what, [computed, value], bound) });
+            let what = format!("{quantity}{at}");
+            let compared = Comparison::new(name, what, unit, [computed, value], bound);
+            comparisons.push(Comparison { scale, ..compared });
         }
     }
     Ok(comparisons)

@@ -196,7 +196,7 @@ fn regimes_have_their_frequency_or_rates_and_a_longest_piece() {
 fn bounds_are_reached_without_damping_and_hold_with_it() {
     for parameters in OSCILLATORS {
         for length in TIMES {
-            let (acceleration, jerk) = make(parameters).bounds(START, RATE, length);
+            let Bounds { acceleration, jerk } = make(parameters).bounds(START, RATE, length);
             for part in 0..=20 {
                 let time = length * f64::from(part) / 20.0;
                 let now = make(parameters).propagate(START, RATE, time);
@@ -207,8 +207,9 @@ fn bounds_are_reached_without_damping_and_hold_with_it() {
         }
     }
     let at = |acceleration: f64| KinematicState { displacement: 0.3, velocity: 0.0, acceleration };
-    let near =
-        |(a, jerk): (f64, f64), wanted: [f64; 2]| close(a, wanted[0], 0.0) && close(jerk, wanted[1], 0.0);
+    let near = |found: Bounds, [acceleration, jerk]: [f64; 2]| {
+        close(found.acceleration, acceleration, 0.0) && close(found.jerk, jerk, 0.0)
+    };
     // ω = 3: ü = 2 cos 3t, or (6/3) sin 3t
     let stiff = Oscillator::new(0.0, 9.0);
     assert!(near(stiff.bounds(at(-2.0), 0.0, 10.0), [2.0, 6.0]));
@@ -217,7 +218,7 @@ fn bounds_are_reached_without_damping_and_hold_with_it() {
     let softening = Oscillator::new(0.0, -9.0);
     let cosh = 3.0_f64.cosh();
     assert!(near(softening.bounds(at(-2.0), 0.0, 1.0), [2.0 * cosh, 18.0 * cosh]));
-    let (a, jerk) = softening.bounds(at(-2.0), 0.0, 1.0 / 3.0);
+    let Bounds { acceleration: a, jerk } = softening.bounds(at(-2.0), 0.0, 1.0 / 3.0);
     assert!((a / (2.0 * 1.0_f64.cosh()) - 1.0).abs() < 2e-5 && close(jerk, 3.0 * a, 0.0));
     // ü = 5 sinh(3t)/3 ≤ 5 t cosh 3t, its rate 5 cosh 3t
     assert!(near(softening.bounds(at(0.0), 5.0, 1.0), [5.0 * cosh, (5.0 + 45.0) * cosh]));

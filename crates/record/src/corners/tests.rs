@@ -48,7 +48,8 @@ fn corners_are_found_where_the_motion_passes_them() {
                 for share in [0.02, 0.3, 0.5, 0.9, 0.98] {
                     let time = share * length;
                     let [corner, velocity, _] = line.after(terms, time, from, rate);
-                    let (found, found_time, found_velocity) = part.find(corner, terms);
+                    let Passage { found, time: found_time, velocity: found_velocity } =
+                        part.find(corner, terms);
                     all += 1;
                     if !found {
                         continue;
@@ -74,11 +75,12 @@ fn corners_are_found_where_the_motion_passes_them() {
 fn corners_outside_a_part_are_not_found() {
     let line = line(0.0, 0.0);
     let part = Part { lanes: true, from: [0.0, 1.0, 0.0], to: [0.5, 1.0], length: 0.5, ..part(line) };
-    assert_eq!(part.find(0.25, 2), (true, 0.25, 1.0));
+    let Passage { found, time, velocity } = part.find(0.25, 2);
+    assert_eq!((found, time, velocity), (true, 0.25, 1.0));
     for corner in [-0.1, 0.0, 0.5, 0.6] {
-        assert!(!part.find(corner, 2).0, "{corner}");
+        assert!(!part.find(corner, 2).found, "{corner}");
     }
-    assert!(!Part { lanes: false, ..part }.find(0.25, 2).0);
+    assert!(!Part { lanes: false, ..part }.find(0.25, 2).found);
 }
 
 /// A part of no length.

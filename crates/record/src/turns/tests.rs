@@ -75,7 +75,7 @@ fn sure_turns_pass_their_corner_once() {
                 continue;
             }
             leaves += 1;
-            let (found, time, velocity) = part.find_after_turn(0.0, terms);
+            let Passage { found, time, velocity } = part.find_after_turn(0.0, terms);
             let [u, v, _] = part.line.after(terms, time, part.from, rate);
             assert!(found && v < 0.0);
             // u rounds like the way out and back, u̇ t; u̇ like ü over that time
@@ -92,7 +92,7 @@ fn the_corner_at_the_start_is_not_found() {
     let (speed, length) = (1e-3, 0.01);
     let found = |rate: f64| {
         let (part, terms) = part(line(0.0, 0.0), [0.0, speed], [-1.0, rate], length);
-        part.find_after_turn(0.0, terms).0
+        part.find_after_turn(0.0, terms).found
     };
     // u = 0 after 2 ms without the jerk, and 1.1 ms with it
     assert!(found(0.0) && !found(-2000.0));

@@ -20,7 +20,7 @@
 //! assert!(svg(&shown).contains(&report::label("a_p / a₀")));
 //! ```
 
-use crate::spectrum::{Point, RockingSpectrum};
+use crate::spectrum::{Own, Point, RockingSpectrum};
 
 use report::heat_map::{Axis, Cell, HeatMap, place, scale};
 use report::number;
@@ -39,7 +39,7 @@ pub struct Shown {
     /// Explains the axes.
     pub axes: String,
     /// The scene's own wall: its place on the axes, and its result.
-    pub own: Option<([f64; 2], Point)>,
+    pub own: Option<Own>,
 }
 
 /// What the plot area of a file should measure \[px\].
@@ -53,14 +53,15 @@ const ROCKING: [[f64; 3]; 4] =
     [[226.0, 236.0, 247.0], [150.0, 194.0, 223.0], [60.0, 135.0, 190.0], [22.0, 58.0, 112.0]];
 
 /// The scene's own wall and its result.
-pub fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
+pub fn own_words(shown: &Shown, own: &Own) -> String {
+    let Own { place: [x, y], point } = *own;
     let [size, slenderness] = shown.spectrum.quantities.map(|quantity| quantity.label);
-    let outside = if place(&shown.spectrum.columns, *x).and(place(&shown.spectrum.rows, *y)).is_none() {
+    let outside = if place(&shown.spectrum.columns, x).and(place(&shown.spectrum.rows, y)).is_none() {
         ", outside the map"
     } else {
         ""
     };
-    format!("{size} = {}, {slenderness} = {}: {}{outside}", number(*x, 4), number(*y, 4), words_of(*point))
+    format!("{size} = {}, {slenderness} = {}: {}{outside}", number(x, 4), number(y, 4), words_of(point))
 }
 
 /// Describes the result of a wall.
@@ -97,10 +98,9 @@ pub fn map(shown: &Shown, area: [f64; 2], named: bool) -> (String, [f64; 2]) {
         columns: Axis::even(x, columns),
         rows: Axis::even(y, rows),
         size: [side(area[0], columns.len()), side(area[1], rows.len())],
-        own: shown
-            .own
-            .as_ref()
-            .and_then(|&([x, y], _)| Some(([place(columns, x)?, place(rows, y)?], "your wall"))),
+        own: shown.own.as_ref().and_then(|Own { place: [x, y], .. }| {
+            Some(([place(columns, *x)?, place(rows, *y)?], "your wall"))
+        }),
         cells: &paint,
     };
     (map.svg(), map.extent())

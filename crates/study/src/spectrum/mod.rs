@@ -61,6 +61,15 @@ pub struct Point {
     pub overturning: Option<f64>,
 }
 
+/// The wall of a scene among those of a spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Own {
+    /// Its place on the axes.
+    pub place: [f64; 2],
+    /// Its result.
+    pub point: Point,
+}
+
 /// A rocking spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockingSpectrum {
@@ -101,8 +110,10 @@ impl RockingSpectrum {
 pub fn over_walls(
     parameters: &Parameters,
     motion: &GroundMotion,
-    (size, sizes): (Size, &[f64]),
-    (slenderness, rows): (Slenderness, &[f64]),
+    size: Size,
+    sizes: &[f64],
+    slenderness: Slenderness,
+    rows: &[f64],
     threads: usize,
 ) -> Result<RockingSpectrum, SpectrumError> {
     check_count(sizes.len() * rows.len())?;
@@ -116,7 +127,7 @@ pub fn over_walls(
         }
     }
     let places = || rows.iter().flat_map(|&row| sizes.iter().map(move |&column| (row, column)));
-    let walls = places().map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)));
+    let walls = places().map(|(row, column)| shaped(parameters, size, column, slenderness, row));
     let walls = walls.collect::<Result<Vec<_>, _>>()?;
     let run = |index: usize| -> Result<Point, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
@@ -134,11 +145,10 @@ pub fn own_point(
     motion: &GroundMotion,
     size: Size,
     slenderness: Slenderness,
-) -> Option<([f64; 2], Point)> {
+) -> Option<Own> {
     let place = [size.of(parameters), slenderness.of(parameters)];
-    let (column, row) = ((size, &place[..1]), (slenderness, &place[1..]));
-    let alone = over_walls(parameters, motion, column, row, 1).ok()?;
-    Some((place, alone.points[0][0]))
+    let alone = over_walls(parameters, motion, size, &place[..1], slenderness, &place[1..], 1).ok()?;
+    Some(Own { place, point: alone.points[0][0] })
 }
 
 /// Computes the rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are
@@ -207,8 +217,10 @@ fn upright(parameters: &Parameters) -> Parameters {
 /// Returns the wall of a size and a slenderness, within the limits of the model description.
 fn shaped(
     parameters: &Parameters,
-    (size, column): (Size, f64),
-    (slenderness, row): (Slenderness, f64),
+    size: Size,
+    column: f64,
+    slenderness: Slenderness,
+    row: f64,
 ) -> Result<Parameters, SpectrumError> {
     let ratio = match slenderness {
         Slenderness::Ratio => row,

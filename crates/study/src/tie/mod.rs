@@ -9,7 +9,7 @@
 //! let mut scene = Scene::default();
 //! scene.set("tie_height", "4")?;
 //! let records = vec![SyntheticMotion::default().motion()?];
-//! let study = TieStudy::new(scene, (&STIFFNESS, &[0.0, 1e6]), records, false)?;
+//! let study = TieStudy::new(scene, &STIFFNESS, &[0.0, 1e6], records, false)?;
 //! let rows = study.rows(1)?;
 //! assert!(rows[0].outcomes[0].force == 0.0 && rows[1].outcomes[0].force > 0.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -183,7 +183,8 @@ impl TieStudy {
     /// wall.
     pub fn new(
         scene: Scene,
-        (varied, given): (&Varied, &[f64]),
+        varied: &Varied,
+        given: &[f64],
         records: Vec<GroundMotion>,
         both_polarities: bool,
     ) -> Result<Self, TieError> {

@@ -214,8 +214,10 @@ fn a_stocky_wall_needs_a_stronger_motion() {
         over_walls(
             &bilinear(),
             &motion.scaled(scale),
-            (Size::Height, &[1.0, 3.0]),
-            (Slenderness::Ratio, &rows),
+            Size::Height,
+            &[1.0, 3.0],
+            Slenderness::Ratio,
+            &rows,
             1,
         )
         .unwrap()
@@ -231,8 +233,7 @@ fn a_point_is_a_run() {
     for base in [bilinear(), Parameters::default(), rigid(0.9)] {
         let (radii, angles) = ([1.0, 2.5], [0.08, 0.12]);
         let spectrum =
-            over_walls(&base, &motion, (Size::SemiDiagonal, &radii), (Slenderness::Angle, &angles), 2)
-                .unwrap();
+            over_walls(&base, &motion, Size::SemiDiagonal, &radii, Slenderness::Angle, &angles, 2).unwrap();
         for (row, angle) in spectrum.points.iter().zip(angles) {
             for (point, radius) in row.iter().zip(radii) {
                 let mut scene = Scene::default();
@@ -264,8 +265,7 @@ fn a_point_is_a_run() {
 fn peaks_after_the_motion_count() {
     let wall = Parameters { damping_model: DampingModel::None, ..Parameters::default() };
     let push = GroundMotion::new(0.01, vec![3.0; 12]).unwrap();
-    let spectrum =
-        over_walls(&wall, &push, (Size::Height, &[4.0]), (Slenderness::Ratio, &[10.0]), 1).unwrap();
+    let spectrum = over_walls(&wall, &push, Size::Height, &[4.0], Slenderness::Ratio, &[10.0], 1).unwrap();
     let mut scene = Scene::default();
     scene.parameters.damping_model = DampingModel::None;
     scene.shake(Excitation::new(push, None), 60.0, Vec::new());
@@ -280,8 +280,7 @@ fn nothing_moves_without_motion_and_threads_change_nothing() {
     let motion = SyntheticMotion::default().motion().unwrap();
     let (heights, ratios) = ([1.0, 2.0, 4.0], [5.0, 8.0, 12.0, 16.0]);
     let spectrum = |motion: &GroundMotion, threads: usize| {
-        over_walls(&bilinear(), motion, (Size::Height, &heights), (Slenderness::Ratio, &ratios), threads)
-            .unwrap()
+        over_walls(&bilinear(), motion, Size::Height, &heights, Slenderness::Ratio, &ratios, threads).unwrap()
     };
     let still = spectrum(&motion.scaled(0.0), 2);
     assert!(still.points.iter().flatten().all(|point| point.ratio == 0.0 && !point.rocked));
@@ -298,7 +297,9 @@ fn nothing_moves_without_motion_and_threads_change_nothing() {
 fn what_is_no_wall_is_refused_by_name() {
     let motion = SyntheticMotion::default().motion().unwrap();
     let walls = |parameters: &Parameters, size: (Size, &[f64]), slenderness: (Slenderness, &[f64])| {
-        over_walls(parameters, &motion, size, slenderness, 2).unwrap_err().to_string()
+        over_walls(parameters, &motion, size.0, size.1, slenderness.0, slenderness.1, 2)
+            .unwrap_err()
+            .to_string()
     };
     let height: (Size, &[f64]) = (Size::Height, &[3.0]);
     for (error, words) in [
@@ -334,7 +335,7 @@ fn what_is_no_wall_is_refused_by_name() {
         }
     }
     let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..bilinear() };
-    let error = over_walls(&strip, &motion, (Size::SemiDiagonal, &[2.0]), (Slenderness::Ratio, &[20.0]), 1);
+    let error = over_walls(&strip, &motion, Size::SemiDiagonal, &[2.0], Slenderness::Ratio, &[20.0], 1);
     assert!(matches!(error, Err(SpectrumError::ParapetOnly { .. })));
     let error = over_pulses(&bilinear(), PulseForm::Ricker, &[0.0], &[1.0], 1).unwrap_err().to_string();
     assert!(error.contains("ω_p/p = 0"), "{error}");

@@ -95,7 +95,7 @@ fn scene() -> Scene {
 
 fn study_of(scene: &Scene, varied: &Varied, values: &[f64]) -> Result<TieStudy, study::tie::TieError> {
     let records = [1.0, 2.0].map(|scale| motion().checked_scaled(scale).unwrap()).to_vec();
-    TieStudy::new(scene.clone(), (varied, values), records, false)
+    TieStudy::new(scene.clone(), varied, values, records, false)
 }
 
 /// A tie that is brittle breaks with no elongation, and one that stays elastic takes more than its strength.

@@ -21,14 +21,9 @@ fn the_program_writes_a_table_and_a_page() {
     );
     let motion = SyntheticMotion::default().motion().unwrap();
     let defaults = Parameters::default();
-    let expected = over_walls(
-        &defaults,
-        &motion,
-        (Size::Height, &[1.0, 2.0, 3.0]),
-        (Slenderness::Ratio, &[5.0, 15.0]),
-        1,
-    )
-    .unwrap();
+    let expected =
+        over_walls(&defaults, &motion, Size::Height, &[1.0, 2.0, 3.0], Slenderness::Ratio, &[5.0, 15.0], 1)
+            .unwrap();
     for (row, point) in found.iter().zip(expected.points.iter().flatten()) {
         assert_eq!(row[2].parse::<f64>().unwrap(), point.ratio);
         assert_eq!(row[4].parse::<bool>().unwrap(), point.overturning.is_some());

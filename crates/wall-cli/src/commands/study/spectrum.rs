@@ -79,10 +79,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let threads = parallel::threads(arguments.threads).get();
-    let pulse = arguments.pulse.as_deref().map(form).transpose()?;
+    let pulse = arguments.pulse.as_deref().map(Pulse::named).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
         (Some(pulse), None, None) => pulses(console, arguments, &scene.parameters, &pulse, threads)?,
-        (Some((form, words)), Some(frequency), Some(amplitude)) => {
+        (Some(Pulse { form, words }), Some(frequency), Some(amplitude)) => {
             let motion = form.motion(frequency)?.checked_scaled(amplitude)?;
             let note = format!("{words} of {amplitude} m/s² at {frequency} Hz");
             walls(arguments, &scene.parameters, &motion, vec![note], threads)?
@@ -103,7 +103,7 @@ fn pulses(
     console: &Console<'_>,
     arguments: &Arguments,
     parameters: &Parameters,
-    (form, words): &(PulseForm, String),
+    Pulse { form, words }: &Pulse,
     threads: usize,
 ) -> Result<Shown> {
     let Arguments { heights, radii, ratios, angles, .. } = arguments;
@@ -158,7 +158,7 @@ fn walls(
         None => (Slenderness::Ratio, values("--ratios", arguments.ratios.as_deref(), [4.0, 20.0], 33)?),
     };
     Ok(Shown {
-        spectrum: over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?,
+        spectrum: over_walls(parameters, motion, size, &sizes, slenderness, &rows, threads)?,
         own: own_point(parameters, motion, size, slenderness),
         title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
         notes,
@@ -184,9 +184,16 @@ fn motion(
 }
 
 /// The form of a pulse, and its name in words.
-fn form(name: &str) -> Result<(PulseForm, String)> {
-    let form = PulseForm::from_name(name).map_err(|message| anyhow!("--pulse: {message}"))?;
-    Ok((form, name.replace('_', " ").replace("ricker", "Ricker pulse")))
+struct Pulse {
+    form: PulseForm,
+    words: String,
+}
+
+impl Pulse {
+    fn named(name: &str) -> Result<Self> {
+        let form = PulseForm::from_name(name).map_err(|message| anyhow!("--pulse: {message}"))?;
+        Ok(Self { form, words: name.replace('_', " ").replace("ricker", "Ricker pulse") })
+    }
 }
 
 /// Evenly spaced values of `FROM:TO:COUNT`.

@@ -89,7 +89,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     } else {
         AtLevel::as_given(scene, named.into_iter().map(|record| record.motion).collect())
     };
-    let study = TieStudy::new(scene, varied(arguments), motions, arguments.both_polarities || both_signs);
+    let (varied, values) = varied(arguments);
+    let both_polarities = arguments.both_polarities || both_signs;
+    let study = TieStudy::new(scene, varied, values, motions, both_polarities);
     let study = arguments.scene.named(study)?;
     let rows = study.rows(parallel::threads(arguments.threads).get())?;
     console.save(arguments.plot.as_ref(), || picture(&study, &rows))?;
