@@ -37,7 +37,7 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 const COMPONENT: &str = "wasm32-wasip2";
 
 /// The beginning and ending of this machine's libraries.
-pub(crate) const SYSTEM: (&str, &str) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+pub(crate) const SYSTEM: [&str; 2] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
 
 /// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
@@ -132,7 +132,7 @@ fn link(build: &mut Command, unit: Unit, features: &str) -> Result<()> {
 
 /// Returns the name of the file that a build gives the library of a unit, of the platform's beginning and
 /// ending.
-pub(crate) fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String {
+pub(crate) fn file_name(unit: Unit, [beginning, ending]: [&str; 2]) -> String {
     format!("{beginning}{}{ending}", unit.package.replace('-', "_"))
 }
 
@@ -148,7 +148,7 @@ pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     build.args(["rustc", "--release", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build, &[]);
     link(&mut build, unit, "component")?;
-    Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ("", ".wasm"))))
+    Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ["", ".wasm"])))
 }
 
 /// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 of some libraries and, below `fmi3/`,

@@ -18,7 +18,7 @@ pub(crate) struct Platform {
     /// Its folder in FMI 3.0.
     pub(crate) fmi3: &'static str,
     /// Beginning and ending of the name of a library.
-    pub(crate) library: (&'static str, &'static str),
+    pub(crate) library: [&'static str; 2],
     /// Options of the linker, so that the bytes depend on no folder and no clock.
     link: &'static [&'static str],
 }
@@ -28,7 +28,7 @@ const LINUX: Platform = Platform {
     glibc: ".2.17",
     fmi2: Some("linux64"),
     fmi3: "x86_64-linux",
-    library: ("lib", ".so"),
+    library: ["lib", ".so"],
     link: &[],
 };
 const WINDOWS: Platform = Platform {
@@ -36,7 +36,7 @@ const WINDOWS: Platform = Platform {
     glibc: "",
     fmi2: Some("win64"),
     fmi3: "x86_64-windows",
-    library: ("", ".dll"),
+    library: ["", ".dll"],
     // zig leaves the time out of what it links as optimised
     link: &["-Clink-arg=-O2"],
 };
@@ -45,7 +45,7 @@ const MACOS: Platform = Platform {
     glibc: "",
     fmi2: Some("darwin64"),
     fmi3: "x86_64-darwin",
-    library: ("lib", ".dylib"),
+    library: ["lib", ".dylib"],
     // a library has a name of its own instead of the path of its build
     link: &["-Clink-arg=-Wl,-install_name,@rpath/library.dylib"],
 };

@@ -122,7 +122,7 @@ fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
     let mut build = platform.cargo("build")?;
     build.args(["--release", "--locked", "--bin", "wall"]).env("CARGO_TARGET_DIR", &folder);
     succeed(&mut build, "see the compiler's message above")?;
-    let ending = if platform.library.1 == ".dll" { ".exe" } else { "" };
+    let ending = if platform.library[1] == ".dll" { ".exe" } else { "" };
     Ok((folder.join(platform.target).join("release").join(format!("wall{ending}")), ending))
 }
 

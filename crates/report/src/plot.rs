@@ -59,12 +59,6 @@ impl From<&str> for Axis {
     }
 }
 
-impl From<(&str, [f64; 2])> for Axis {
-    fn from((label, range): (&str, [f64; 2])) -> Self {
-        Self::over(label, range)
-    }
-}
-
 /// A pair of axes and what is on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {

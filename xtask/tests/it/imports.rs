@@ -187,7 +187,7 @@ impl Sources {
 }
 
 /// Returns whether a file is Rust of a crate, and not of its tests.
-fn is_product(name: &str) -> bool {
+pub(crate) fn is_product(name: &str) -> bool {
     let is_test = name.contains("/tests/") || name.ends_with("/tests.rs") || name.starts_with("fuzz/");
     Path::new(name).extension().is_some_and(|found| found == "rs") && !is_test
 }

@@ -10,6 +10,7 @@ mod generated;
 mod imports;
 mod manifest;
 mod notices;
+mod signatures;
 mod tidy;
 
 /// Returns the root of the workspace.

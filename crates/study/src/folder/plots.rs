@@ -85,7 +85,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
 
 /// Draws probabilities, or shares, over a horizontal axis.
 pub(crate) fn probabilities(x: (&str, [f64; 2]), label: &str, series: Vec<Series>) -> String {
-    Plot::new(SIZE, [Axis::from(x), Axis::over(label, [0.0, 1.0])], series).svg()
+    Plot::new(SIZE, [Axis::over(x.0, x.1), Axis::over(label, [0.0, 1.0])], series).svg()
 }
 
 /// Returns a line of a model, and its mark where the line first reaches some probabilities.
