@@ -60,7 +60,7 @@ impl Comparison {
 
     /// Compares a value that should be 0 with its limit.
     pub fn limited(case: &str, quantity: &str, value: f64, limit: f64) -> Self {
-        Self { scale: 1.0, ..Self::new((case, quantity, "-"), [value, 0.0], limit) }
+        Self { scale: 1.0, ..Self::new(case, quantity, "-", [value, 0.0], limit) }
     }
 
     /// Returns the difference over the scale \[-\].

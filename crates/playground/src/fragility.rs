@@ -2,7 +2,7 @@
 
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
 use report::number;
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use report::table::{Digits, Table};
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Damping, Parameters};
@@ -114,7 +114,10 @@ impl Fragility {
         if let Some(peak) = self.peak.map(in_g).filter(|peak| *peak <= right) {
             series.push(Series::dashed("the motion above", 5, vec![(peak, 0.0), (peak, 1.0)]));
         }
-        let (x, y) = (("peak ground acceleration (g)", [0.0, right]), ("probability", [0.0, 1.02]));
+        let (x, y) = (
+            Axis::over("peak ground acceleration (g)", [0.0, right]),
+            Axis::over("probability", [0.0, 1.02]),
+        );
         let title = "Probability over peak ground acceleration: lognormal fit, and one dot for each motion";
         Plot::titled(title, x, y, series)
     }

@@ -4,7 +4,7 @@
 //! A wall that settles passes u = 0 a hundred times in a step, each time a little slower. Between two
 //! passages ü keeps its sign: u is a convex or a concave function, which no more than one passage ends.
 
-use crate::corners::{Arrival, Part};
+use crate::corners::{Arrival, Part, Passage};
 use crate::lanes::Lanes;
 use crate::line::Bounds;
 use crate::run::Observer;

@@ -66,7 +66,7 @@ pub(super) fn figure_13() -> Figure {
     let charts = RATIO_MODELS.map(|model| {
         let title = format!("{}, a₁ = {a1}, a₃ = 1", label(model).name);
         let top = if model == RATIO_MODELS[0] { 8.0 } else { 16.0 };
-        let (x, y) = (("α or α₁ (rad)", [0.0, 0.35]), ("damping ratio (%)", [0.0, top]));
+        let (x, y) = (Axis::over("α or α₁ (rad)", [0.0, 0.35]), Axis::over("damping ratio (%)", [0.0, top]));
         let series = vec![
             Series::line("PW, e_an", 0, curve(model, parapet, 1.0)),
             Series::dashed("PW, 0.95 e_an", 0, curve(model, parapet, calibration(parapet))),

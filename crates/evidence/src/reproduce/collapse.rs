@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use report::table::{Digits, Table};
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
@@ -126,8 +126,8 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot 
     let widest = sorted(widest.filter(|intensity| *intensity > 0.0));
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
-    let x = ("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
-    Plot::titled(title, x, ("probability of overturning", [0.0, 1.02]), series)
+    let x = Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
+    Plot::titled(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn interval(value: &Interval, unit: f64) -> String {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -53,7 +53,9 @@ fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterE
 }
 
 /// The axis of u.
-const U: (&str, [f64; 2]) = ("u / u_ins", [-1.0, 1.0]);
+fn u_axis() -> Axis {
+    Axis::over("u / u_ins", [-1.0, 1.0])
+}
 
 /// Computes Figure 5: C over u, ξ over ω, damping force over u.
 pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
@@ -85,9 +87,14 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
              is divided by F₀, which the caption does not say; the first 5 s."
         ),
         charts: vec![
-            Plot::titled("a) damping coefficient", U, "C (kg/s)", coefficients),
-            Plot::titled("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
-            Plot::titled("c) damping force in a free vibration from 0.9 u_ins", U, "C u̇ / F0", forces),
+            Plot::titled("a) damping coefficient", u_axis(), "C (kg/s)", coefficients),
+            Plot::titled(
+                "b) damping ratio",
+                "ω (rad/s)",
+                Axis::over("damping ratio (%)", [0.0, 10.0]),
+                ratios,
+            ),
+            Plot::titled("c) damping force in a free vibration from 0.9 u_ins", u_axis(), "C u̇ / F0", forces),
         ],
     })
 }
@@ -123,8 +130,8 @@ pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
         title: "Matched free vibrations of CR and CDR",
         notes: "The wall is that of Figure 5; the velocity is divided by u_ins.".into(),
         charts: vec![
-            Plot::titled("a) history", ("time (s)", [0.0, 10.0]), U, histories),
-            Plot::titled("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
+            Plot::titled("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
+            Plot::titled("b) displacement and velocity", u_axis(), "velocity / u_ins (1/s)", phases),
         ],
     })
 }
@@ -159,7 +166,7 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
             Series::line("rocking body, CR", color("CR"), rocking),
         ];
-        charts.push(Plot::titled(title, ("time (s)", [0.0, end]), U, series));
+        charts.push(Plot::titled(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
     }
     Ok(Figure {
         number: 7,

@@ -67,7 +67,7 @@ pub(super) fn figure_14() -> Result<Figure, EvidenceError> {
         let panels = [("the whole motion", [0.0, END]), ("around the largest amplitude", [27.0, 33.0])];
         charts.extend(panels.map(|(panel, times)| {
             let title = format!("{}: {panel}", row.specimen);
-            let (x, y) = (Axis::over("time (s)", times), ("u / u_ins", [-0.6, 0.6]));
+            let (x, y) = (Axis::over("time (s)", times), Axis::over("u / u_ins", [-0.6, 0.6]));
             Plot::titled(title, x, y, series.clone())
         }));
     }

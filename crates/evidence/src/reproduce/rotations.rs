@@ -15,7 +15,7 @@
 
 use std::fmt::Write;
 
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use report::table::{Digits, Table};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
@@ -177,7 +177,12 @@ fn figure_2([parapet, strip]: &[Rotations; 2]) -> Figure {
         let full = Series::line("full rotations", 0, points(trigonometric));
         let series = vec![full, Series::dashed("Eq. (1)", 1, points(linear))];
         let title = format!("{panel}) {name}, e = {restitution}");
-        Plot::titled(title, ("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]), series)
+        Plot::titled(
+            title,
+            Axis::over("time (s)", [0.0, DURATION]),
+            Axis::over("u / u_ins", [-1.0, 1.0]),
+            series,
+        )
     };
     let ([small, full], [of_strip, of_strip_full]) = (parapet.first_impacts(), strip.first_impacts());
     Figure {
@@ -233,14 +238,14 @@ fn figure_3(parapet: &Rotations) -> Result<Figure, EvidenceError> {
         charts: vec![
             Plot::titled(
                 format!("a) over the initial rotation, α = {ANGLE}"),
-                ("θ0 / α", [0.0, 1.0]),
-                ("period (s)", [0.0, 10.0]),
+                Axis::over("θ0 / α", [0.0, 1.0]),
+                Axis::over("period (s)", [0.0, 10.0]),
                 series,
             ),
             Plot::titled(
                 "b) Eq. (1) over Eq. (5)",
-                ("α (rad)", [0.0, 0.4]),
-                ("ratio of periods", [0.96, 1.005]),
+                Axis::over("α (rad)", [0.0, 0.4]),
+                Axis::over("ratio of periods", [0.96, 1.005]),
                 vec![Series::line("√cos α", 5, roots), Series::marks("Eq. (1)", 0, ratios.collect())],
             ),
         ],

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 use run::model::{RATIO_MODELS as MODELS, label};
@@ -141,7 +141,7 @@ impl Section5 {
             }
             let x = self.shape[1][index].coefficients[0].x;
             series.push(Series::line("ξ = −x ln e for h/b = 10", 5, over_e(|e| -x * e.ln())));
-            let (x, y) = (("e", [0.78, 1.0]), ("damping ratio", [0.0, 0.16]));
+            let (x, y) = (Axis::over("e", [0.78, 1.0]), Axis::over("damping ratio", [0.0, 0.16]));
             Plot::titled(label(model).name, x, y, series)
         });
         Figure {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use report::plot::{Plot, Series};
+use report::plot::{Axis, Plot, Series};
 use report::table::{Cell, Column, Digits, Table};
 use run::model::color;
 
@@ -130,7 +130,7 @@ fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Plot {
     let points = push.points.iter().map(|[x, y]| (*x, *y)).collect();
     series.push(Series::marks("measured", MEASURED, points));
     let top = push.points.iter().map(|[_, force]| *force).fold(comparison.strength, f64::max);
-    let (x, y) = (("displacement d/t", [-0.02, 1.02]), ("force P/W", [0.0, 1.1 * top]));
+    let (x, y) = (Axis::over("displacement d/t", [-0.02, 1.02]), Axis::over("force P/W", [0.0, 1.1 * top]));
     Plot::titled(title, x, y, series)
 }
 
@@ -155,6 +155,7 @@ fn decay_chart(title: &str, comparison: &DecayComparison) -> Plot {
     series.push(Series::marks("measured", MEASURED, numbered(&comparison.peaks)));
     let last = comparison.peaks.len() as f64 - 1.0;
     let first = comparison.peaks.first().copied().unwrap_or_default();
-    let (x, y) = (("peak after the start", [-0.2, last + 0.2]), ("|d|/t", [0.0, 1.35 * first]));
+    let (x, y) =
+        (Axis::over("peak after the start", [-0.2, last + 0.2]), Axis::over("|d|/t", [0.0, 1.35 * first]));
     Plot::titled(title, x, y, series)
 }

@@ -82,7 +82,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         parsed.warnings.extend(numbers::gap(columns.lines_below()));
     }
     match (times.uniform()?, options.step) {
-        (Some(of_times), _) => take_times(&mut parsed, of_times, seconds, options, columns.line())?,
+        (Some(of_times), _) => take_times(&mut parsed, of_times.into(), seconds, options, columns.line())?,
         (None, Some(step)) => parsed.step = step,
         // one sample is refused as such
         (None, None) if has_times => {}
@@ -127,7 +127,7 @@ fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 /// are numbers of samples, or in another unit.
 fn take_times(
     parsed: &mut Parsed,
-    (first_time, step): (f64, f64),
+    [first_time, step]: [f64; 2],
     seconds: f64,
     options: &RecordOptions,
     line: usize,

@@ -95,7 +95,7 @@ impl<'a> Losses<'a> {
         if subject.is_shown(self.manifest) {
             let ends = lines.iter().flatten().map(|point| point.0);
             let ends = ends.fold([f64::INFINITY, 0.0], |[low, high], x| [low.min(x), high.max(x)]);
-            self.shown.add(subject, table, (ends, lines));
+            self.shown.add(subject, table, ends, lines);
         }
         Ok(())
     }

@@ -67,35 +67,35 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
             let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
                 (unit.of(level), f64::from(exceeded) / f64::from(runs.max(1)))
             };
-            series.push(marks((color, mark), counts.iter().map(part).collect()));
+            series.push(marks(color, mark, counts.iter().map(part).collect()));
         }
         if let Ok(fit) = summary.fitted {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
             let probability = |x: f64| fit.probability(x * unit.size());
             let curve: Vec<_> = (1..=POINTS).map(|k| (at(k), probability(at(k)))).collect();
             if counts.is_empty() {
-                series.extend(marked_line(curve, (color, mark)));
+                series.extend(marked_line(curve, color, mark));
             } else {
                 series.push(Series::stroke(color, 1.8, curve));
             }
         }
     }
-    probabilities((&manifest.contents.axis(), [0.0, top]), "probability", series)
+    probabilities(Axis::over(&manifest.contents.axis(), [0.0, top]), "probability", series)
 }
 
 /// Draws probabilities, or shares, over a horizontal axis.
-pub(crate) fn probabilities(x: (&str, [f64; 2]), label: &str, series: Vec<Series>) -> String {
-    Plot::new(SIZE, [Axis::over(x.0, x.1), Axis::over(label, [0.0, 1.0])], series).svg()
+pub(crate) fn probabilities(across: Axis, label: &str, series: Vec<Series>) -> String {
+    Plot::new(SIZE, [across, Axis::over(label, [0.0, 1.0])], series).svg()
 }
 
 /// Returns a line of a model, and its mark where the line first reaches some probabilities.
-pub(crate) fn marked_line(line: Vec<(f64, f64)>, look: (&'static str, Mark)) -> [Series; 2] {
+pub(crate) fn marked_line(line: Vec<(f64, f64)>, color: &'static str, mark: Mark) -> [Series; 2] {
     let first = |part: f64| line.iter().find(|point| point.1 >= part).copied();
     let marked = MARKED.into_iter().filter_map(first).collect();
-    [Series::stroke(look.0, 1.8, line), marks(look, marked)]
+    [Series::stroke(color, 1.8, line), marks(color, mark, marked)]
 }
 
-fn marks((color, mark): (&'static str, Mark), points: Vec<(f64, f64)>) -> Series {
+fn marks(color: &'static str, mark: Mark, points: Vec<(f64, f64)>) -> Series {
     Series { look: Look::Marks(mark), ..Series::stroke(color, 3.3, points) }
 }
 

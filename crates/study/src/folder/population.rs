@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::results::WallResults;
 use report::escaped;
+use report::plot::Axis;
 use report::table::{Cell, Digits, Table};
 use run::sample::{fractile, sorted};
 
@@ -142,12 +143,12 @@ fn known(median: Option<f64>) -> Cell<'static> {
 fn distribution(manifest: &Manifest, values: &[Vec<f64>], label: &str) -> String {
     let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
     let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
-    let lines = values.iter().zip(looks(manifest)).flat_map(|(values, look)| {
+    let lines = values.iter().zip(looks(manifest)).flat_map(|(values, (color, mark))| {
         let point = |k: u32| {
             let part = f64::from(k) / f64::from(POINTS);
             Some((fractile(values, part).filter(|value| value.is_finite())?, part))
         };
-        marked_line((1..=POINTS).filter_map(point).collect(), look)
+        marked_line((1..=POINTS).filter_map(point).collect(), color, mark)
     });
-    probabilities((label, [0.0, top]), "fraction of the walls", lines.collect())
+    probabilities(Axis::over(label, [0.0, top]), "fraction of the walls", lines.collect())
 }

@@ -85,7 +85,7 @@ impl<'a> Rates<'a> {
                 last.map_or_else(Vec::new, |row| cumulated(hazard, contents.unit, &row.rate))
             };
             let lines = (0..contents.models.len()).map(of_model).collect();
-            self.shown.add(subject, table, (self.ends(), lines));
+            self.shown.add(subject, table, self.ends(), lines);
         }
         Ok(())
     }

@@ -207,7 +207,7 @@ impl<'a> Risk<'a> {
                     |curve: &Lognormal| (1..=POINTS).map(|k| (at(k), curve.probability(at(k)))).collect();
                 curve.as_ref().map_or_else(Vec::new, point)
             };
-            self.shown.add(subject, table, ([0.0, end], curves.iter().map(line).collect()));
+            self.shown.add(subject, table, [0.0, end], curves.iter().map(line).collect());
         }
         if let Some(rates) = &mut self.rates {
             rates.add(subject)?;

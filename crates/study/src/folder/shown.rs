@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use report::plot::Axis;
+use report::points::Points;
 use report::table::Table;
 use report::{counted, escaped};
 
@@ -28,12 +30,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Adds a subject: its rows, and a plot between two intensities with a line for each model that has one.
-    pub(crate) fn add(
-        &mut self,
-        subject: &Subject<'_>,
-        rows: Table,
-        (ends, lines): ([f64; 2], Vec<Vec<(f64, f64)>>),
-    ) {
+    pub(crate) fn add(&mut self, subject: &Subject<'_>, rows: Table, ends: [f64; 2], lines: Vec<Points>) {
         let Self { manifest, label, .. } = *self;
         let place = usize::from(subject.class.is_none());
         self.tables[0].columns = rows.columns;
@@ -41,12 +38,13 @@ impl<'a> Shown<'a> {
         if lines.iter().all(Vec::is_empty) {
             return;
         }
-        let series = lines.into_iter().zip(looks(manifest)).flat_map(|(line, look)| marked_line(line, look));
+        let lines = lines.into_iter().zip(looks(manifest));
+        let series = lines.flat_map(|(line, (color, mark))| marked_line(line, color, mark));
         let walls = subject.class.map_or_else(String::new, |walls| format!(", {}", counted(walls, "wall")));
         self.figures[place].push(format!(
             "<figure><figcaption>{}{walls}</figcaption>{}</figure>",
             escaped(subject.name),
-            probabilities((&manifest.contents.axis(), ends), label, series.collect())
+            probabilities(Axis::over(&manifest.contents.axis(), ends), label, series.collect())
         ));
     }
 

@@ -187,13 +187,13 @@ fn fragilities(manifest: &Manifest, wall: usize, results: &WallResults) -> Table
         [("median_ratio", |one| &one.median_ratio), ("theta_ratio", |one| &one.theta_ratio)];
     for estimate in intensities {
         table =
-            with_interval(table, estimate, (&manifest.contents.unit.ending(), manifest.contents.unit.size()));
+            with_interval(table, estimate, &manifest.contents.unit.ending(), manifest.contents.unit.size());
     }
     table = table
         .value("beta", |(.., one)| beta(&one.summary.fitted))
         .value("beta_alone", |(.., one)| beta(&one.summary.alone));
     for estimate in ratios {
-        table = with_interval(table, estimate, ("", 1.0));
+        table = with_interval(table, estimate, "", 1.0);
     }
     let known = |value: f64| (!value.is_nan()).then_some(value);
     table = table
@@ -232,7 +232,8 @@ type Estimate = (&'static str, fn(&Summary) -> &Interval);
 fn with_interval<'a>(
     table: Growing<(usize, f64, &'a StateResults)>,
     (name, of): Estimate,
-    (ending, unit): (&str, f64),
+    ending: &str,
+    unit: f64,
 ) -> Growing<(usize, f64, &'a StateResults)> {
     ["", "_low", "_high"].into_iter().enumerate().fold(table, |table, (part, end)| {
         let bounds = |row: &(usize, f64, &StateResults)| Cell::Between(of(&row.2.summary).bounds(unit)[part]);

@@ -34,7 +34,7 @@ pub fn read(
                 line,
                 "a table of OpenQuake has units of its own; leave out unit of [hazard]".to_owned(),
             )),
-            (Some(comment), ..) => open_quake(comment, &columns, &rows, measure, site),
+            (Some((line, comment)), ..) => open_quake(line, comment, &columns, &rows, measure, site),
             (None, _, Some(_)) => {
                 let message = "site of [hazard] belongs to a table of OpenQuake; leave it out";
                 Err((columns.line(), message.to_owned()))
@@ -111,7 +111,8 @@ fn two_columns(
 /// Reads a table of `OpenQuake`: a comment, a line of names, and one site in a row. A probability P in t
 /// years is a rate of −ln(1 − P)/t; levels are in the unit of results.
 fn open_quake(
-    (line, comment): (usize, &str),
+    line: usize,
+    comment: &str,
     columns: &Columns<'_>,
     rows: &[TextRow<'_>],
     measure: &IntensityMeasure,

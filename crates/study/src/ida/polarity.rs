@@ -29,7 +29,12 @@ choices!(Polarity);
 impl Polarity {
     /// Returns the word of study files.
     pub fn name(self) -> &'static str {
-        ["as_recorded", "reversed", "both", "worst"][self as usize]
+        match self {
+            Self::AsRecorded => "as_recorded",
+            Self::Reversed => "reversed",
+            Self::Both => "both",
+            Self::Worst => "worst",
+        }
     }
 
     /// Returns how many records of a study come from each one that is given.

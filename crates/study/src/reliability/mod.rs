@@ -121,6 +121,6 @@ impl Reliability {
     /// The reason why there is no check.
     fn of_wall(&self, place: usize, curves: &[Curve], fitting: &Fitting) -> Result<WallReliability, String> {
         let wall = &self.walls[place];
-        WallReliability::of((wall, self.codes.of(wall)), curves, fitting, self.target)
+        WallReliability::of(wall, self.codes.of(wall), curves, fitting, self.target)
     }
 }

@@ -97,7 +97,8 @@ impl WallReliability {
     /// # Errors
     /// The reason why there is no check.
     pub(super) fn of(
-        (wall, code): (&NamedWall, &dyn Code),
+        wall: &NamedWall,
+        code: &dyn Code,
         curves: &[Curve],
         fitting: &Fitting,
         target: f64,
