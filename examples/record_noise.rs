@@ -15,6 +15,7 @@ use ground_motion::GroundMotion;
 use run::records::NamedRecord;
 use run::sample::Pcg;
 use study::fragility::{Lognormal, Sample, fit};
+use study::codes::NoCodes;
 use study::ida::{Crossing, Curve, Exceedance, Study};
 use study::loaded::LoadedStudy;
 
@@ -28,7 +29,7 @@ type Outcome = (Vec<f64>, Vec<f64>, Vec<Lognormal>);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "studies/table_5.toml".to_owned());
-    let LoadedStudy { study, .. } = LoadedStudy::read(Path::new(&path))?;
+    let LoadedStudy { study, .. } = LoadedStudy::read(Path::new(&path), &NoCodes)?;
     let (collapses, sensitivities, fits) = outcome(&study)?;
     println!("noise   collapses that move  most  S >= 1/noise  theta: rms   most  beta: rms   most");
     for epsilon in [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3] {

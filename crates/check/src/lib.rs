@@ -4,6 +4,7 @@
 pub mod circolare;
 pub mod fractions;
 
+mod at_level;
 mod code;
 mod codes;
 mod entry;
@@ -16,6 +17,7 @@ mod site;
 mod verdict;
 mod walls;
 
+pub use at_level::{AtLevel, at_level};
 pub use code::{Code, InStudies, Rule, Subject};
 pub use codes::{CODES, complete, how_to_write, read};
 pub use entry::Entry;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use reliability::Reliability;
 use study::folder::{FolderError, compute, curve_tables, merge};
-use study::reliability::{self, Reliability};
 
 use crate::errors::{failed, of_scene, refused};
 use crate::studies::Study;

@@ -1,7 +1,7 @@
 //! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
 //! damping that matches restitution; and of formulas beside references.
 
-use check::{CheckError, CheckFile, Code, Origin, Subject, page, read};
+use check::{AtLevel, CheckError, CheckFile, Code, Origin, Subject, at_level, page, read};
 use evidence::verification::{self, verify};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -18,7 +18,7 @@ use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
     PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion, over_pulses, over_walls,
 };
-use study::tie::{self, AtLevel, Outcome, Row, TieError, TieStudy, at_level};
+use study::tie::{self, Outcome, Row, TieError, TieStudy};
 
 use crate::arrays::{Motion, Numbers, grid, named_records, samples};
 use crate::errors::{failed, of_scene, refused};

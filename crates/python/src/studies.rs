@@ -7,6 +7,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use reliability::Codes;
 use rocking_wall::scene::SceneError;
 use study::folder::{Contents, encode};
 use study::loaded::{LoadedStudy, Sent};
@@ -31,7 +32,7 @@ impl Study {
     /// Reads a study file.
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let loaded = py.detach(|| LoadedStudy::read(&path)).map_err(of_scene)?;
+        let loaded = py.detach(|| LoadedStudy::read(&path, &Codes)).map_err(of_scene)?;
         Ok(Self { loaded, contents: OnceLock::new() })
     }
 
@@ -46,7 +47,7 @@ impl Study {
         let mut warnings = Vec::new();
         let walls = named_walls(&walls, &mut warnings)?;
         let records = named_records(records);
-        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
+        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records, &Codes));
         let mut loaded = made.map_err(|error| match error {
             SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),
             other => refused(other),
@@ -60,13 +61,13 @@ impl Study {
     fn received(py: Python<'_>, values: Values<Vec<f64>>) -> PyResult<Self> {
         let (text, walls, records) = values;
         let sent = Sent { text, walls, records };
-        let loaded = py.detach(|| LoadedStudy::received(sent)).map_err(of_scene)?;
+        let loaded = py.detach(|| LoadedStudy::received(sent, &Codes)).map_err(of_scene)?;
         Ok(Self { loaded, contents: OnceLock::new() })
     }
 
     /// Returns the values of the study, to send them.
     fn sent<'py>(&self, py: Python<'py>) -> Values<Bound<'py, PyArray1<f64>>> {
-        let Sent { text, walls, records } = self.loaded.sent();
+        let Sent { text, walls, records } = self.loaded.sent(&Codes);
         let array = |(name, dt, samples)| (name, dt, PyArray1::from_vec(py, samples));
         (text, walls, records.into_iter().map(array).collect())
     }

@@ -10,17 +10,18 @@
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`hazard`] | hazard curves, and the annual rate of a fragility |
 //! | [`uncertain`] | samples of uncertain parameters, and which of them explains θ |
+//! | [`codes`] | what a study asks of building codes |
 //! | [`document`] | study files |
 //! | [`loaded`] | studies read from files, with their scenes and records |
 //! | [`results`] | the curves and the fragilities of each wall of a study |
 //! | [`folder`] | a study in a folder: runs in parts, tables and a page |
-//! | [`reliability`] | how safe a wall is that just passes a check by a code |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
 //! | [`tie`] | force and displacement over the stiffness of a tie |
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod calibration;
+pub mod codes;
 pub mod document;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod folder;
@@ -28,8 +29,6 @@ pub mod fragility;
 pub mod hazard;
 pub mod ida;
 pub mod loaded;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod reliability;
 pub mod results;
 pub mod spectrum;
 pub mod tie;

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use check::CheckFile;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::scene::{SceneError, read_text};
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
@@ -11,6 +10,7 @@ use run::records::{NamedRecord, all_records, copies, record_files};
 use run::wall_text::{wall_of_text, wall_text};
 use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
+use crate::codes::Codes;
 use crate::document::{ReportOptions, StudyFile, WallClass};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use crate::uncertain::Uncertain;
@@ -55,14 +55,15 @@ pub struct Sent {
 }
 
 impl LoadedStudy {
-    /// Reads a study file. Scenes and records that it names are looked up beside it.
+    /// Reads a study file. Scenes and records that it names are looked up beside it; `codes` answer what it asks
+    /// of building codes.
     ///
     /// # Errors
     /// [`SceneError`], with file, line, value and remedy.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
+    pub fn read(path: &Path, codes: &dyn Codes) -> Result<Self, SceneError> {
         let name = path.display().to_string();
         let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
-        let mut file = StudyFile::parse(&name, &text)?;
+        let mut file = StudyFile::parse(&name, &text, codes)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
         let mut all = Vec::with_capacity(file.walls.len());
@@ -87,9 +88,10 @@ impl LoadedStudy {
         text: String,
         walls: Vec<NamedWall>,
         records: Vec<NamedRecord>,
+        codes: &dyn Codes,
     ) -> Result<Self, SceneError> {
         let name = "the study";
-        let mut file = StudyFile::parse(name, &text)?;
+        let mut file = StudyFile::parse(name, &text, codes)?;
         let mut warnings = Vec::new();
         open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
         let study = Self::assemble(name, text, file, walls, records)?;
@@ -106,8 +108,8 @@ impl LoadedStudy {
         self.target
     }
 
-    /// Returns the study as plain values.
-    pub fn sent(&self) -> Sent {
+    /// Returns the study as plain values, with the files that its table `[check]` names.
+    pub fn sent(&self, codes: &dyn Codes) -> Sent {
         let wall = |wall: &NamedWall| {
             let assumed = wall.assumed.iter().map(|&name| name.to_owned()).collect();
             (wall.name.clone(), wall_text(wall), assumed)
@@ -116,12 +118,11 @@ impl LoadedStudy {
             (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
         };
         let name = self.inputs.first().map_or_else(String::new, |path| path.display().to_string());
-        let file = CheckFile::parse(&name, &self.text).and_then(|file| file.self_contained());
         // the samples follow from the text
         let walls = if self.sampled.is_empty() { self.study.walls() } else { &self.sampled };
         Sent {
             // a grid that has vanished since is named where the text is read
-            text: file.unwrap_or_else(|_| self.text.clone()),
+            text: codes.self_contained(&name, &self.text).unwrap_or_else(|_| self.text.clone()),
             walls: walls.iter().map(wall).collect(),
             records: self.study.given_records().iter().map(record).collect(),
         }
@@ -131,9 +132,9 @@ impl LoadedStudy {
     ///
     /// # Errors
     /// [`SceneError`] if they are not those of [`Self::sent`].
-    pub fn received(sent: Sent) -> Result<Self, SceneError> {
+    pub fn received(sent: Sent, codes: &dyn Codes) -> Result<Self, SceneError> {
         let name = "a study that was sent";
-        let file = StudyFile::parse(name, &sent.text)?;
+        let file = StudyFile::parse(name, &sent.text, codes)?;
         let wall = |(name, text, unstated): (String, String, Vec<String>)| {
             let assumed = assumed(|_, name| unstated.iter().all(|other| other != name));
             Ok::<_, SceneError>(NamedWall { assumed, ..wall_of_text(name, &text)? })

@@ -147,10 +147,8 @@ const KNOWN: [(&str, &str); 17] = [
     ("rocking-record", "rocking-oscillator rocking-wall"),
     ("rocking-run", "ground-motion rocking-record rocking-report rocking-wall"),
     ("rocking-check", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
-    (
-        "rocking-study",
-        "fmu-export ground-motion rocking-check rocking-record rocking-report rocking-run rocking-wall",
-    ),
+    ("rocking-study", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
+    ("rocking-reliability", "rocking-check rocking-report rocking-run rocking-study rocking-wall"),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
         "rocking-building",
@@ -169,12 +167,13 @@ const KNOWN: [(&str, &str); 17] = [
     (
         "rocking-wall-python",
         "fmu-export ground-motion rocking-building rocking-check rocking-evidence rocking-record \
-         rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
+         rocking-reliability rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
     ),
     (
         "rocking-wall-cli",
         "fmu-export fmu-export-build ground-motion rocking-building rocking-check rocking-evidence \
-         rocking-floor rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
+         rocking-floor rocking-reliability rocking-report rocking-run rocking-scene-fmu rocking-study \
+         rocking-wall",
     ),
 ];
 

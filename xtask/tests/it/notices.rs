@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
-const ABOVE_THE_UNIT: [&str; 12] = [
+const ABOVE_THE_UNIT: [&str; 13] = [
     "argmin",
     "clap",
     "fearless_simd",
@@ -15,6 +15,7 @@ const ABOVE_THE_UNIT: [&str; 12] = [
     "rocking-check",
     "rocking-evidence",
     "rocking-record",
+    "rocking-reliability",
     "rocking-run",
     "rocking-study",
     "serde_json",

@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
+use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Levels, ToSi};
-use check::{CheckFile, read};
 use rocking_wall::scene::{Place, SceneError};
 use rocking_wall::tables;
 
@@ -64,6 +64,7 @@ tables! {
 
 pub(super) fn measure(
     table: Option<&Spanned<IntensityTable>>,
+    codes: &dyn Codes,
     place: &Place<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
     let Some(table) = table else { return Ok(IntensityMeasure::default()) };
@@ -98,7 +99,7 @@ pub(super) fn measure(
         ("AvgSA", ..) => refuse("AvgSA takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         ("code", None, periods) => {
             let usual = || (2..=20).map(|tenth| f64::from(tenth) / 10.0).collect();
-            of_code(periods.clone().unwrap_or_else(usual), table, place)
+            of_code(periods.clone().unwrap_or_else(usual), table, codes, place)
         }
         ("code", ..) => refuse("code takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
@@ -112,10 +113,9 @@ pub(super) fn measure(
 fn of_code(
     periods: Vec<f64>,
     table: &Spanned<IntensityTable>,
+    codes: &dyn Codes,
     place: &Place<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
-    let file = CheckFile::parse(place.name(), place.text())?.without_records();
-    let code = read(&file).map_err(|error| file.located(error))?;
     if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
         return Err(place.error(table.span(), format!("periods: {period} s must be above 0")));
     }
@@ -125,7 +125,8 @@ fn of_code(
             "measure = \"code\" needs the spectrum of the site: ag, F0 and TC of SLV in [check]",
         )
     };
-    let shape = code.spectral_shape(&periods).filter(|shape| !shape.is_empty()).ok_or_else(missing)?;
+    let shape = codes.spectral_shape(place.name(), place.text(), &periods)?;
+    let shape = shape.filter(|shape| !shape.is_empty()).ok_or_else(missing)?;
     Ok(IntensityMeasure::Code { periods, shape })
 }
 

@@ -3,6 +3,7 @@
 //! Parameters of walls stand in the same tables as in a scene. The caller opens the files that a study names.
 //!
 //! ```
+//! use study::codes::NoCodes;
 //! use study::document::StudyFile;
 //!
 //! let text = r#"
@@ -11,7 +12,7 @@
 //! records = { synthetic = { count = 3 } }
 //! walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 //! "#;
-//! assert_eq!(StudyFile::parse("study.toml", text)?.models[1].name, "CDC");
+//! assert_eq!(StudyFile::parse("study.toml", text, &NoCodes)?.models[1].name, "CDC");
 //! # Ok::<(), rocking_wall::scene::SceneError>(())
 //! ```
 
@@ -31,6 +32,7 @@ use run::walls::{WallEntry, WallTable, entries};
 use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
+use crate::codes::Codes;
 use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity};
 use crate::uncertain::Uncertain;
 
@@ -135,12 +137,13 @@ impl StudyFile {
         with(file_schema::<Document>("Study of rocking-wall"), "required", required)
     }
 
-    /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing,
+    /// Reads a study from its text; `name` stands for the file in messages, and `codes` answer what
+    /// `measure = "code"` asks. Walls and records may be missing,
     /// since a program can supply them itself.
     ///
     /// # Errors
     /// [`SceneError`] with file, line, value and remedy.
-    pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
+    pub fn parse(name: &str, text: &str, codes: &dyn Codes) -> Result<Self, SceneError> {
         let place = &Place::new(name, text);
         let document: Document = parse_toml(place)?;
         let models: Vec<Model> =
@@ -152,7 +155,7 @@ impl StudyFile {
             }
         }
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
-        let measure = measure(document.intensity.as_ref(), place)?;
+        let measure = measure(document.intensity.as_ref(), codes, place)?;
         let levels = levels(&document.levels, &measure, place)?;
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
             && *word.get_ref() == Collapse::Falls

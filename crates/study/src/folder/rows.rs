@@ -7,25 +7,25 @@ use report::table::Table;
 use run::file::{Draft, FileError};
 
 /// A file under construction, whose line of names is that of the first table.
-pub(crate) struct Rows {
+pub struct Rows {
     draft: Draft,
     is_begun: bool,
 }
 
 impl Rows {
-    pub(crate) fn new(path: &Path) -> Result<Self, FileError> {
+    pub fn new(path: &Path) -> Result<Self, FileError> {
         Ok(Self { draft: Draft::new(path, b"")?, is_begun: false })
     }
 
     /// Adds the rows of a table; all tables have the same columns.
-    pub(crate) fn add(&mut self, table: &Table) -> Result<(), FileError> {
+    pub fn add(&mut self, table: &Table) -> Result<(), FileError> {
         let text = if self.is_begun { table.csv_rows() } else { table.csv() };
         self.is_begun = true;
         self.draft.write(|file| file.write_all(text.as_bytes()))
     }
 
     /// Completes the file, and returns its path.
-    pub(crate) fn commit(self) -> Result<PathBuf, FileError> {
+    pub fn commit(self) -> Result<PathBuf, FileError> {
         self.draft.commit(true)
     }
 }

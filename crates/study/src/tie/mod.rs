@@ -16,7 +16,6 @@
 //! ```
 
 pub mod figure;
-mod level;
 mod table;
 
 use ground_motion::{GroundMotion, GroundMotionError};
@@ -31,7 +30,6 @@ use run::parallel;
 use run::polarity::Polarities;
 use run::sample::{fractile, sample_median, sorted};
 
-pub use level::{AtLevel, at_level};
 pub use table::table;
 
 /// The upper fractile of tables and figures: the mean and one standard deviation of a normal sample \[-\].

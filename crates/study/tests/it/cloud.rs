@@ -6,6 +6,7 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::sample::Pcg;
 use run::walls::NamedWall;
+use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::fragility::{Bootstrap, Cloud, FitError, compare_clouds, cumulative, quantile};
 use study::ida::{Curve, IntensityMeasure, Levels, Run, Study};
@@ -183,7 +184,7 @@ fn each_record_is_run_at_its_own_level() {
 fn keys_without_a_part_in_a_cloud_are_refused() {
     let read = |more: &str| {
         let text = format!("models = [\"CR\"]\nlevels = {{ method = \"cloud\" }}\n{more}\n");
-        StudyFile::parse("study.toml", &text)
+        StudyFile::parse("study.toml", &text, &NoCodes)
     };
     assert_eq!(read("").unwrap().levels, Levels::Cloud { scale: 1.0 });
     for (more, words) in [
@@ -200,7 +201,7 @@ fn keys_without_a_part_in_a_cloud_are_refused() {
         ("method = \"step\", step = 1, top = 3, scale = 2", "scale has no part"),
     ] {
         let text = format!("models = [\"CR\"]\nlevels = {{ {levels} }}\n");
-        let told = StudyFile::parse("study.toml", &text).unwrap_err().to_string();
+        let told = StudyFile::parse("study.toml", &text, &NoCodes).unwrap_err().to_string();
         assert!(told.contains(words), "{told}");
     }
 }

@@ -5,12 +5,13 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use run::sample::Pcg;
+use study::codes::NoCodes;
 use study::folder::{Folder, finish};
 use study::fragility::quantile;
 use study::hazard::HazardCurve;
 use study::ida::{Curve, Run};
 
-use crate::reliability::{load, number, rows};
+use crate::folders::{load, number, rows};
 
 const THETA: f64 = 2.0;
 const BETA: f64 = 0.4;
@@ -77,7 +78,7 @@ fn coverage(name: &str, runs: Runs, records: usize, populations: usize) -> BTree
                 .unwrap();
         }
     }
-    let loaded = load(name, &text).unwrap();
+    let loaded = load(name, &text, &NoCodes).unwrap();
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     drop(std::fs::remove_dir_all(&path));
     let folder = Folder::of_study(&path, &loaded).unwrap();

@@ -1,5 +1,6 @@
 //! Fits of fragilities against maxima that are searched for without derivatives.
 
+use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::fragility::{
     Bootstrap, Dispersion, Estimator, Lognormal, Sample, Summary, TAIL, compare, cumulative, fit,
@@ -304,7 +305,7 @@ fn a_study_file_states_the_estimator() {
              report = {{ fractions = [1]{report} }}\n\
              walls = [{{ name = \"a\", geometry = {{ height = 2 }} }}]\n"
         );
-        StudyFile::parse("study.toml", &text)
+        StudyFile::parse("study.toml", &text, &NoCodes)
     };
     let (grid, step) = ("method = \"grid\", values = [0.1]", "method = \"step\", step = 0.1, top = 1");
     let report = |levels, report| file(levels, report).unwrap().report;

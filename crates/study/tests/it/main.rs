@@ -1,4 +1,4 @@
-//! The tests of studies and checks.
+//! The tests of studies.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
@@ -11,16 +11,15 @@ mod cloud;
 mod configuration;
 mod coverage;
 mod estimators;
+mod folders;
 mod fragility;
 mod ida;
-mod margins;
 mod messages;
 mod polarity;
 mod record_files;
-mod reliability;
-mod reliability_tables;
 mod rocking_spectrum;
 mod sensitivity;
 mod storeys;
 mod ties;
 mod uncertain;
+mod uplift;

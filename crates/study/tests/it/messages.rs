@@ -1,5 +1,6 @@
 //! Tests what is said of studies that cannot be read: key, line and what is expected, in plain words.
 
+use study::codes::NoCodes;
 use study::document::StudyFile;
 
 use crate::broken::walk;
@@ -13,12 +14,12 @@ const STUDY: &str = "title = \"a\"\nmodels = [\"CR\", { model = \"CDC\", xi = 0.
 
 #[test]
 fn no_message_speaks_in_words_of_the_reader() {
-    walk(STUDY, |text| StudyFile::parse("s.toml", text));
+    walk(STUDY, |text| StudyFile::parse("s.toml", text, &NoCodes));
 }
 
 #[test]
 fn messages_name_line_and_key_and_what_is_expected() {
-    let study = |text: &str| StudyFile::parse("s.toml", text).unwrap_err().to_string();
+    let study = |text: &str| StudyFile::parse("s.toml", text, &NoCodes).unwrap_err().to_string();
     for (found, message) in [
         (study("models = \"CR\"\n"), "s.toml, line 1: models = \"CR\": expected a list"),
         (study("models = []\n"), "s.toml, line 1: levels is missing; add it"),

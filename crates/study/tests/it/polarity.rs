@@ -7,6 +7,7 @@ use rocking_wall::wall::Parameters;
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
+use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::folder::Contents;
 use study::fragility::Bootstrap;
@@ -91,12 +92,12 @@ fn a_study_that_is_sent_keeps_its_signs() {
             "models = [\"CR\"]\npolarity = \"{word}\"\n\
              levels = {{ method = \"step\", step = 0.4, top = 2 }}\n"
         );
-        let loaded = LoadedStudy::of_parts(text, walls(), records(3)).unwrap();
+        let loaded = LoadedStudy::of_parts(text, walls(), records(3), &NoCodes).unwrap();
         assert_eq!((loaded.study.polarity(), polarity.name()), (polarity, word));
         assert_eq!(loaded.study.given_records(), records(3), "{word}");
-        let sent = loaded.sent();
+        let sent = loaded.sent(&NoCodes);
         assert_eq!(sent.records.len(), 3);
-        let received = LoadedStudy::received(sent).unwrap();
+        let received = LoadedStudy::received(sent, &NoCodes).unwrap();
         assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
         let names: Vec<_> = loaded.study.records().iter().map(|record| record.name.as_str()).collect();
         assert_eq!(names.contains(&"seed 2"), polarity != Polarity::Reversed);
@@ -105,7 +106,7 @@ fn a_study_that_is_sent_keeps_its_signs() {
     }
     let text =
         "models = [\"CR\"]\npolarity = \"negative\"\nlevels = { method = \"step\", step = 1, top = 2 }\n";
-    let told = StudyFile::parse("study.toml", text).unwrap_err().to_string();
+    let told = StudyFile::parse("study.toml", text, &NoCodes).unwrap_err().to_string();
     assert!(
         told.contains("line 2") && told.contains("\"as_recorded\", \"reversed\", \"both\", \"worst\""),
         "{told}"

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use study::codes::NoCodes;
 use study::loaded::LoadedStudy;
 
 /// A folder with a horizontal and two vertical records, and with one that has its times beside it.
@@ -30,7 +31,7 @@ fn loaded(folder: &Path, files: &str) -> Result<(Vec<String>, String), String> {
     );
     let path = folder.join("study.toml");
     fs::write(&path, text).unwrap();
-    let study = LoadedStudy::read(&path).map_err(|error| error.to_string())?;
+    let study = LoadedStudy::read(&path, &NoCodes).map_err(|error| error.to_string())?;
     let names = study.study.records().iter().map(|record| record.name.clone()).collect();
     Ok((names, study.warnings.join("\n")))
 }
@@ -65,6 +66,6 @@ fn a_table_of_walls_without_a_column_is_warned_of() {
     let text = "models = [\"CDC\"]\nlevels = { method = \"grid\", values = [0.1] }\n\
                 records = { files = [\"records/a.AT2\"] }\nwalls = [{ table = \"walls.csv\" }]\n";
     fs::write(&path, text).unwrap();
-    let warnings = LoadedStudy::read(&path).unwrap().warnings.join("\n");
+    let warnings = LoadedStudy::read(&path, &NoCodes).unwrap().warnings.join("\n");
     assert!(warnings.contains("study.toml: 2 of 2 walls have no thickness"), "{warnings}");
 }

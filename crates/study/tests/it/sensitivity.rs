@@ -9,9 +9,10 @@ use rocking_wall::wall::{Parameters, Support};
 use run::model::Model;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
+use study::codes::NoCodes;
 use study::ida::{IntensityMeasure, Levels, SENSITIVE_ABOVE, Study};
 
-use crate::reliability::{load, number, rows, run_analysis};
+use crate::folders::{load, number, rows, run_analysis};
 
 const HUNT: Levels = Levels::HuntAndFill { first: 0.5, increase: 0.5, top: 60.0, resolution: 0.01, gap: 0.2 };
 
@@ -42,7 +43,7 @@ walls = [{ name = "2", geometry = { height = 1.5, thickness = 0.3 }, force_law =
 /// parts, written with two digits and counted on the page.
 #[test]
 fn collapses_that_depend_on_digits_of_the_record_are_counted() {
-    let loaded = load("sensitive", SENSITIVE).unwrap();
+    let loaded = load("sensitive", SENSITIVE, &NoCodes).unwrap();
     let found: Vec<_> =
         loaded.study.run(1).unwrap().iter().map(|curve| curve.sensitivity().unwrap()).collect();
     let above = |found: &[f64]| found.iter().filter(|one| **one > SENSITIVE_ABOVE).count();
@@ -65,7 +66,7 @@ fn other_curves_have_no_sensitivity() {
         let hunt = SENSITIVE.find("hunt").unwrap();
         let end = hunt + SENSITIVE[hunt..].find(" }").unwrap();
         let text = format!("{}{levels}{}", &SENSITIVE[..hunt], &SENSITIVE[end..]);
-        let curves = load("insensitive", &text).unwrap().study.run(1).unwrap();
+        let curves = load("insensitive", &text, &NoCodes).unwrap().study.run(1).unwrap();
         assert!(curves.iter().all(|curve| curve.runs().last().unwrap().overturning.is_some() == collapses));
         assert!(curves.iter().all(|curve| curve.sensitivity().is_none()));
     }

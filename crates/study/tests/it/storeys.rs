@@ -6,6 +6,7 @@ use std::path::Path;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::ida::Study;
 
@@ -32,10 +33,10 @@ fn a_study_shakes_the_ground_below_the_storeys() {
         let _ = writeln!(storeys, "[[storeys]]\nmass = {mass:?}\nstiffness = {stiffness:?}");
     }
     let run = |name: &str, text: String| {
-        StudyFile::parse(name, &text).unwrap();
+        StudyFile::parse(name, &text, &NoCodes).unwrap();
         let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         std::fs::write(&file, text).unwrap();
-        let study: Study = study::loaded::LoadedStudy::read(&file).unwrap().study;
+        let study: Study = study::loaded::LoadedStudy::read(&file, &NoCodes).unwrap().study;
         let curves = study.run(1).unwrap();
         (study.intensity(0), curves[0].runs()[0].demand)
     };

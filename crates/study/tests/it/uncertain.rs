@@ -7,12 +7,13 @@ use rocking_wall::wall::Parameters;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use study::document::StudyFile;
+use study::codes::NoCodes;
 use study::folder::Contents;
 use study::fragility::cumulative;
 use study::loaded::LoadedStudy;
 use study::uncertain::{Uncertain, hypercube, pearson_of_spearman, rank_correlation, sensitivities};
 
-use crate::reliability::{load, number, rows, run_analysis as run};
+use crate::folders::{load, number, rows, run_analysis as run};
 
 fn with(uncertain: &str) -> String {
     format!(
@@ -23,7 +24,7 @@ fn with(uncertain: &str) -> String {
 }
 
 fn read(uncertain: &str) -> Uncertain {
-    StudyFile::parse("study.toml", &with(uncertain)).unwrap().uncertain.unwrap().0
+    StudyFile::parse("study.toml", &with(uncertain), &NoCodes).unwrap().uncertain.unwrap().0
 }
 
 fn column(rows: &[Vec<f64>], place: usize) -> Vec<f64> {
@@ -216,11 +217,11 @@ fn what_cannot_be_sampled_is_refused_with_its_line() {
             "is not among",
         ),
     ] {
-        let error = StudyFile::parse("study.toml", &with(text)).unwrap_err().to_string();
+        let error = StudyFile::parse("study.toml", &with(text), &NoCodes).unwrap_err().to_string();
         assert!(error.contains(words), "{text}: {error}");
     }
     let cut = "[uncertain.parameters]\nthickness = { normal = [0.3, 0.1], within = [0.2, 0.6] }";
-    let (_, warnings) = StudyFile::parse("study.toml", &with(cut)).unwrap().uncertain.unwrap();
+    let (_, warnings) = StudyFile::parse("study.toml", &with(cut), &NoCodes).unwrap().uncertain.unwrap();
     // Φ(−1) + Φ(−3)
     assert_eq!(warnings, ["[uncertain] thickness: its limits (0.2 to 0.6) cut off 16.00 % of it"]);
 }
@@ -235,7 +236,7 @@ fn walls_have_damping_ratios_of_their_own() {
             format!("models = [{models}]\nlevels = {{ method = \"step\", step = 0.1, top = 1 }}\n{rest}");
         let records = vec![NamedRecord { name: "pulse".to_owned(), motion: pulse.clone() }];
         let wall = NamedWall::new("a", Parameters { height: 3.0, thickness: 0.3, ..Parameters::default() });
-        LoadedStudy::of_parts(text, vec![wall], records).unwrap()
+        LoadedStudy::of_parts(text, vec![wall], records, &NoCodes).unwrap()
     };
     let own = "{ model = \"CDR\", xi = 0.1 }";
     let uncertain = "[uncertain]\nsamples = 3\n[uncertain.parameters]\nxi = { uniform = [0.01, 0.3] }\n";
@@ -259,7 +260,7 @@ fn samples_are_walls_and_classes() {
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("study.toml");
     std::fs::write(&path, text).unwrap();
-    let loaded = LoadedStudy::read(&path).unwrap();
+    let loaded = LoadedStudy::read(&path, &NoCodes).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
     let walls = loaded.study.walls();
     assert_eq!((walls.len(), walls[0].name.as_str(), walls[9].name.as_str()), (10, "a 01", "a 10"));
@@ -270,7 +271,7 @@ fn samples_are_walls_and_classes() {
         loaded.report.classes.iter().map(|class| (&*class.name, class.walls.len())).collect();
     assert_eq!(classes, [("mine", 10), ("a", 10)]);
     assert_eq!(loaded.report.classes[0].weights, [2.0; 10]);
-    let received = LoadedStudy::received(loaded.sent()).unwrap();
+    let received = LoadedStudy::received(loaded.sent(&NoCodes), &NoCodes).unwrap();
     assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
     assert_eq!(received.report, loaded.report);
     // the height is stated by its distribution, a1 by nobody
@@ -301,7 +302,7 @@ fn numbers_of_ties_are_columns_and_are_sampled() {
     std::fs::write(folder.join("walls.csv"), table).unwrap();
     let load = |uncertain: &str| {
         std::fs::write(folder.join("study.toml"), text(uncertain)).unwrap();
-        LoadedStudy::read(&folder.join("study.toml")).unwrap()
+        LoadedStudy::read(&folder.join("study.toml"), &NoCodes).unwrap()
     };
     let of_tie =
         |wall: &Parameters| [wall.tie_stiffness, wall.tie_slack, wall.tie_strength, wall.tie_ultimate];
@@ -349,7 +350,7 @@ fn sensitivities_of_a_folder_follow_from_its_tables() {
                 geometry = { height = 2, thickness = 0.3 } }]\n\
                 [uncertain]\nsamples = 8\n[uncertain.parameters]\n\
                 height = { uniform = [2, 4] }\nthickness = { uniform = [0.2, 0.5] }\n";
-    let path = run("sensitivity", &load("sensitivity_study", text).unwrap());
+    let path = run("sensitivity", &load("sensitivity_study", text, &NoCodes).unwrap());
     let samples = rows(&path.join("samples.csv"));
     let curves = rows(&path.join("fragilities.csv"));
     let (mut whole, mut lacking, mut bars) = (0, 0, Vec::new());

@@ -47,6 +47,7 @@ fn schema(file: File) -> Schema {
 #[cfg(test)]
 mod tests {
     use serde_json::Value as Json;
+    use study::codes::NoCodes;
     use toml::Value;
 
     use super::*;
@@ -96,7 +97,7 @@ mod tests {
         let mut count = 0;
         for (group, table) in groups.iter().filter(|(_, table)| table.get("properties").is_some()) {
             let read = |key: &str, value: Json| {
-                StudyFile::parse("study", &format!("{rest}[walls.{group}]\n{key} = {value}"))
+                StudyFile::parse("study", &format!("{rest}[walls.{group}]\n{key} = {value}"), &NoCodes)
             };
             for (key, parameter) in table["properties"].as_table().unwrap() {
                 if let Some(default) = parameter.get("default") {

@@ -37,7 +37,7 @@ name = "both"
 
 /// The results of a study are those that the program compares with its inputs.
 fn assert_listed(results: &Path) {
-    let listed = || study::folder::FILES.iter().chain(&study::reliability::FILES);
+    let listed = || study::folder::FILES.iter().chain(&reliability::FILES);
     for entry in fs::read_dir(results).unwrap().map(Result::unwrap).filter(|entry| entry.path().is_file()) {
         let name = entry.file_name().into_string().unwrap();
         assert!(listed().any(|file| **file == name), "study::folder::FILES lacks {name}");

@@ -7,11 +7,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use reliability::{Codes, Reliability};
 use report::counted;
 use run::parallel;
 use study::folder::{Folder, Report, compute};
 use study::loaded::LoadedStudy;
-use study::reliability::{self, Reliability};
 
 use crate::output::{self, Console, progress};
 
@@ -51,12 +51,12 @@ fn shard(text: &str) -> Result<Shard, String> {
 }
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
-    analyse(console, arguments, LoadedStudy::read(&arguments.study)?, None)
+    analyse(console, arguments, LoadedStudy::read(&arguments.study, &Codes)?, None)
 }
 
 /// The same analysis, and after it how safe its walls are where they just pass a check.
 pub(crate) fn reliability(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
-    let loaded = LoadedStudy::read(&arguments.study)?;
+    let loaded = LoadedStudy::read(&arguments.study, &Codes)?;
     let reliability = Reliability::of(&loaded)?;
     analyse(console, arguments, loaded, Some(reliability))
 }

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, Result};
-use check::{CheckFile, read};
+use check::{AtLevel, CheckFile, at_level, read};
 use clap::Args;
 use ground_motion::{RecordOptions, Unit};
 use report::{counted, number};
@@ -17,7 +17,7 @@ use run::records::NamedRecord;
 use serde_json::json;
 use study::tie::figure::picture;
 use study::tie::{
-    AtLevel, BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, at_level, table,
+    BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table,
 };
 
 use crate::args::{SceneArguments, apply_set, read_record, short_name, svg_file};

@@ -6,38 +6,29 @@ use std::path::{Path, PathBuf};
 
 use check::{CheckFile, Rule, Subject, WallCodes, read};
 use ground_motion::STANDARD_GRAVITY;
+use reliability::{Codes, FILES, Reliability, finish};
 use run::records::NamedRecord;
-use study::folder::{Contents, Folder, Report, compute};
+use study::folder::{Contents, Folder, Report};
 use study::fragility::{Lognormal, cumulative};
 use study::loaded::LoadedStudy;
-use study::reliability::{FILES, Reliability, finish};
 
-use crate::reliability_tables::{self as tables, WALLS, least};
+
+use crate::folders::{self, folder, number, rows, run_analysis};
+use crate::tables::{self, WALLS, least};
 
 /// g of codes [m/s²].
 pub(crate) const G: f64 = 9.81;
 pub(crate) const CHECK: &str = "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
                                 soil = \"A\"\nSLV = { ag = 0.2, F0 = 2.4, TC = 0.3 }\n";
 
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    drop(fs::remove_dir_all(&path));
-    path
+/// Reads a study that names a code.
+pub(crate) fn load(name: &str, text: &str) -> Result<LoadedStudy, String> {
+    folders::load(name, text, &Codes)
 }
 
 /// Runs a study of reliability, and returns its folder.
 pub(crate) fn run(name: &str, loaded: &LoadedStudy) -> PathBuf {
     run_reported(name, loaded).0
-}
-
-/// Runs an analysis, and returns its folder.
-pub(crate) fn run_analysis(name: &str, loaded: &LoadedStudy) -> PathBuf {
-    let path = folder(name);
-    let folder = Folder::of_study(&path, loaded).unwrap();
-    let missing = folder.missing(0..folder.contents().parts());
-    compute(&loaded.study, &folder, &missing, 2).unwrap();
-    study::folder::finish(&folder, 2).unwrap();
-    path
 }
 
 /// Runs a study of reliability, and returns its folder and what is told of it.
@@ -51,24 +42,6 @@ pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report
 /// The codes of the walls of a study.
 pub(crate) fn code_of(loaded: &LoadedStudy) -> WallCodes {
     WallCodes::read(&CheckFile::parse("a", loaded.text()).unwrap(), loaded.study.walls()).unwrap()
-}
-
-/// The rows of a table by the names of its columns.
-pub(crate) fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(path).unwrap();
-    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let names = lines.next().unwrap();
-    lines.map(|cells| names.iter().cloned().zip(cells).collect()).collect()
-}
-
-pub(crate) fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
-    row[name].parse().unwrap_or_else(|_| panic!("{name} = {:?}", row[name]))
-}
-
-pub(crate) fn load(name: &str, text: &str) -> Result<LoadedStudy, String> {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.toml"));
-    fs::write(&path, text).unwrap();
-    LoadedStudy::read(&path).map_err(|error| error.to_string())
 }
 
 const MEASURE: &str = "intensity = { measure = \"code\" }\n";
@@ -377,10 +350,10 @@ fn a_grid_is_sent_with_the_study() {
     let text = text(MEASURE).replace(own, site);
     let path = folder.join("study.toml");
     fs::write(&path, text).unwrap();
-    let loaded = LoadedStudy::read(&path).unwrap();
-    let sent = loaded.sent();
+    let loaded = LoadedStudy::read(&path, &Codes).unwrap();
+    let sent = loaded.sent(&Codes);
     assert!(!sent.text.contains("grid.csv"));
-    let received = LoadedStudy::received(sent).unwrap();
+    let received = LoadedStudy::received(sent, &Codes).unwrap();
     assert!(Contents::of(&received.study) == Contents::of(&loaded.study));
     assert!(Reliability::of(&received).is_ok());
 }

@@ -3,10 +3,10 @@
 use report::counted;
 use run::file;
 
-use super::class::Class;
-use super::{FILES, Reliability, page, table};
-use crate::folder::{Folder, FolderError, MOST_WALLS, Report, Rows, each_wall};
-use crate::ida::Curve;
+use crate::class::Class;
+use crate::{FILES, Reliability, page, table};
+use study::folder::{Folder, FolderError, MOST_WALLS, Report, Rows, each_wall};
+use study::ida::Curve;
 
 /// Most walls that a warning names.
 const NAMED: usize = 3;

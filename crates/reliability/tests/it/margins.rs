@@ -4,16 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 use check::CheckFile;
 use check::circolare::Statement;
+use reliability::{Codes, FILES};
 use rocking_wall::variables::ForceLaw;
 use rocking_wall::wall::Parameters;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use study::loaded::LoadedStudy;
-use study::reliability::FILES;
 use study::spectrum::PulseForm;
 
-use crate::reliability::{CHECK, number, rows, run};
-use crate::rocking_spectrum::{Uplift, root, straight};
+use crate::asked::{CHECK, run};
+use crate::folders::{number, rows};
+use crate::uplift::{Uplift, root, straight};
 
 /// Height and thickness of the wall [m]; g [m/s²]; e.
 const HEIGHT: f64 = 2.0;
@@ -171,7 +172,7 @@ fn margins_under_pulses_are_those_of_closed_forms() {
             NamedRecord { name: format!("beta {}", pulse.beta), motion }
         };
         let walls = vec![NamedWall::new("a", wall.clone())];
-        let loaded = LoadedStudy::of_parts(text.clone(), walls, pulses.map(record).into()).unwrap();
+        let loaded = LoadedStudy::of_parts(text.clone(), walls, pulses.map(record).into(), &Codes).unwrap();
         let path = run(&format!("pulses_{form:?}"), &loaded);
         let mut rows = rows(&path.join(FILES[0])).into_iter();
         let fall = rows.find(|row| row["check"] == "SLV" && row["event"] == "fall");

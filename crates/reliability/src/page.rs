@@ -9,11 +9,11 @@ use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
 use report::{counted, escaped};
 
-use super::class::{Class, Found, QUANTITIES};
-use super::{Reliability, table};
-use crate::folder::Manifest;
-use crate::folder::tables::in_g;
-use crate::ida::Misfit;
+use crate::class::{Class, Found, QUANTITIES};
+use crate::{Reliability, table};
+use study::folder::Manifest;
+use study::folder::tables::in_g;
+use study::ida::Misfit;
 
 /// Walls that the page names as the worst.
 const WORST: usize = 3;
@@ -21,7 +21,7 @@ const WORST: usize = 3;
 const SIZE: [f64; 2] = [460.0, 320.0];
 
 /// Makes the page; `shown` holds the tables of single walls.
-pub(super) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class, shown: &[Table]) -> String {
+pub(crate) fn page(manifest: &Manifest, reliability: &Reliability, class: &Class, shown: &[Table]) -> String {
     let contents = &manifest.contents;
     let models: Vec<_> = contents.models.iter().map(|model| model.name.as_str()).collect();
     let target = reliability.target;

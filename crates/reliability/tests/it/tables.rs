@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 
 use check::{Code, Row, Subject, WallCodes};
+use reliability::FILES;
 use rocking_wall::wall::Wall;
 use run::sample::fractile;
 use study::folder::Report;
 use study::fragility::{CONFIDENCE, Interval, Lognormal};
 use study::ida::{Case, Crossing, Curve};
 use study::loaded::LoadedStudy;
-use study::reliability::FILES;
 use study::results::Fitting;
 
-use crate::reliability::{CHECK, G, code_of, load, number, rows, run, run_reported};
+use crate::asked::{CHECK, G, code_of, load, run, run_reported};
+use crate::folders::{number, rows};
 
 type Cells = BTreeMap<String, String>;
 

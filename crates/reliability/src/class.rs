@@ -3,52 +3,52 @@
 use rocking_wall::wall::Wall;
 use run::walls::NamedWall;
 
-use super::rules::Turned;
-use super::wall::WallReliability;
+use crate::rules::Turned;
+use crate::wall::WallReliability;
 
 /// Fractiles over the walls.
-pub(super) const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
+pub(crate) const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
 
 /// What a class is drawn over: a name, and the value of a wall.
-pub(super) const QUANTITIES: [&str; 4] = ["h/b", "h (m)", "overburden/W", "floor"];
+pub(crate) const QUANTITIES: [&str; 4] = ["h/b", "h (m)", "overburden/W", "floor"];
 
 /// A wall among the others.
 #[derive(Clone, Debug)]
-pub(super) struct Member {
-    pub(super) name: String,
+pub(crate) struct Member {
+    pub(crate) name: String,
     /// Of the [`QUANTITIES`].
-    pub(super) quantities: [f64; 4],
-    pub(super) found: Vec<Found>,
+    pub(crate) quantities: [f64; 4],
+    pub(crate) found: Vec<Found>,
     /// The check that governs.
-    pub(super) governs: &'static str,
-    pub(super) turned: Vec<Vec<Turned>>,
+    pub(crate) governs: &'static str,
+    pub(crate) turned: Vec<Vec<Turned>>,
 }
 
 /// Margin and probability of an event with a model, where a check has ζ = 1.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
-    pub(super) model: usize,
-    pub(super) check: &'static str,
-    pub(super) event: String,
-    pub(super) margin: f64,
-    pub(super) probability: f64,
+pub(crate) struct Found {
+    pub(crate) model: usize,
+    pub(crate) check: &'static str,
+    pub(crate) event: String,
+    pub(crate) margin: f64,
+    pub(crate) probability: f64,
 }
 
 /// The walls, and those without a check.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Class {
-    pub(super) members: Vec<Member>,
+pub(crate) struct Class {
+    pub(crate) members: Vec<Member>,
     /// The probability below which a number says nothing \[-\].
-    pub(super) least: f64,
+    pub(crate) least: f64,
     /// Names, and the reasons.
-    pub(super) refused: Vec<(String, String)>,
+    pub(crate) refused: Vec<(String, String)>,
     /// Walls whose hinge the check has elsewhere than the runs, with both places.
-    pub(super) hinges: Vec<(String, [f64; 2])>,
+    pub(crate) hinges: Vec<(String, [f64; 2])>,
 }
 
 impl Class {
     /// Adds a wall.
-    pub(super) fn add(&mut self, wall: &NamedWall, found: &Result<WallReliability, String>) {
+    pub(crate) fn add(&mut self, wall: &NamedWall, found: &Result<WallReliability, String>) {
         let found = match found {
             Ok(found) => found,
             Err(reason) => return self.refused.push((wall.name.clone(), reason.clone())),
@@ -74,10 +74,10 @@ impl Class {
     }
 
     /// Returns the fall of each wall with a model, where the check that governs has ζ = 1.
-    pub(super) fn falls(&self, model: usize) -> impl Iterator<Item = (&Member, &Found)> {
+    pub(crate) fn falls(&self, model: usize) -> impl Iterator<Item = (&Member, &Found)> {
         self.members.iter().filter_map(move |member| {
             let is = |found: &&Found| {
-                found.model == model && found.check == member.governs && found.event == super::wall::FALL
+                found.model == model && found.check == member.governs && found.event == crate::wall::FALL
             };
             Some((member, member.found.iter().find(is)?))
         })
@@ -85,7 +85,7 @@ impl Class {
 }
 
 /// Puts values of the same key together, by the order of models and then of the first value.
-pub(super) fn grouped<K: PartialEq, V>(
+pub(crate) fn grouped<K: PartialEq, V>(
     values: impl Iterator<Item = (K, V)>,
     model: impl Fn(&K) -> usize,
 ) -> Vec<(K, Vec<V>)> {

@@ -7,11 +7,11 @@ use report::counted;
 use report::table::{Cell, Digits, Table};
 use run::sample::{fractile, sorted};
 
-use super::class::{Class, FRACTILES, grouped};
-use super::wall::WallReliability;
-use crate::folder::tables::in_g;
-use crate::fragility::Interval;
-use crate::hazard::HazardCurve;
+use crate::class::{Class, FRACTILES, grouped};
+use crate::wall::WallReliability;
+use study::folder::tables::in_g;
+use study::fragility::Interval;
+use study::hazard::HazardCurve;
 
 const THREE: Digits = Digits::Significant(3);
 /// Digits of the numbers that the code or the user gives.
@@ -20,7 +20,7 @@ const GIVEN: Digits = Digits::AtMost(3);
 const SHOWN: [usize; 3] = [0, 2, 4];
 
 /// The checks and events of a wall, with every model; accelerations in g as of records, 9.80665 m/s².
-pub(super) fn wall(
+pub(crate) fn wall(
     name: &str,
     models: &[&str],
     found: &WallReliability,
@@ -76,7 +76,7 @@ pub(super) fn wall(
 }
 
 /// The numbers of the code that give the target, of a wall with every model.
-pub(super) fn rules(name: &str, models: &[&str], found: &WallReliability, target: f64) -> Table {
+pub(crate) fn rules(name: &str, models: &[&str], found: &WallReliability, target: f64) -> Table {
     let rows = found.turned.iter().enumerate();
     Table::over(rows.flat_map(|(model, all)| all.iter().map(move |one| (model, one))))
         .text("wall", "wall", |_| name.to_owned())
@@ -90,7 +90,7 @@ pub(super) fn rules(name: &str, models: &[&str], found: &WallReliability, target
 }
 
 /// Fractiles over the walls of margins and probabilities, and how many walls are above the target.
-pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
+pub(crate) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
     let found = class.members.iter().flat_map(|member| &member.found);
     let found = found.map(|one| ((one.model, one.check, &*one.event), [one.margin, one.probability]));
     let rows = grouped(found, |kind| kind.0).into_iter().map(|(kind, found)| {
@@ -125,7 +125,7 @@ pub(super) fn summary(class: &Class, models: &[&str], target: f64) -> Table {
 }
 
 /// Writes a probability, as a bound where the records cannot say more.
-pub(super) fn probability(value: f64, least: f64) -> String {
+pub(crate) fn probability(value: f64, least: f64) -> String {
     if value < least { format!("< {least:.0e}") } else { format!("{value:.4}") }
 }
 
@@ -135,7 +135,7 @@ fn heading(place: usize, heading: String) -> String {
 }
 
 /// Fractiles over the walls of the numbers of the code that give the target.
-pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table {
+pub(crate) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table {
     let all = class.members.iter().flat_map(|member| member.turned.iter().enumerate());
     let all = all.flat_map(|(model, all)| all.iter().map(move |one| (model, one)));
     let all = all.map(|(model, one)| ((model, one.check, one.rule, one.code), one.value));
@@ -155,7 +155,7 @@ pub(super) fn rule_summary(class: &Class, models: &[&str], target: f64) -> Table
 }
 
 /// Says how safe the walls are, model by model.
-pub(super) fn words(class: &Class, models: &[&str], target: f64) -> String {
+pub(crate) fn words(class: &Class, models: &[&str], target: f64) -> String {
     let mut text = String::new();
     for (model, name) in models.iter().enumerate() {
         let falls = sorted(class.falls(model).map(|(_, found)| found.probability));

@@ -6,7 +6,7 @@
 
 use check::{Code, Rule, Subject};
 
-use crate::fragility::Lognormal;
+use study::fragility::Lognormal;
 
 /// Numbers at which a factor is tried, on each side of that of the code, and how many double it.
 const TRIED: i32 = 9;
@@ -31,7 +31,7 @@ pub struct Turned {
 }
 
 /// Seeks the numbers, model by model; `fall` holds the fragility of the fall with each.
-pub(super) fn turned(
+pub(crate) fn turned(
     code: &dyn Code,
     subject: Subject<'_>,
     checks: impl Iterator<Item = &'static str>,

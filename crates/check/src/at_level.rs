@@ -1,8 +1,11 @@
-//! Ties at the level of shaking of a limit state of a check.
+//! A wall and its records at the level of shaking of a limit state of a check.
 
-use check::{CheckError, Code, Level, Subject};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::Scene;
+
+use crate::code::{Code, Subject};
+use crate::error::CheckError;
+use crate::site::Level;
 
 /// What the runs of a check have at a limit state.
 #[derive(Clone, Debug)]

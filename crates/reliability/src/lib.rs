@@ -1,5 +1,6 @@
-//! How safe a wall is that just passes a check by a code.
+#![doc = include_str!("../README.md")]
 //!
+//! # What is asked
 //! The runs are those of an incremental dynamic analysis. Its intensity is the ground acceleration `a_g` of
 //! the site's spectrum that a record is worth, so that a fragility can be read where the check has ζ = 1:
 //!
@@ -10,10 +11,12 @@
 //!
 //! An event is that |u| exceeds the displacement capacity of a check, or that the wall falls.
 //!
+//! # Modules
 //! Each module uses only modules above it in this table:
 //!
 //! | module | holds |
 //! |---|---|
+//! | `codes` | what a study asks of the codes of `rocking-check` |
 //! | `rules` | the numbers of the code that would give a stated probability |
 //! | `wall` | one wall: its checks, its events, their probabilities |
 //! | `class` | all walls together |
@@ -22,6 +25,7 @@
 //! | `finish` | all results of a complete folder |
 
 mod class;
+mod codes;
 mod finish;
 mod page;
 mod rules;
@@ -32,10 +36,11 @@ use check::{CheckFile, WallCodes};
 use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
 
-use crate::ida::{Curve, IntensityMeasure, Levels};
-use crate::loaded::LoadedStudy;
-use crate::results::Fitting;
+use study::ida::{Curve, IntensityMeasure, Levels};
+use study::loaded::LoadedStudy;
+use study::results::Fitting;
 
+pub use codes::Codes;
 pub use finish::finish;
 pub use rules::Turned;
 pub use wall::{Answer, Checkpoint, Event, WallReliability};

@@ -7,14 +7,14 @@ use rocking_wall::wall::Wall;
 use run::sample::sorted;
 use run::walls::NamedWall;
 
-use crate::fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
-use crate::ida::{Crossing, Curve, Exceedance};
-use crate::results::Fitting;
+use study::fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
+use study::ida::{Crossing, Curve, Exceedance};
+use study::results::Fitting;
 
-use super::rules::{self, Turned};
+use crate::rules::{self, Turned};
 
 /// Name of the event that the wall falls.
-pub(super) const FALL: &str = "fall";
+pub(crate) const FALL: &str = "fall";
 
 /// Hinges that differ by less are the same, of h \[-\].
 const SAME_HINGE: f64 = 1e-6;
@@ -87,7 +87,7 @@ pub struct WallReliability {
 }
 
 /// Returns a wall as a check sees it.
-pub(super) fn subject(NamedWall { parameters, floors, assumed, .. }: &NamedWall) -> Subject<'_> {
+pub(crate) fn subject(NamedWall { parameters, floors, assumed, .. }: &NamedWall) -> Subject<'_> {
     Subject { parameters, floors: floors.as_ref(), assumed }
 }
 
@@ -96,7 +96,7 @@ impl WallReliability {
     ///
     /// # Errors
     /// The reason why there is no check.
-    pub(super) fn of(
+    pub(crate) fn of(
         wall: &NamedWall,
         code: &dyn Code,
         curves: &[Curve],

@@ -1,0 +1,34 @@
+//! What a study asks of building codes. A study knows none: the crate that does answers.
+
+use rocking_wall::scene::SceneError;
+
+/// Answers what a study asks of its table `[check]`. `name` stands for the file of the study in messages, and
+/// `text` is its text.
+pub trait Codes {
+    /// Returns the spectrum of the ground over its acceleration, `S_e`(T)/`a_g` at 5 % damping, at some
+    /// periods \[s\]; `None` where the table states no site.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the table.
+    fn spectral_shape(&self, name: &str, text: &str, periods: &[f64]) -> Result<Option<Vec<f64>>, SceneError>;
+
+    /// Returns the text with the files in it that its table names.
+    ///
+    /// # Errors
+    /// [`SceneError`] of the table, or of a file.
+    fn self_contained(&self, name: &str, text: &str) -> Result<String, SceneError>;
+}
+
+/// No code: a table `[check]` is passed over, and `measure = "code"` refused.
+#[derive(Clone, Copy, Debug)]
+pub struct NoCodes;
+
+impl Codes for NoCodes {
+    fn spectral_shape(&self, _: &str, _: &str, _: &[f64]) -> Result<Option<Vec<f64>>, SceneError> {
+        Ok(None)
+    }
+
+    fn self_contained(&self, _: &str, text: &str) -> Result<String, SceneError> {
+        Ok(text.to_owned())
+    }
+}
