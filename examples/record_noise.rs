@@ -14,8 +14,8 @@ use std::path::Path;
 use ground_motion::GroundMotion;
 use run::records::NamedRecord;
 use run::sample::Pcg;
-use study::fragility::{Lognormal, Sample, fit};
 use study::codes::NoCodes;
+use study::fragility::{Lognormal, Sample, fit};
 use study::ida::{Crossing, Curve, Exceedance, Study};
 use study::loaded::LoadedStudy;
 

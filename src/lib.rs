@@ -81,4 +81,4 @@ pub mod wall;
 fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
 
 #[cfg(feature = "component")]
-fmu_export::export_component!(unit::Unit);
+fmu_component::export_component!(unit::Unit);

@@ -119,7 +119,7 @@ pub(crate) fn quick_library(unit: Unit) -> Result<PathBuf> {
     let mut build = cargo();
     let optimised = format!("profile.demo.package.{}.opt-level=3", unit.package);
     build.args(["rustc", "--profile", "demo", "--config", &optimised]);
-    link(&mut build, unit, "fmu,shared")?;
+    link(&mut build, unit, "fmu")?;
     Ok(target().join("demo").join(file_name(unit, SYSTEM)))
 }
 

@@ -56,4 +56,4 @@ pub mod variables {
 fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
 
 #[cfg(feature = "component")]
-fmu_export::export_component!(unit::Unit);
+fmu_component::export_component!(unit::Unit);

@@ -25,7 +25,10 @@ pub(crate) fn unknown<M: Model>(reference: u32) -> Failure {
 }
 
 /// Returns an error if there are any references: no variable has the type.
-pub(crate) fn none_served<M: Model>(references: &[u32]) -> Result<(), Failure> {
+///
+/// # Errors
+/// [`Failure`] with the first reference.
+pub fn none_served<M: Model>(references: &[u32]) -> Result<(), Failure> {
     references.first().map_or(Ok(()), |&reference| Err(unknown::<M>(reference)))
 }
 

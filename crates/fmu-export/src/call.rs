@@ -6,8 +6,10 @@ use std::fmt;
 
 /// The version of FMI that an importer speaks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Version {
+pub enum Version {
+    /// FMI 2.0.
     Fmi2,
+    /// FMI 3.0.
     Fmi3,
 }
 
@@ -22,7 +24,8 @@ impl fmt::Display for Version {
 
 /// Where an instance is in its life.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Phase {
+#[allow(missing_docs, reason = "the names are those of FMI")]
+pub enum Phase {
     Instantiated,
     InitializationMode,
     StepMode,
@@ -155,7 +158,8 @@ macro_rules! calls {
         /// The functions whose order is checked, each with its counterpart in the other version, by their
         /// names in FMI 2.0 or else in FMI 3.0.
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-        pub(crate) enum Call { $($($call),+),* }
+        #[allow(missing_docs, reason = "the names are those of FMI")]
+        pub enum Call { $($($call),+),* }
 
         impl Call {
             const ALL: &[Self] = &[$($(Self::$call),+),*];

@@ -12,8 +12,7 @@
 //! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
 //! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be
 //!    `"unwind"`. A model for both kinds is exported for FMI 3.0 as well, by the same library.
-//! 5. A model for both kinds can also become a WebAssembly component: the feature `component` has
-//!    `export_component!` for that, in a `cdylib` for `wasm32-wasip2`.
+//! 5. A model for both kinds can also become a WebAssembly component, by the crate `fmu-component`.
 //!
 //! ```
 //! use fmu_export::*;
@@ -97,9 +96,19 @@
 //! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's,
 //! with one boundary for each version of FMI; between them one instance with its table of allowed calls.
 //! Functions that are alike in both versions are the same generic function; what differs is in
-//! [`ffi::fmi3`].
+//! [`ffi::fmi3`]. Each module uses only modules above it in this table, or before it in its row:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `failure`, `hash`, `uri`, `variable`, `log`, `limits` | what a call refuses and tells |
+//! | `state`, `input` | saved states; an input and its derivative |
+//! | `model` | what a model does to become an FMU |
+//! | `guid`, `call`, `access` | what belongs together; the call order; variables by their references |
+//! | `instance` | one instance: what the C functions do, without C |
+//! | [`ffi`], [`boundary`] | the C boundary; what another needs |
 
 mod access;
+pub mod boundary;
 mod call;
 mod failure;
 pub mod ffi;

@@ -134,17 +134,19 @@ impl<'a> Log<'a> {
 }
 
 /// The importer's logger and the categories that it wants.
-pub(crate) struct Logger {
+pub struct Logger {
     sink: Option<Box<Sink>>,
     pub(crate) filter: Filter,
 }
 
 impl Logger {
-    pub(crate) fn new(sink: Option<Box<Sink>>, logging_on: bool) -> Self {
+    /// A logger that writes all, or errors alone.
+    pub fn new(sink: Option<Box<Sink>>, logging_on: bool) -> Self {
         Self { sink, filter: if logging_on { Filter::EVERYTHING } else { Filter::ERRORS } }
     }
 
-    pub(crate) fn log(&mut self) -> Log<'_> {
+    /// Returns what a model may write to.
+    pub fn log(&mut self) -> Log<'_> {
         Log { sink: self.sink.as_deref_mut(), filter: self.filter }
     }
 }

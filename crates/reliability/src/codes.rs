@@ -28,7 +28,12 @@ use rocking_wall::scene::SceneError;
 pub struct Codes;
 
 impl study::codes::Codes for Codes {
-    fn spectral_shape(&self, name: &str, text: &str, periods: &[f64]) -> Result<Option<Vec<f64>>, SceneError> {
+    fn spectral_shape(
+        &self,
+        name: &str,
+        text: &str,
+        periods: &[f64],
+    ) -> Result<Option<Vec<f64>>, SceneError> {
         let file = CheckFile::parse(name, text)?.without_records();
         let code = read(&file).map_err(|error| file.located(error))?;
         Ok(code.spectral_shape(periods))

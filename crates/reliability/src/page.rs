@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use check::circolare::BAND;
+use ground_motion::STANDARD_GRAVITY;
 use report::page::Page;
 use report::palette::{BLUE, GREY, PALE, RED, SERIES, sign};
 use report::plot::{Axis, Look, Plot, Series};
@@ -12,7 +13,6 @@ use report::{counted, escaped};
 use crate::class::{Class, Found, QUANTITIES};
 use crate::{Reliability, table};
 use study::folder::Manifest;
-use study::folder::tables::in_g;
 use study::ida::Misfit;
 
 /// Walls that the page names as the worst.
@@ -147,7 +147,7 @@ fn records(manifest: &Manifest) -> Option<String> {
     let misfit = |ratios: &[f64]| Misfit::of(ratios);
     let table = Table::over(&contents.records)
         .text("", "record", |record| record.name.clone())
-        .number("", "worth a_g\n[g]", three, |record| in_g(record.intensity))
+        .number("", "worth a_g\n[g]", three, |record| record.intensity / STANDARD_GRAVITY)
         .number("", "rms of ln ratio", three, |record| misfit(&record.ratios).rms)
         .number("", "least ratio", three, |record| misfit(&record.ratios).least)
         .number("", "largest ratio", three, |record| misfit(&record.ratios).largest)

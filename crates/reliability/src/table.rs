@@ -9,7 +9,6 @@ use run::sample::{fractile, sorted};
 
 use crate::class::{Class, FRACTILES, grouped};
 use crate::wall::WallReliability;
-use study::folder::tables::in_g;
 use study::fragility::Interval;
 use study::hazard::HazardCurve;
 
@@ -36,7 +35,7 @@ pub(crate) fn wall(
         .text("check", "check", |(_, check, _)| check.check)
         .value("decides", |(_, check, _)| check.decides)
         .number("zeta", "ζ", THREE, |(_, check, _)| check.zeta)
-        .number("ag_code_g", "a_g,code\n[g]", THREE, |(_, check, _)| in_g(check.code))
+        .number("ag_code_g", "a_g,code\n[g]", THREE, |(_, check, _)| check.code / STANDARD_GRAVITY)
         .text("event", "event", |(.., event)| event.name.clone())
         .number("u_over_u_ins", "u/u_ins", THREE, |(.., event)| event.fraction)
         .number("theta_g", "θ\n[g]", THREE, |(one, _, event)| {

@@ -13,14 +13,14 @@ const SIZES: [[f64; 2]; 2] = [[460.0, 300.0], [460.0, 400.0]];
 const MARKS: usize = 4;
 
 impl Plot {
-    /// A plot for a [figure](Self::figure), with a title and series that have names. An axis is also its
-    /// label, or its label with its range.
+    /// A plot for a [figure](Self::figure), with a title and series that have names. An axis without a range
+    /// is also its label.
     ///
     /// ```
-    /// use report::plot::{Plot, Series};
+    /// use report::plot::{Axis, Plot, Series};
     ///
     /// let series = vec![Series::line("free rocking", 0, vec![(0.0, 1.0), (1.0, 0.5)])];
-    /// let plot = Plot::titled("Decay", "t (s)", ("u / u_ins", [0.0, 1.0]), series);
+    /// let plot = Plot::titled("Decay", "t (s)", Axis::over("u / u_ins", [0.0, 1.0]), series);
     /// assert!(plot.figure().contains("<figcaption>Decay</figcaption><svg"));
     /// ```
     pub fn titled(

@@ -10,7 +10,8 @@ pub trait Codes {
     ///
     /// # Errors
     /// [`SceneError`] of the table.
-    fn spectral_shape(&self, name: &str, text: &str, periods: &[f64]) -> Result<Option<Vec<f64>>, SceneError>;
+    fn spectral_shape(&self, name: &str, text: &str, periods: &[f64])
+    -> Result<Option<Vec<f64>>, SceneError>;
 
     /// Returns the text with the files in it that its table names.
     ///

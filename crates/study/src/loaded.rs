@@ -55,8 +55,8 @@ pub struct Sent {
 }
 
 impl LoadedStudy {
-    /// Reads a study file. Scenes and records that it names are looked up beside it; `codes` answer what it asks
-    /// of building codes.
+    /// Reads a study file. Scenes and records that it names are looked up beside it; `codes` answer what it
+    /// asks of building codes.
     ///
     /// # Errors
     /// [`SceneError`], with file, line, value and remedy.

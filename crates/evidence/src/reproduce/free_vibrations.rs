@@ -77,6 +77,7 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
     }
     // the model with the largest forces lies behind the others
     forces.reverse();
+    let forces_title = "c) damping force in a free vibration from 0.9 u_ins";
     Ok(Figure {
         number: 5,
         title: "The three damping models on one strip",
@@ -94,7 +95,7 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
                 Axis::over("damping ratio (%)", [0.0, 10.0]),
                 ratios,
             ),
-            Plot::titled("c) damping force in a free vibration from 0.9 u_ins", u_axis(), "C u̇ / F0", forces),
+            Plot::titled(forces_title, u_axis(), "C u̇ / F0", forces),
         ],
     })
 }

@@ -116,7 +116,10 @@ pub(super) unsafe fn required_text<'a>(name: &str, start: Text) -> Result<&'a st
 }
 
 /// Refuses a number of values that is not that of the scalars they belong to.
-pub(super) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
+///
+/// # Errors
+/// [`Failure`] with both counts.
+pub fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
     if given == scalars {
         return Ok(());
     }

@@ -13,11 +13,9 @@
 
 #![allow(unsafe_code)]
 
-mod arguments;
+pub(crate) mod arguments;
 pub mod co_simulation;
 pub mod common;
-#[cfg(feature = "component")]
-pub mod component;
 mod export;
 mod export3;
 pub mod fmi3;

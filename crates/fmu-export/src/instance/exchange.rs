@@ -9,7 +9,7 @@ use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
 
 impl<M: ModelExchange> Instance<M> {
     /// In co-simulation the model handles its events inside the steps, and there is nothing to update.
-    pub(crate) fn update(&mut self) -> Result<Update, Failure> {
+    pub fn update(&mut self) -> Result<Update, Failure> {
         match self.purpose.interface {
             Interface::ModelExchange => self.now.model.update(&mut self.logger.log()),
             Interface::CoSimulation => Ok(Update::default()),
@@ -17,12 +17,12 @@ impl<M: ModelExchange> Instance<M> {
     }
 
     /// Completes a step of the solver. Returns whether the model asks for Event Mode.
-    pub(crate) fn complete_step(&mut self) -> Result<bool, Failure> {
+    pub fn complete_step(&mut self) -> Result<bool, Failure> {
         self.now.model.complete_step(&mut self.logger.log())
     }
 
     /// The stop time is no limit: solvers try times beyond it and come back.
-    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), Failure> {
+    pub fn set_time(&mut self, time: f64) -> Result<(), Failure> {
         if !time.is_finite() {
             return Err(Failure(format!("time = {time:?} s is not finite")));
         }
@@ -31,7 +31,8 @@ impl<M: ModelExchange> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn set_states(&mut self, states: &[f64]) -> Result<(), Failure> {
+    /// Sets the continuous states.
+    pub fn set_states(&mut self, states: &[f64]) -> Result<(), Failure> {
         check_count("continuous states", states.len(), M::STATES.len())?;
         for (value, state) in states.iter().zip(M::STATES) {
             limits::finite(state.variable(), *value)?;
@@ -40,15 +41,18 @@ impl<M: ModelExchange> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn states(&mut self, values: &mut [f64]) -> Result<(), Failure> {
+    /// Writes the continuous states.
+    pub fn states(&mut self, values: &mut [f64]) -> Result<(), Failure> {
         self.read("continuous states", M::STATES, values)
     }
 
-    pub(crate) fn derivatives(&mut self, values: &mut [f64]) -> Result<(), Failure> {
+    /// Writes their time derivatives.
+    pub fn derivatives(&mut self, values: &mut [f64]) -> Result<(), Failure> {
         self.read("derivatives", M::DERIVATIVES, values)
     }
 
-    pub(crate) fn nominals(&mut self, values: &mut [f64]) -> Result<(), Failure> {
+    /// Writes their nominal values.
+    pub fn nominals(&mut self, values: &mut [f64]) -> Result<(), Failure> {
         check_count("continuous states", values.len(), M::STATES.len())?;
         for (value, &state) in values.iter_mut().zip(M::STATES) {
             *value = self.now.model.nominal(state);
@@ -56,7 +60,8 @@ impl<M: ModelExchange> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn event_indicators(&mut self, values: &mut [f64]) -> Result<(), Failure> {
+    /// Writes the event indicators.
+    pub fn event_indicators(&mut self, values: &mut [f64]) -> Result<(), Failure> {
         check_count("event indicators", values.len(), M::EVENT_INDICATORS)?;
         self.calculate()?;
         self.now.model.event_indicators(values);
@@ -68,7 +73,7 @@ impl<M: ModelExchange> Instance<M> {
 
     /// The values of [`get_real`](Self::get_real), and of the variables that FMI 3.0 has besides those of the
     /// model.
-    pub(crate) fn get_float64(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
+    pub fn get_float64(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, value) in references.iter().zip(values) {
             *value = match self.number(reference)? {

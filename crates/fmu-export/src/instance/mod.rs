@@ -1,5 +1,7 @@
 //! One instance of a model: what the C functions do, without C.
 
+#![allow(clippy::missing_errors_doc, reason = "all fail where FMI or the model refuses, and say why")]
+
 mod exchange;
 mod saved;
 mod step;
@@ -29,20 +31,22 @@ struct Snapshot<M> {
 
 /// What an instance is made for.
 #[derive(Clone, Copy)]
-pub(crate) struct Purpose<M: Model> {
-    pub(crate) version: Version,
-    pub(crate) interface: Interface,
+pub struct Purpose<M: Model> {
+    /// The version of FMI.
+    pub version: Version,
+    /// How the importer uses the instance.
+    pub interface: Interface,
     /// The continuous states; none in co-simulation.
-    pub(crate) states: &'static [M::Real],
+    pub states: &'static [M::Real],
     /// FMI 3.0 co-simulation uses Event Mode.
-    pub(crate) event_mode: bool,
+    pub event_mode: bool,
     /// FMI 3.0 co-simulation lets steps end early.
-    pub(crate) early_return: bool,
+    pub early_return: bool,
 }
 
 impl<M: Model> Purpose<M> {
     /// What an instance of FMI 3.0 is made for, with Event Mode and without early returns.
-    pub(crate) const fn fmi3(interface: Interface, states: &'static [M::Real]) -> Self {
+    pub const fn fmi3(interface: Interface, states: &'static [M::Real]) -> Self {
         Self { version: Version::Fmi3, interface, states, event_mode: true, early_return: false }
     }
 
@@ -59,7 +63,7 @@ impl<M: Model> Purpose<M> {
 }
 
 /// One instance of the model `M`.
-pub(crate) struct Instance<M: Model> {
+pub struct Instance<M: Model> {
     now: Snapshot<M>,
     fresh: Snapshot<M>,
     guid: String,
@@ -71,7 +75,8 @@ pub(crate) struct Instance<M: Model> {
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
     /// Texts that the last get of strings returned pointers to.
     texts: Vec<CString>,
-    pub(crate) purpose: Purpose<M>,
+    /// What it is made for.
+    pub purpose: Purpose<M>,
     /// The warning about a Boolean that is read as a Real has been logged.
     has_warned_of_boolean: bool,
     /// Asks the importer of FMI 3.0 for the inputs at a time [s].
@@ -88,7 +93,7 @@ impl<M: Model> Instance<M> {
     ///
     /// # Errors
     /// When guid or model refuse.
-    pub(crate) fn new(
+    pub fn new(
         name: &str,
         guid: &str,
         location: Option<&[u8]>,
@@ -134,7 +139,7 @@ impl<M: Model> Instance<M> {
 
     /// Carries out `call`, if it is allowed in the present phase. A failure is logged, and ends the
     /// simulation where [`Call::failure_is_final`].
-    pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
+    pub fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
         let rule = call.rule(self.purpose.version);
         let suits = rule.only_for.is_none_or(|only| only == self.purpose.interface);
         let in_turn = suits && rule.allows(self.now.phase);
@@ -178,7 +183,8 @@ impl<M: Model> Instance<M> {
         Status::Error
     }
 
-    pub(crate) fn set_debug_logging<'a>(
+    /// Chooses what is logged: all, or some categories.
+    pub fn set_debug_logging<'a>(
         &mut self,
         on: bool,
         categories: impl Iterator<Item = Result<&'a str, Failure>>,
@@ -205,7 +211,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Failure> {
+    /// Takes start, stop and tolerance of the simulation.
+    pub fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Failure> {
         check_experiment(experiment)?;
         self.now.time = experiment.start;
         self.now.experiment = experiment;
@@ -214,7 +221,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
+    /// Ends Initialization Mode: the model computes its start.
+    pub fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
         self.calculate()?;
         self.now.model.initialize(&mut self.logger.log())?;
         self.now.phase = if self.purpose.has(Phase::EventMode) { Phase::EventMode } else { Phase::StepMode };
@@ -223,7 +231,7 @@ impl<M: Model> Instance<M> {
 
     /// Goes to a phase. It can only be out of reach if it is Event Mode: [`call`](Self::call) has refused
     /// the functions for the other kind of instance.
-    pub(crate) fn enter(&mut self, phase: Phase) -> Result<(), Failure> {
+    pub fn enter(&mut self, phase: Phase) -> Result<(), Failure> {
         if !self.purpose.has(phase) {
             return Err("the instance was made with eventModeUsed = fmi3False".into());
         }
@@ -232,7 +240,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// Resets everything to its state after instantiation, except the log categories and the saved states.
-    pub(crate) fn reset(&mut self) {
+    pub fn reset(&mut self) {
         self.now = self.fresh.clone();
         self.last_step = Status::Ok;
     }

@@ -10,7 +10,7 @@ use crate::state::{self, StateCodec};
 /// A handle is the address of a state in `saved`.
 impl<M: Model> Instance<M> {
     /// Saves the state under the handle `reuse`, or a new one if that is 0. Returns the handle.
-    pub(crate) fn save(&mut self, reuse: usize) -> Result<usize, Failure> {
+    pub fn save(&mut self, reuse: usize) -> Result<usize, Failure> {
         if reuse == 0 {
             return Ok(self.keep(self.now.clone()));
         }
@@ -19,22 +19,26 @@ impl<M: Model> Instance<M> {
         Ok(reuse)
     }
 
-    pub(crate) fn restore(&mut self, handle: usize) -> Result<(), Failure> {
+    /// Goes back to a saved state.
+    pub fn restore(&mut self, handle: usize) -> Result<(), Failure> {
         self.now = Snapshot::clone(self.saved.get(&handle).ok_or_else(unknown_state)?);
         self.last_step = Status::Ok;
         Ok(())
     }
 
-    pub(crate) fn forget(&mut self, handle: usize) -> Result<(), Failure> {
+    /// Frees a saved state; 0 is none.
+    pub fn forget(&mut self, handle: usize) -> Result<(), Failure> {
         self.saved.remove(&handle).map(drop).ok_or_else(unknown_state)
     }
 
-    pub(crate) fn serialize(&mut self, handle: usize) -> Result<Vec<u8>, Failure> {
+    /// Returns a saved state as bytes.
+    pub fn serialize(&mut self, handle: usize) -> Result<Vec<u8>, Failure> {
         let snapshot = self.saved.get_mut(&handle).ok_or_else(unknown_state)?;
         state::seal(&self.guid, M::STATE_VERSION, |codec| snapshot.transfer(codec, &self.purpose))
     }
 
-    pub(crate) fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Failure> {
+    /// Takes up a state from bytes, and returns its handle.
+    pub fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Failure> {
         let mut codec = state::open(&self.guid, M::STATE_VERSION, bytes)?;
         let mut snapshot = self.fresh.clone();
         snapshot.transfer(&mut codec, &self.purpose)?;

@@ -19,7 +19,7 @@ const SHORTEST: f64 = 1e-30;
 
 impl<M: Model> Instance<M> {
     /// Computes a step. Returns `true` where it ended early, at an event.
-    pub(crate) fn do_step(&mut self, point: f64, size: f64) -> Result<bool, Failure> {
+    pub fn do_step(&mut self, point: f64, size: f64) -> Result<bool, Failure> {
         self.begin_step(point, size)?;
         self.finish_step()
     }
@@ -97,7 +97,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// Returns the time at which the last successful step ended [s].
-    pub(crate) fn time(&self) -> f64 {
+    pub fn time(&self) -> f64 {
         self.now.time
     }
 

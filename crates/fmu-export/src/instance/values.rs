@@ -45,7 +45,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// Values of those Integer and Enumeration variables that the function `serves`.
-    pub(crate) fn get_integer<T: From<i32>>(
+    pub fn get_integer<T: From<i32>>(
         &mut self,
         references: &[u32],
         values: &mut [T],
@@ -59,7 +59,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn get_boolean<T: From<bool>>(
+    /// Writes the values of Boolean variables.
+    pub fn get_boolean<T: From<bool>>(
         &mut self,
         references: &[u32],
         values: &mut [T],
@@ -72,7 +73,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// The texts, which live until the next call of this.
-    pub(crate) fn get_string(&mut self, references: &[u32]) -> Result<impl Iterator<Item = &CStr>, Failure> {
+    pub fn get_string(&mut self, references: &[u32]) -> Result<impl Iterator<Item = &CStr>, Failure> {
         self.calculate()?;
         self.texts.clear();
         for &reference in references {
@@ -82,7 +83,8 @@ impl<M: Model> Instance<M> {
         Ok(self.texts.iter().map(CString::as_c_str))
     }
 
-    pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
+    /// Sets Real variables.
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let phase = self.now.phase;
         if phase == Phase::IntermediateUpdateMode {
             return self.set_at_end(references, values);
@@ -118,7 +120,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// Sets those Integer and Enumeration variables that the function `serves`.
-    pub(crate) fn set_integer<T: Into<i64> + Copy>(
+    pub fn set_integer<T: Into<i64> + Copy>(
         &mut self,
         references: &[u32],
         values: &[T],
@@ -138,7 +140,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// 0 is false, anything else true.
-    pub(crate) fn set_boolean<T: From<bool> + PartialEq>(
+    pub fn set_boolean<T: From<bool> + PartialEq>(
         &mut self,
         references: &[u32],
         values: &[T],
@@ -151,7 +153,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
+    /// Sets String variables.
+    pub fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
         for (&reference, value) in references.iter().zip(values) {
             let id: M::Text = access::find::<M, _>(reference)?;
             self.check_settable(id.variable(), |model| model.text(id) == *value)?;
@@ -202,7 +205,8 @@ impl<M: Model> Instance<M> {
 
 /// Derivatives.
 impl<M: Model> Instance<M> {
-    pub(crate) fn set_input_derivatives(
+    /// Sets the first derivatives of inputs.
+    pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
@@ -223,7 +227,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn output_derivatives(
+    /// Writes the first derivatives of outputs.
+    pub fn output_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
@@ -243,7 +248,7 @@ impl<M: Model> Instance<M> {
     /// Σ ∂unknown/∂known · seed over the knowns, for each unknown: the `seeded` are the knowns, and the
     /// unknowns are `wanted`. If `adjoint`, the seeded are the unknowns. Those with seed 0 are not looked at,
     /// so that importers may list parameters among them.
-    pub(crate) fn derivatives_along(
+    pub fn derivatives_along(
         &mut self,
         [seeded, wanted]: [&[u32]; 2],
         seeds: &[f64],

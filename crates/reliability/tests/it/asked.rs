@@ -2,16 +2,15 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use check::{CheckFile, Rule, Subject, WallCodes, read};
 use ground_motion::STANDARD_GRAVITY;
 use reliability::{Codes, FILES, Reliability, finish};
 use run::records::NamedRecord;
-use study::folder::{Contents, Folder, Report};
+use study::folder::{Contents, Folder, Report, compute};
 use study::fragility::{Lognormal, cumulative};
 use study::loaded::LoadedStudy;
-
 
 use crate::folders::{self, folder, number, rows, run_analysis};
 use crate::tables::{self, WALLS, least};

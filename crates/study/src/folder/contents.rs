@@ -23,7 +23,7 @@ pub struct Contents {
     pub(crate) unit: IntensityUnit,
     /// Periods of the spectrum of the site \[s\], and its shape, where it is the measure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) spectrum: Option<[Vec<f64>; 2]>,
+    pub spectrum: Option<[Vec<f64>; 2]>,
     pub(crate) levels: String,
     /// Whether each record is run once, at its own level.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -110,7 +110,7 @@ impl Manifest {
     }
 
     /// Returns what makes the results of its walls.
-    pub(crate) fn fitting(&self) -> Fitting {
+    pub fn fitting(&self) -> Fitting {
         let Contents { models, records, grid, polarity, is_cloud, .. } = &self.contents;
         let models: Vec<_> = models.iter().map(|model| model.name.as_str()).collect();
         Fitting::new(records.len(), &models, grid.clone(), &self.report)

@@ -47,7 +47,7 @@ impl<'a> Curves<'a> {
 ///
 /// # Errors
 /// [`FolderError`] if parts are missing, or that of `take`.
-pub(crate) fn each_wall<T: Send>(
+pub fn each_wall<T: Send>(
     folder: &Folder,
     threads: usize,
     make: impl Fn(usize, &[Curve]) -> T + Sync,

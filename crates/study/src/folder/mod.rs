@@ -54,7 +54,7 @@ mod samples;
 mod shown;
 mod store;
 mod subject;
-pub mod tables;
+mod tables;
 
 pub use compute::compute;
 pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};

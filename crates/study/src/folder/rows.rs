@@ -13,11 +13,18 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// Begins a file, which appears where it is [complete](Self::commit).
+    ///
+    /// # Errors
+    /// [`FileError`] where there can be none.
     pub fn new(path: &Path) -> Result<Self, FileError> {
         Ok(Self { draft: Draft::new(path, b"")?, is_begun: false })
     }
 
     /// Adds the rows of a table; all tables have the same columns.
+    ///
+    /// # Errors
+    /// [`FileError`] of a disk that is full.
     pub fn add(&mut self, table: &Table) -> Result<(), FileError> {
         let text = if self.is_begun { table.csv_rows() } else { table.csv() };
         self.is_begun = true;
@@ -25,6 +32,9 @@ impl Rows {
     }
 
     /// Completes the file, and returns its path.
+    ///
+    /// # Errors
+    /// [`FileError`] where it cannot take its place.
     pub fn commit(self) -> Result<PathBuf, FileError> {
         self.draft.commit(true)
     }

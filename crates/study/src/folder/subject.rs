@@ -8,7 +8,7 @@ use crate::results::WallResults;
 use super::contents::Manifest;
 
 /// Most walls that the page and the summary show one by one.
-pub(crate) const MOST_WALLS: usize = 40;
+pub const MOST_WALLS: usize = 40;
 
 /// A wall, or a class of walls.
 pub(crate) struct Subject<'a> {

@@ -1,6 +1,5 @@
 //! The tables of a study, wall by wall, for CSV files and the Python package.
 
-use ground_motion::STANDARD_GRAVITY;
 use report::table::{Cell, Column, Digits, Growing, Table};
 use run::sample::{fractile, sorted};
 
@@ -260,9 +259,4 @@ impl Contents {
             .text("model", "", |item| self.models[curve(item) / records].name.clone())
             .text("record", "", |item| self.records[curve(item) % records].name.clone())
     }
-}
-
-/// Returns an acceleration in g.
-pub(crate) fn in_g(acceleration: f64) -> f64 {
-    acceleration / STANDARD_GRAVITY
 }

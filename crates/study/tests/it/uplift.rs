@@ -22,7 +22,7 @@ pub(crate) fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -
 /// ```
 pub(crate) struct Uplift {
     beta: f64,
-    start: f64,
+    pub(crate) start: f64,
     scale: f64,
     modes: [f64; 2],
 }

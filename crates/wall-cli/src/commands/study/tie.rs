@@ -16,9 +16,7 @@ use run::polarity::Polarities;
 use run::records::NamedRecord;
 use serde_json::json;
 use study::tie::figure::picture;
-use study::tie::{
-    BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table,
-};
+use study::tie::{BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
 
 use crate::args::{SceneArguments, apply_set, read_record, short_name, svg_file};
 use crate::commands::check::MAX_FILE_BYTES;

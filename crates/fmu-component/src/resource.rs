@@ -1,13 +1,9 @@
 //! An instance that a host has a handle of.
 
-use super::bindings::fmi::fmi3::callbacks::log_message;
-use super::bindings::fmi::fmi3::types::Status;
-use crate::call::Call;
-use crate::failure::Failure;
-use crate::ffi::arguments::check_count;
-use crate::instance::{Instance, Purpose};
-use crate::log::{self, Category, Logger};
-use crate::model::{Model, ModelExchange};
+use crate::bindings::fmi::fmi3::callbacks::log_message;
+use crate::bindings::fmi::fmi3::types::Status;
+use fmu_export::boundary::{Call, Instance, Logger, Purpose, check_count};
+use fmu_export::{Category, Failure, Model, ModelExchange};
 use std::cell::RefCell;
 use std::panic;
 
@@ -109,12 +105,12 @@ pub(super) fn references_and_orders(requests: &[(u32, u32)]) -> (Vec<u32>, Vec<i
 }
 
 /// A status as the draft has it.
-fn status(status: log::Status) -> Status {
+fn status(status: fmu_export::Status) -> Status {
     match status {
-        log::Status::Ok => Status::Ok,
-        log::Status::Warning => Status::Warning,
-        log::Status::Discard => Status::Discard,
-        log::Status::Error => Status::Error,
-        log::Status::Fatal => Status::Fatal,
+        fmu_export::Status::Ok => Status::Ok,
+        fmu_export::Status::Warning => Status::Warning,
+        fmu_export::Status::Discard => Status::Discard,
+        fmu_export::Status::Error => Status::Error,
+        fmu_export::Status::Fatal => Status::Fatal,
     }
 }

@@ -1,9 +1,8 @@
-//! The WebAssembly boundary: a model as a component, after Modelica's draft of the layered standard
+//! A model of [`fmu_export`] as a WebAssembly component, after Modelica's draft of the layered standard
 //! fmi-ls-wasm.
 //!
 //! The folder `wit` of this crate has the draft's interfaces, WIT package `fmi:fmi3@3.0.0`, unchanged. One
-//! component serves Co-Simulation and Model Exchange. [`export_component!`](crate::export_component) gives
-//! it its exports.
+//! component serves Co-Simulation and Model Exchange. [`export_component!`] gives it its exports.
 //!
 //! - Hosts of Model Exchange do not provide the draft's `intermediate-update`, and not every runtime enters a
 //!   component that calls out, as would be necessary to set inputs there: it is not imported. Continuous
@@ -14,8 +13,8 @@
 //!
 //! ```
 //! // the version of FMI, as the component answers
-//! use fmu_export::ffi::component::bindings::exports::fmi::fmi3::common::Guest;
-//! # use fmu_export::ffi::component::Component;
+//! use fmu_component::bindings::exports::fmi::fmi3::common::Guest;
+//! # use fmu_component::Component;
 //! # fn check<M: fmu_export::ModelExchange>() { assert_eq!(Component::<M>::get_version(), "3.0"); }
 //! ```
 
@@ -24,14 +23,14 @@ mod methods;
 mod model_exchange;
 mod resource;
 
-use crate::model::ModelExchange;
+use fmu_export::ModelExchange;
 use std::marker::PhantomData;
 
 pub use co_simulation::CoSimulation;
 pub use model_exchange::Exchange;
 
 /// The traits and types of the draft, by wit-bindgen.
-#[allow(missing_docs, unreachable_pub, clippy::all, clippy::pedantic, reason = "generated")]
+#[allow(missing_docs, unreachable_pub, unsafe_code, clippy::all, clippy::pedantic, reason = "generated")]
 pub mod bindings {
     wit_bindgen::generate!({
         path: "wit",
@@ -46,7 +45,7 @@ pub mod bindings {
         generate_all,
         pub_export_macro: true,
         export_macro_name: "__export_component",
-        default_bindings_module: "fmu_export::ffi::component::bindings",
+        default_bindings_module: "fmu_component::bindings",
     });
 }
 
@@ -60,23 +59,22 @@ impl<M: ModelExchange> bindings::exports::fmi::fmi3::common::Guest for Component
     }
 }
 
-/// Makes the model `$model`, a [`ModelExchange`](crate::ModelExchange), a WebAssembly component of FMI 3.0
+/// Makes the model `$model`, a [`ModelExchange`], a WebAssembly component of FMI 3.0
 /// for Co-Simulation and Model Exchange.
 ///
-/// It belongs into a `cdylib` for the target `wasm32-wasip2`, once, and needs the feature `component` of this
-/// crate:
+/// It belongs into a `cdylib` for the target `wasm32-wasip2`, once, instead of the C functions:
 ///
 /// ```text
 /// #[cfg(feature = "component")]
-/// fmu_export::export_component!(crate::Spring);
+/// fmu_component::export_component!(crate::Spring);
 /// ```
 #[macro_export]
 macro_rules! export_component {
     ($model:ty) => {
         #[doc(hidden)]
-        type ExportedComponent = $crate::ffi::component::Component<$model>;
-        $crate::ffi::component::bindings::__export_component! {
-            ExportedComponent with_types_in $crate::ffi::component::bindings
+        type ExportedComponent = $crate::Component<$model>;
+        $crate::bindings::__export_component! {
+            ExportedComponent with_types_in $crate::bindings
         }
     };
 }

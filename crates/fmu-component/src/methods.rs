@@ -5,15 +5,15 @@
 /// Defines the methods of an instance whose `self.0` is a [`Resource`](super::resource::Resource).
 macro_rules! common_methods {
     () => {
-        $crate::ffi::component::methods::values! {
+        $crate::methods::values! {
             f64: get_float64 GetReal get_float64, set_float64 SetReal set_real;
             bool: get_boolean GetBoolean get_boolean, set_boolean SetBoolean set_boolean;
             i32: get_int32 GetInteger get_integer, set_int32 SetInteger set_integer,
-                |kind| matches!(kind, crate::variable::Kind::Integer { .. });
+                |kind| matches!(kind, fmu_export::Kind::Integer { .. });
             i64: get_int64 GetInt64 get_integer, set_int64 SetInt64 set_integer,
-                |kind| matches!(kind, crate::variable::Kind::Enumeration { .. });
+                |kind| matches!(kind, fmu_export::Kind::Enumeration { .. });
         }
-        $crate::ffi::component::methods::unused_types! {
+        $crate::methods::unused_types! {
             f32: get_float32 GetFloat32, set_float32 SetFloat32;
             i8: get_int8 GetInt8, set_int8 SetInt8;
             u8: get_uint8 GetUInt8, set_uint8 SetUInt8;
@@ -23,7 +23,7 @@ macro_rules! common_methods {
             u64: get_uint64 GetUInt64, set_uint64 SetUInt64;
             Vec<u8>: get_binary GetBinary, set_binary SetBinary;
         }
-        $crate::ffi::component::methods::never! {
+        $crate::methods::never! {
             enter_configuration_mode() -> Status = EnterConfigurationMode;
             exit_configuration_mode() -> Status = ExitConfigurationMode;
             evaluate_discrete_states() -> Status = EvaluateDiscreteStates;
@@ -50,7 +50,7 @@ macro_rules! common_methods {
 
         fn enter_initialization_mode(&self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
             self.0.run(Call::EnterInitializationMode, |instance| {
-                instance.setup_experiment(crate::model::Experiment { tolerance, start, stop })?;
+                instance.setup_experiment(fmu_export::Experiment { tolerance, start, stop })?;
                 instance.enter(Phase::InitializationMode)
             })
         }
@@ -120,7 +120,7 @@ macro_rules! common_methods {
         }
 
         fn get_output_derivatives(&self, requests: Vec<(u32, u32)>) -> Result<Vec<f64>, Status> {
-            let (references, orders) = super::resource::references_and_orders(&requests);
+            let (references, orders) = crate::resource::references_and_orders(&requests);
             self.0.values(Call::GetRealOutputDerivatives, requests.len(), |instance, values| {
                 instance.output_derivatives(&references, &orders, values)
             })
@@ -133,7 +133,7 @@ macro_rules! common_methods {
             seed: Vec<f64>,
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetDirectionalDerivative, unknowns.len(), |instance, values| {
-                crate::ffi::arguments::check_count("nSeed", seed.len(), knowns.len())?;
+                fmu_export::boundary::check_count("nSeed", seed.len(), knowns.len())?;
                 instance.derivatives_along([&knowns, &unknowns], &seed, values, false)
             })
         }
@@ -145,7 +145,7 @@ macro_rules! common_methods {
             seed: Vec<f64>,
         ) -> Result<Vec<f64>, Status> {
             self.0.values(Call::GetAdjointDerivative, knowns.len(), |instance, values| {
-                crate::ffi::arguments::check_count("nSeed", seed.len(), unknowns.len())?;
+                fmu_export::boundary::check_count("nSeed", seed.len(), unknowns.len())?;
                 instance.derivatives_along([&unknowns, &knowns], &seed, values, true)
             })
         }
@@ -178,12 +178,12 @@ pub(super) use values;
 macro_rules! unused_types {
     ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident;)*) => { $(
         fn $get(&self, references: Vec<u32>) -> Result<Vec<$type>, Status> {
-            let none = |_: &mut _| crate::access::none_served::<M>(&references).map(|()| Vec::new());
+            let none = |_: &mut _| fmu_export::boundary::none_served::<M>(&references).map(|()| Vec::new());
             self.0.ask(Call::$get_call, none)
         }
 
         fn $set(&self, references: Vec<u32>, values: Vec<$type>) -> Status {
-            let none = |_: &mut _| crate::access::none_served::<M>(&references);
+            let none = |_: &mut _| fmu_export::boundary::none_served::<M>(&references);
             self.0.set(Call::$set_call, &references, &values, none)
         }
     )* };
@@ -197,13 +197,13 @@ macro_rules! never {
         fn $name(&self, $(_: $type),*) -> Status {
             self.0.run(Call::$call, |_| Ok(()))
         }
-        $crate::ffi::component::methods::never! { $($rest)* }
+        $crate::methods::never! { $($rest)* }
     };
     ($name:ident($($type:ty),*) -> $answer:ty = $call:ident; $($rest:tt)*) => {
         fn $name(&self, $(_: $type),*) -> Result<$answer, Status> {
             self.0.ask(Call::$call, |_| Ok(<$answer>::default()))
         }
-        $crate::ffi::component::methods::never! { $($rest)* }
+        $crate::methods::never! { $($rest)* }
     };
 }
 pub(super) use never;

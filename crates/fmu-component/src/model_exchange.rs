@@ -1,15 +1,14 @@
 //! `model-exchange` (FMI 3.0.2, section 3.2).
 
-use super::Component;
-use super::bindings::exports::fmi::fmi3::model_exchange::{
+use crate::Component;
+use crate::bindings::exports::fmi::fmi3::model_exchange::{
     CompletedStepResult, DiscreteStatesInfo, Guest, GuestModelExchangeInstance, IntervalFraction,
     IntervalQualifier, ModelExchangeInstance, Status, VariableDependency,
 };
-use super::methods::common_methods;
-use super::resource::Resource;
-use crate::call::{Call, Phase};
-use crate::instance::{Instance, Purpose};
-use crate::model::{Interface, ModelExchange};
+use crate::methods::common_methods;
+use crate::resource::Resource;
+use fmu_export::boundary::{Call, Instance, Phase, Purpose};
+use fmu_export::{Interface, ModelExchange};
 
 impl<M: ModelExchange> Guest for Component<M> {
     type ModelExchangeInstance = Exchange<M>;

@@ -1,15 +1,14 @@
 //! `co-simulation` (FMI 3.0.2, section 4.2).
 
-use super::Component;
-use super::bindings::exports::fmi::fmi3::co_simulation::{
+use crate::Component;
+use crate::bindings::exports::fmi::fmi3::co_simulation::{
     CoSimulationInstance, DiscreteStatesInfo, DoStepResult, Guest, GuestCoSimulationInstance,
     IntervalFraction, IntervalQualifier, Status, VariableDependency,
 };
-use super::methods::common_methods;
-use super::resource::{Resource, references_and_orders};
-use crate::call::{Call, Phase};
-use crate::instance::Purpose;
-use crate::model::{Interface, ModelExchange};
+use crate::methods::common_methods;
+use crate::resource::{Resource, references_and_orders};
+use fmu_export::boundary::{Call, Phase, Purpose};
+use fmu_export::{Interface, ModelExchange};
 
 impl<M: ModelExchange> Guest for Component<M> {
     type CoSimulationInstance = CoSimulation<M>;
