@@ -1,7 +1,10 @@
-"""Tests how the FMU answers importers: values, errors, time, states, derivatives, log and instances."""
+"""Tests how the wall's FMU answers a real importer.
+
+What every FMU of this project answers (order of calls, wrong arguments, states, reset, threads) is tested at
+the C boundary: crates/fmu-export/tests/exported. Here is what is the wall's own, and each law once.
+"""
 
 import csv
-import ctypes
 import json
 import math
 import pickle
@@ -15,7 +18,6 @@ from pathlib import Path
 import pytest
 from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave
 
 from conftest import ROOT
 from unit import Unit
@@ -23,7 +25,7 @@ from unit import Unit
 
 @pytest.fixture
 def unpacked(either):
-    """Tests run in both versions of FMI; those about FMI 2.0 take `unpacked2`."""
+    """Tests run in both versions of FMI."""
     return either
 
 
@@ -66,29 +68,6 @@ def refused(unit, call, *words):
         assert word in errors[-1], errors[-1]
 
 
-def test_a_wrong_guid_is_refused(unpacked2):
-    folder = unpacked2.folder
-    slave = FMU2Slave(guid="{0}", unzipDirectory=folder, modelIdentifier="wall", instanceName="wall")
-    with pytest.raises(Exception, match="instantiate"):
-        slave.instantiate()
-
-
-def test_messages_reach_their_own_instance_alone(unpacked):
-    with Unit(unpacked) as unit, Unit(unpacked):
-        refused(unit, lambda: unit.set(height=-1.0), "height")
-
-
-def test_logging_outlives_an_instance(unpacked2):
-    """FMPy's logger proxy goes on calling the last logger it was given, whose unit may be gone."""
-    with Unit(unpacked2) as unit:
-        messages = unit.messages
-    folder = unpacked2.folder
-    slave = FMU2Slave(guid="{0}", unzipDirectory=folder, modelIdentifier="wall", instanceName="wall")
-    with pytest.raises(Exception, match="instantiate"):
-        slave.instantiate()
-    assert messages == [], "a freed instance gets no messages"
-
-
 # --- limits and relations -----------------------------------------------------------------------------------
 
 
@@ -108,24 +87,6 @@ def test_every_limit_is_checked_and_named(unpacked):
     assert checked == 27
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_numbers_must_be_finite(unpacked, unpacked2, bad):
-    for variable in unpacked.description.modelVariables:
-        if variable.type == "Real" and variable.causality in ("parameter", "input"):
-            with Unit(unpacked) as unit:
-                refused(unit, lambda: unit.set(**{variable.name: bad}), variable.name)
-    for name in ("a_bottom", "a_top", "drift"):
-        with Unit(unpacked2) as unit:
-            unit.start()
-            refused(unit, lambda: unit.rates(**{name: bad}))
-    with Unit(unpacked) as unit:
-        unit.start()
-        refused(unit, lambda: unit.step(bad))
-        unit.slave.reset()
-        unit.start()
-        refused(unit, lambda: unit.slave.doStep(bad, 0.01))
-
-
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
@@ -140,58 +101,7 @@ def test_relations_are_checked_at_the_end_of_initialisation(unpacked, settings, 
         unit.start().step(0.01)
 
 
-def test_enumerations_take_their_items_only(unpacked):
-    for name in ("mechanism", "force_law", "damping_model", "solver"):
-        for value in (0, 99, -1):
-            with Unit(unpacked) as unit:
-                refused(
-                    unit,
-                    lambda: unit.slave.setInteger([unit.reference(name)], [value]),
-                    name,
-                    "automatic" if name == "solver" else "",
-                )
-
-
-def test_parameters_are_fixed(unit):
-    unit.start()
-    refused(unit, lambda: unit.set(height=3.0), "height")
-
-
 # --- time ---------------------------------------------------------------------------------------------------
-
-
-def test_times_are_sums_of_rounded_steps(unpacked):
-    with Unit(unpacked) as unit, Unit(unpacked) as whole:
-        unit.start()
-        for _ in range(10_000):
-            unit.step(0.001)
-        whole.start()
-        for index in range(10_000):
-            whole.slave.doStep(index / 1000, 0.001)
-        # the times differ by the rounding of 10^4 sums, 1e-12 s
-        assert unit.get("u") == pytest.approx(whole.get("u"), abs=1e-11)
-
-
-def test_tiny_steps(unit):
-    unit.start(**SHAKEN)
-    shake(unit, 50)
-    before = values(unit)
-    unit.slave.doStep(unit.time, 1e-17)
-    # within 1e-17 s u changes by u_dot times that, below 1e-17 m
-    assert unit.get("u") == pytest.approx(before[0], abs=1e-16)
-    assert unit.get("u_dot") == pytest.approx(before[1], abs=1e-15)
-    unit.step(0.01)
-
-
-def test_a_wrong_point_and_the_stop_time_are_refused(unpacked):
-    with Unit(unpacked) as unit:
-        unit.start()
-        unit.step(0.01)
-        refused(unit, lambda: unit.slave.doStep(0.5, 0.01), "0.5", "0.01")
-    with Unit(unpacked) as unit:
-        unit.start(time=3.0, stop=4.0)
-        unit.step(1.0)
-        refused(unit, lambda: unit.step(0.1), "4")
 
 
 def test_the_clock_does_not_matter(unpacked):
@@ -228,29 +138,6 @@ def test_overturning_is_an_ordinary_state(unit):
 # --- states -------------------------------------------------------------------------------------------------
 
 
-def test_a_state_resumes_bit_for_bit(unpacked):
-    with Unit(unpacked) as unit, Unit(unpacked, name="other") as other:
-        unit.start(**SHAKEN)
-        shake(unit, 300)
-        state = unit.slave.getFMUState()
-        saved = unit.slave.serializeFMUState(state)
-        assert unit.slave.serializeFMUState(state) == saved, "the same state gives the same bytes"
-        time = unit.time
-        shake(unit, 300, seed=2)
-        expected = values(unit)
-        unit.slave.setFMUState(state)
-        unit.time = time
-        shake(unit, 300, seed=2)
-        assert values(unit) == expected
-        unit.slave.freeFMUState(state)
-        other.start()
-        foreign = other.slave.deserializeFMUState(saved)
-        other.slave.setFMUState(foreign)
-        other.time = time
-        shake(other, 300, seed=2)
-        assert values(other) == expected
-
-
 RESUME = """
 import pickle, sys
 sys.path.insert(0, sys.argv[1])
@@ -278,50 +165,7 @@ def test_a_state_resumes_in_another_process(unpacked):
         assert pickle.loads(answer.stdout) == values(unit)
 
 
-def test_damaged_states_are_refused(unpacked):
-    with Unit(unpacked) as unit:
-        unit.start(**SHAKEN)
-        shake(unit, 20)
-        saved = unit.slave.serializeFMUState(unit.slave.getFMUState())
-        before = values(unit)
-
-        def restore(damaged):
-            unit.slave.setFMUState(unit.slave.deserializeFMUState(damaged))
-
-        for damaged in (saved[:-1], saved[: len(saved) // 2], saved + b"\0", b"", b"nonsense"):
-            with pytest.raises(FMICallException):
-                restore(damaged)
-        for index in range(len(saved)):
-            damaged = bytearray(saved)
-            damaged[index] ^= 1 << (index % 8)
-            with pytest.raises(FMICallException):
-                restore(bytes(damaged))
-        assert values(unit) == before
-        unit.step(0.01)
-
-
-def test_reset_is_a_fresh_instance(unpacked):
-    with Unit(unpacked) as used, Unit(unpacked) as fresh:
-        used.start(**SHAKEN, force_law="trilinear", d1=0.5)
-        shake(used, 100)
-        used.slave.reset()
-        for unit in (used, fresh):
-            unit.start(u_start=0.1)
-            shake(unit, 100, seed=4)
-        assert values(used) == values(fresh)
-
-
 # --- inputs, outputs, derivatives ---------------------------------------------------------------------------
-
-
-def test_other_input_derivatives_are_refused(unpacked2):
-    with Unit(unpacked2) as unit:
-        unit.start()
-        refused(unit, lambda: unit.rates(a_g=1.0), "a_g")
-        unit.slave.reset()
-        unit.start()
-        reference = [unit.reference("a_bottom")]
-        refused(unit, lambda: unit.slave.setRealInputDerivatives(reference, [2], [1.0]), "order")
 
 
 def test_input_derivatives(unit):
@@ -347,33 +191,6 @@ def test_feedthrough_without_a_step(unit):
     assert unit.get("reaction_bottom") == pytest.approx(2880.0 * 0.25, rel=1e-15)
     unit.set(a_g=1.0)
     assert unit.get("u_ddot") == pytest.approx(-1.5, rel=1e-15), "a_g is added"
-
-
-@pytest.mark.parametrize("shape", [{}, STRIP])
-def test_output_derivatives(unpacked, shape):
-    """Compares output derivatives with central differences over 1e-4 s; tests/it/unit.rs has every model.
-
-    The error of the difference quotient is h²/6 of the third derivative. On these walls (rates below 60/s)
-    that is 1e-4 of the derivative's own scale. Rounding of the outputs adds less.
-    """
-    names = ["u", "u_dot", "u_ddot", "reaction_bottom", "reaction_top"]
-    step = 1e-4
-    with Unit(unpacked) as unit:
-        u_ins = 0.1 if shape else 0.2
-        unit.start(**shape, xi=0.05, u_start=0.3 * u_ins, u_dot_start=0.1)
-        unit.set(a_bottom=0.4, a_top=0.4)
-        history = []
-        for _ in range(3):
-            unit.rates(a_bottom=3.0, a_top=1.0)
-            unit.step(step)
-            found = unit.slave.getRealOutputDerivatives(
-                [unit.reference(name) for name in names], [1] * len(names)
-            )
-            history.append((unit.get(*names), list(found)))
-        for index, name in enumerate(names):
-            expected = (history[2][0][index] - history[0][0][index]) / (2 * step)
-            scale = max(abs(expected), 1e-3 * max(1.0, abs(history[1][0][index])))
-            assert history[1][1][index] == pytest.approx(expected, abs=1e-3 * scale), name
 
 
 @pytest.mark.parametrize("shape", [{}, STRIP | {"thickness": 0.2}])
@@ -463,13 +280,6 @@ def test_a_tolerance_below_rounding_is_the_least(unpacked):
 # --- log ----------------------------------------------------------------------------------------------------
 
 
-def test_a_clean_run_is_silent(unpacked):
-    with Unit(unpacked, logging=False) as unit:
-        unit.start()
-        shake(unit, 50)
-        assert unit.messages == []
-
-
 def test_a_parapet_says_once_that_it_has_no_top(unpacked):
     with Unit(unpacked, logging=True) as unit:
         unit.start(u_start=0.0)
@@ -543,35 +353,6 @@ def test_eight_threads(unpacked):
     for thread in threads:
         thread.join()
     assert all(result == results[0] for result in results) and results[0] is not None
-
-
-def test_an_instance_moves_between_threads(unpacked):
-    with Unit(unpacked) as unit, Unit(unpacked) as still:
-        unit.start(**SHAKEN)
-        for seed in range(4):
-            thread = threading.Thread(target=shake, args=(unit, 50, seed))
-            thread.start()
-            thread.join()
-        still.start(**SHAKEN)
-        for seed in range(4):
-            shake(still, 50, seed)
-        assert values(unit) == values(still)
-
-
-@pytest.mark.parametrize(
-    "location",
-    [None, b"", b"file:///none", b"file:/p", b"file:///with%20blank/%C3%BCml%C3%A4ut/", b"/plain",
-     b"C:\\windows", b"http://x/y", b"file:///%zz%", b"file:///" + b"a/" * 5000],
-)  # fmt: skip
-def test_a_general_fmu_runs_with_any_resource_location(unpacked2, location):
-    with Unit(unpacked2) as unit:
-        library = unit.slave.dll
-        library.fmi2Instantiate.restype = ctypes.c_void_p
-        library.fmi2FreeInstance.argtypes = [ctypes.c_void_p]
-        guid = unpacked2.description.guid.encode()
-        instance = library.fmi2Instantiate(b"wall", 1, guid, location, None, 0, 0)
-        assert instance
-        library.fmi2FreeInstance(instance)
 
 
 QUIET = """

@@ -111,59 +111,6 @@ def test_a_bare_simulation_rests(floor_fmu):
 # --- derivatives
 
 
-def test_input_derivatives_are_for_one_step(unpacked_floor):
-    with Unit(unpacked_floor) as unit:
-        unit.start(a_g=1.0)
-        unit.rates(a_g=10.0)
-        assert unit.step(0.1).get("a_g") == pytest.approx(2.0, rel=1e-15)
-        assert unit.step(0.1).get("a_g") == pytest.approx(2.0, rel=1e-15)
-        with pytest.raises(Exception, match="fmi2SetRealInputDerivatives"):
-            unit.rates(impulse_1=1.0)
-
-
-@pytest.mark.parametrize("coupling", ["reactions", "impulses"])
-def test_directional_derivatives(unpacked_floor, coupling):
-    """Compares derivatives by inputs with differences, and by states with changes of the start values."""
-    settings = {"coupling": coupling}
-    start = {"displacement_start": 0.01, "velocity_start": 0.2}
-
-    def outputs(**changes):
-        with Unit(unpacked_floor) as unit:
-            unit.start(**(settings | start | changes))
-            return np.array(unit.get(*[name for name in reals(unit, "output")]))
-
-    with Unit(unpacked_floor) as unit:
-        unit.start(**(settings | start))
-        names = reals(unit, "output")
-        unknowns = [unit.reference(name) for name in names]
-        changes = [("a_g", "a_g", 1.0), ("reaction_1", "reaction_1", 1e4), ("impulse_8", "impulse_8", 1e3)]
-        changes += [("velocity", "velocity_start", 0.01), ("displacement", "displacement_start", 0.001)]
-        for known, name, size in changes:
-            before = start.get(name, 0.0)
-            difference = (outputs(**{name: before + size}) - outputs(**{name: before - size})) / (2 * size)
-            slopes = unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0])
-            for found, wanted, unknown in zip(slopes, difference, names):
-                assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12), f"{unknown} by {known}"
-        # the direct feedthrough that a master needs
-        found = unit.slave.getDirectionalDerivative(
-            [unit.reference("acceleration")], [unit.reference("reaction_1")], [1.0]
-        )[0]
-        assert found == (-1 / 20000 if coupling == "reactions" else 0.0)
-
-
-def test_output_derivatives(floor):
-    floor.start(velocity_start=0.1, a_g=1.0)
-    floor.rates(a_g=20.0)
-    before = floor.step(0.01).get("displacement", "velocity", "acceleration")
-    names = ("displacement", "velocity", "acceleration")
-    slopes = [floor.slave.getRealOutputDerivatives([floor.reference(name)], [1])[0] for name in names]
-    tiny = 1e-7
-    floor.rates(a_g=20.0)
-    after = floor.step(tiny).get(*names)
-    # first order in the tiny step, plus rounding divided by it
-    assert (np.array(after) - before) / tiny == pytest.approx(slopes, rel=1e-4)
-
-
 # --- Model Exchange
 
 KICKED = {"velocity_start": 0.4, "damping_ratio": 0.02, "mass": 2e4, "stiffness": 2e7}
@@ -266,27 +213,6 @@ def shaken(unit, steps, seed):
         unit.rates(a_g=source.uniform(-100, 100))
         unit.step(source.choice([1e-3, 0.01, 0.0371]))
     return unit
-
-
-def test_a_state_resumes_bit_for_bit(unpacked_floor):
-    with Unit(unpacked_floor) as unit, Unit(unpacked_floor) as other:
-        shaken(unit.start(**BILINEAR), 50, 1)
-        assert unit.get("energy_hysteretic") > 0
-        state, time = unit.slave.getFMUState(), unit.time
-        data = unit.slave.serializeFMUState(state)
-        wanted = everything(shaken(unit, 50, 2))
-        unit.slave.setFMUState(state)
-        unit.time = time
-        assert unit.slave.serializeFMUState(unit.slave.getFMUState()) == data
-        assert everything(shaken(unit, 50, 2)) == wanted
-        other.slave.setFMUState(other.slave.deserializeFMUState(data))
-        other.time = time
-        assert everything(shaken(other, 50, 2)) == wanted
-        unit.slave.reset()
-        unit.time = 0.0
-        fresh = everything(shaken(unit.start(), 20, 3))
-        with Unit(unpacked_floor) as third:
-            assert everything(shaken(third.start(), 20, 3)) == fresh
 
 
 def test_bad_values_are_named(unpacked_floor):

@@ -17,7 +17,6 @@ from fmpy.validation import validate_fmu
 
 from conftest import ROOT
 from exchange import Exchange
-from test_behaviour import refused
 from unit import Unit
 
 TOLERANCE = 1e-8
@@ -452,21 +451,6 @@ def test_a_saved_state_resumes_bit_for_bit(scenes):
         assert first.get(*names) == second.get(*names)
         for instance, saved in ((first, state), (second, copy)):
             instance.slave.freeFMUState(saved)
-
-
-def test_what_is_out_of_turn_is_refused(unpacked):
-    with Exchange(unpacked) as exchange:
-        refused(exchange, exchange.states, "before fmi2EnterInitializationMode")
-        exchange.slave.reset()
-        exchange.start()
-        refused(exchange, lambda: exchange.at(0.0, [0.1, 0.0]), "fmi2SetContinuousStates", "in Event Mode")
-        exchange.slave.reset()
-        exchange.run()
-        refused(exchange, exchange.update, "in Continuous-Time Mode")
-        exchange.slave.reset()
-        exchange.run()
-        refused(exchange, lambda: exchange.at(0.0, [math.nan, 0.0]), "u = NaN")
-        assert exchange.get("u") == 0.18
 
 
 def test_a_g_acts_at_once(unpacked):
