@@ -9,8 +9,8 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    pub(crate) fn new(name: &'static str, value: impl ToString) -> Self {
-        Self { name, value: value.to_string() }
+    pub(crate) fn new(name: &'static str, value: impl Into<String>) -> Self {
+        Self { name, value: value.into() }
     }
 }
 

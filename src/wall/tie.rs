@@ -114,7 +114,7 @@ impl Tie {
         if parameters.mechanism != Mechanism::Parapet {
             return Err(ParameterError::conflict(
                 [
-                    Choice::new("tie_stiffness", stiffness),
+                    Choice::new("tie_stiffness", stiffness.to_string()),
                     Choice::new("mechanism", parameters.mechanism.name()),
                 ],
                 "tie_stiffness = 0 or mechanism = parapet",
