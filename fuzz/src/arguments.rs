@@ -50,11 +50,13 @@ impl Arguments {
         })
     }
 
-    /// A value for a variable: mostly within its limits, mostly near its start.
+    /// A value for a variable: mostly within its limits, mostly near its start. Limits of inputs are far
+    /// beyond what walls see: few values of inputs come near them.
     pub(crate) fn value(&mut self, variable: &Variable) -> f64 {
         let Kind::Real { start, min, max } = variable.kind else { return 0.0 };
         let start = start.unwrap_or(0.0);
-        match (self.random.below(20), min, max) {
+        let ways = if variable.causality == Causality::Input { 1000 } else { 20 };
+        match (self.random.below(ways), min, max) {
             (0, Some(limit), _) | (1, _, Some(limit)) => limit,
             (2..8, Some(low), Some(high)) if low > 0.0 => low * (high / low).powf(self.random.unit()),
             (2..8, Some(low), Some(high)) => low + (high - low) * self.random.unit(),
@@ -139,6 +141,29 @@ impl Arguments {
                 _ => ffi::set_real::<M>(c, &references[from], 1, &values[from], 1),
             }
         }
+    }
+
+    /// Sets some parameters, numbers and choices; the status is that of the last one, or of the one refused.
+    pub(crate) fn parameters<M: Model>(&mut self, c: Component) -> Status {
+        let numbers = M::Real::ALL.iter().map(|id| id.variable());
+        let choices = M::Integer::ALL.iter().map(|id| id.variable());
+        let all: Vec<_> = numbers.chain(choices).filter(|of| of.causality == Causality::Parameter).collect();
+        for _ in 0..=self.random.below(MOST) {
+            let variable = self.random.one_of(&all);
+            let reference = &variable.reference;
+            // SAFETY: the instance lives; one reference and one value.
+            let status = unsafe {
+                if let Kind::Enumeration { items, .. } = variable.kind {
+                    ffi::set_integer::<M>(c, reference, 1, &self.random.one_of(items).value, 1)
+                } else {
+                    ffi::set_real::<M>(c, reference, 1, &self.value(variable), 1)
+                }
+            };
+            if status != OK {
+                return status;
+            }
+        }
+        OK
     }
 
     pub(crate) fn get_real<M: Model>(&mut self, c: Component) -> (Status, Option<String>) {

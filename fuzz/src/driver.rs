@@ -14,12 +14,20 @@ use std::time::Duration;
 
 /// A call that takes more processor time is a fault.
 const LONGEST: Duration = Duration::from_secs(1);
+/// Draws of parameters until an instance starts; after them it starts with the defaults.
+const DRAWS: u64 = 10;
+/// Least shares of starts with drawn parameters and of calls that succeed: below, little is tried.
+const LEAST_STARTED: f64 = 0.9;
+const LEAST_SUCCEEDED: f64 = 0.5;
 
 /// What calls came to.
 #[derive(Debug, Default)]
 pub struct Figures {
     calls: u64,
     errors: u64,
+    starts: u64,
+    /// Starts with drawn parameters.
+    started: u64,
     longest: Duration,
     slow: u64,
     faults: Vec<String>,
@@ -30,22 +38,36 @@ impl Figures {
     pub fn and(mut self, other: Self) -> Self {
         self.calls += other.calls;
         self.errors += other.errors;
+        self.starts += other.starts;
+        self.started += other.started;
         self.longest = self.longest.max(other.longest);
         self.slow += other.slow;
         self.faults.extend(other.faults);
         self
     }
 
-    /// Whether there was no fault.
+    /// Whether there was no fault, and enough was tried.
     pub fn is_sound(&self) -> bool {
-        self.faults.is_empty() && (self.slow == 0 || cfg!(debug_assertions))
+        let is_enough = self.share_started() >= LEAST_STARTED && self.share_succeeded() >= LEAST_SUCCEEDED;
+        self.faults.is_empty() && is_enough && (self.slow == 0 || cfg!(debug_assertions))
+    }
+
+    fn share_started(&self) -> f64 {
+        self.started as f64 / self.starts as f64
+    }
+
+    fn share_succeeded(&self) -> f64 {
+        1.0 - self.errors as f64 / self.calls as f64
     }
 }
 
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { calls, errors, longest, slow, faults } = self;
-        write!(f, "{calls} calls, {errors} refused, {} faults; the longest took ", faults.len())?;
+        let Self { calls, starts, longest, slow, faults, .. } = self;
+        let [started, succeeded] = [self.share_started(), self.share_succeeded()].map(|share| 100.0 * share);
+        write!(f, "{calls} calls, {succeeded:.1} % succeeded (least {:.0} %); ", 100.0 * LEAST_SUCCEEDED)?;
+        write!(f, "{starts} starts, {started:.1} % with drawn parameters (least ")?;
+        write!(f, "{:.0} %); {} faults; the longest call took ", 100.0 * LEAST_STARTED, faults.len())?;
         write!(f, "{longest:.3?}, {slow} over {LONGEST:?}")?;
         faults.iter().take(10).try_for_each(|fault| write!(f, "\n  {fault}"))
     }
@@ -136,23 +158,37 @@ impl<M: ModelExchange> Instance<M> {
         let c = importer.component();
         self.arguments.time = 0.0;
         // SAFETY: the instance lives.
+        unsafe { common::reset::<M>(c) };
+        if self.arguments.random.once_in(3) {
+            return;
+        }
+        self.figures.starts += 1;
+        if (0..DRAWS).any(|_| self.starts(c, true)) {
+            self.figures.started += 1;
+        } else if !self.starts(c, false) {
+            self.figures.faults.push("the defaults do not start".into());
+        }
+        if self.third && !self.exchanges && self.arguments.random.once_in(2) {
+            // SAFETY: the instance lives.
+            unsafe { fmi3::enter_step_mode::<M>(c) };
+        }
+    }
+
+    /// Initializes an instance from its reset, with drawn parameters or as it is, and returns whether it took
+    /// them.
+    fn starts(&mut self, c: Component, with_drawn: bool) -> bool {
+        // SAFETY: the instance lives.
         unsafe {
             common::reset::<M>(c);
-            if self.arguments.random.once_in(3) {
-                return;
-            }
-            for _ in 0..self.arguments.random.below(4) {
-                self.arguments.set_real::<M>(c);
+            if with_drawn && self.arguments.parameters::<M>(c) != OK {
+                return false;
             }
             if self.third {
                 fmi3::start_initialization::<M>(c, false, 0.0, 0.0, false, 0.0);
             } else {
                 common::enter_initialization_mode::<M>(c);
             }
-            common::exit_initialization_mode::<M>(c);
-            if self.third && !self.exchanges && self.arguments.random.once_in(2) {
-                fmi3::enter_step_mode::<M>(c);
-            }
+            common::exit_initialization_mode::<M>(c) == OK
         }
     }
 
