@@ -222,8 +222,8 @@ impl Scene {
     /// excites. It lasts to the end of the run.
     ///
     /// # Errors
-    /// [`SceneError::Value`] where a strip wall in full rotations has a different motion at its top,
-    /// or where the floors cannot support this kind of wall.
+    /// [`SceneError::Value`] where a parapet, or a strip wall in full rotations, has a different motion at
+    /// its top, or where the floors cannot support this kind of wall.
     pub fn support_motion(&self) -> Result<Option<Cow<'_, Excitation>>, SceneError> {
         let refused = |message: &str| SceneError::Value { message: message.into() };
         let motion = match (&self.floors, &self.excitation) {
@@ -239,16 +239,17 @@ impl Scene {
         self.moved_apart(motion.as_deref()).map_or(Ok(motion), |message| Err(refused(message)))
     }
 
-    /// Says what is wrong with full rotations on supports that move differently.
+    /// Says what is wrong with a motion of the top support that the wall does not have, or not apart.
     fn moved_apart(&self, motion: Option<&Excitation>) -> Option<&'static str> {
-        let Parameters { mechanism, kinematics, .. } = self.parameters;
-        let is_full_strip =
-            mechanism == Mechanism::VerticalSpanning && kinematics == Kinematics::Trigonometric;
-        let is_apart = is_full_strip && motion.is_some_and(|motion| motion.top().is_some());
-        is_apart.then_some(
-            "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set \
-             kinematics = linear",
-        )
+        motion?.top()?;
+        match (self.parameters.mechanism, self.parameters.kinematics) {
+            (Mechanism::Parapet, _) => Some("a parapet has no top support; leave [motion.top] out"),
+            (_, Kinematics::Trigonometric) => Some(
+                "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or \
+                 set kinematics = linear",
+            ),
+            (_, Kinematics::Linear) => None,
+        }
     }
 
     /// Returns whether this scene's FMU lists the variable called `name`. Enumerations are frozen: the

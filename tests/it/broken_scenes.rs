@@ -63,17 +63,26 @@ fn what_is_not_closed_accuses_no_line_below() {
     assert_says("title = 3\n[title.of]\n", "line 2: `[title.of]` adds to a value that is given above");
 }
 
-/// Full rotations of a strip know one motion for both supports.
+/// Full rotations of a strip know one motion for both supports, a parapet has one support.
 #[test]
-fn full_rotations_refuse_a_motion_of_the_top_at_its_table() {
+fn a_motion_of_the_top_is_refused_at_its_table() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     std::fs::write(folder.join("apart.csv"), "0.0\n1.0\n0.0\n").unwrap();
     let record = "record = \"apart.csv\"\nunit = \"m/s2\"\nstep = 0.1\n";
-    let wall = "[geometry]\nmechanism = \"vertical_spanning\"\nkinematics = \"trigonometric\"\n";
-    let text = format!("{wall}[motion]\n{record}[motion.top]\n{record}");
-    let error = Scene::parse("scene.toml", &text, folder).unwrap_err().to_string();
-    let start = "scene.toml, line 4: kinematics = trigonometric knows one motion for both supports; leave";
-    assert!(error.starts_with(start), "{error}");
+    for (wall, start) in [
+        (
+            "mechanism = \"vertical_spanning\"\nkinematics = \"trigonometric\"\n",
+            "scene.toml, line 4: kinematics = trigonometric knows one motion for both supports; leave",
+        ),
+        (
+            "mechanism = \"parapet\"\n",
+            "scene.toml, line 3: a parapet has no top support; leave [motion.top] out",
+        ),
+    ] {
+        let text = format!("[geometry]\n{wall}[motion]\n{record}[motion.top]\n{record}");
+        let error = Scene::parse("scene.toml", &text, folder).unwrap_err().to_string();
+        assert!(error.starts_with(start), "{error}");
+    }
 }
 
 #[test]

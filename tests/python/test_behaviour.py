@@ -183,6 +183,24 @@ def test_input_derivatives(unit):
     assert unit.get("a_bottom") == 0.5, "setting the input clears its derivative"
 
 
+@pytest.mark.parametrize("name, limit", [("a_bottom", 1e6), ("a_top", 1e6), ("drift", 1e3)])
+def test_slopes_lead_inputs_to_their_limits_and_not_beyond(unpacked2, name, limit):
+    with Unit(unpacked2, logging=True) as unit:
+        unit.start(mechanism="vertical_spanning", u_start=0.0)
+        for sign in (1.0, -1.0):
+            # both products and sums are exact
+            unit.set(**{name: sign * limit / 2})
+            unit.rates(**{name: sign * limit})
+            unit.step(0.5)
+            assert unit.get(name) == sign * limit
+            unit.set(**{name: sign * limit / 2})
+            unit.rates(**{name: sign * limit})
+            state, time = unit.slave.getFMUState(), unit.time
+            side = "above its maximum" if sign > 0 else "below its minimum"
+            refused(unit, lambda: unit.slave.doStep(time, 1.0), f"{name} = ", side)
+            unit.slave.setFMUState(state)
+
+
 def test_feedthrough_without_a_step(unit):
     unit.start(u_start=0.0)
     unit.set(a_bottom=1.0)

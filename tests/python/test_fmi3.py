@@ -224,6 +224,36 @@ def test_derivatives_of_a_tie_are_those_of_its_branch(unpacked3, u_start, by_u):
         assert unit.get("tie_broken") is (u_start == 0.19)
 
 
+@pytest.mark.parametrize("event_mode", [False, True])
+def test_a_step_ends_early_where_a_tie_breaks(unpacked3, event_mode):
+    """`earlyReturn` just after the fracture, and once more at overturning; none where it is not allowed."""
+    tie = {"tie_height": 3.0, "tie_stiffness": 3e5, "tie_slack": 0.075, "tie_strength": 2.25e4}
+    start = {**tie, "tie_ultimate": 0.12, "u_start": 0.12, "u_dot_start": 2.0}
+    with Unit(unpacked3, eventModeUsed=event_mode, earlyReturnAllowed=False) as unit:
+        unit.start(**start)
+        if event_mode:
+            unit.slave.enterStepMode()
+        _, _, early, time = unit.slave.doStep(0.0, 0.1)
+        assert (early, time) == (False, 0.1)
+        wanted = unit.get("tie_break_time", "overturn_time")
+        assert 0.0 < wanted[0] < wanted[1] < 0.1
+    with Unit(unpacked3, eventModeUsed=event_mode, earlyReturnAllowed=True) as unit:
+        unit.start(**start)
+        time = 0.0
+        for event, broken, overturned in zip(wanted, (True, True), (False, True)):
+            if event_mode:
+                unit.slave.enterStepMode()
+            needs_event, terminate, early, time = unit.slave.doStep(time, 0.1 - time)
+            assert (early, needs_event, terminate) == (True, event_mode, False)
+            # the unit ends it 1e-10 s after the event, and times agree to the rounding of split steps
+            assert 0.0 < time - event < 2e-10
+            assert unit.get("tie_broken", "overturned") == [broken, overturned]
+            if event_mode:
+                unit.slave.enterEventMode()
+                unit.slave.updateDiscreteStates()
+        assert unit.get("tie_break_time", "overturn_time") == pytest.approx(wanted, abs=1e-12)
+
+
 @pytest.mark.parametrize("scene", ["plain_parapet", "shaken_parapet", "strip_between_floors"])
 def test_a_scene_has_the_variables_of_fmi_2(fmu, fmu3, wall, tmp_path, scene):
     made = []

@@ -108,10 +108,11 @@ def test_many_runs_are_the_same_on_any_number_of_threads(record):
     factors = np.linspace(0.1, 1.0, 150)[:, None]
     found = rw.simulate_many(walls, record, factors, threads=1)
     np.testing.assert_array_equal(rw.simulate_many(walls, record, factors, threads=6).u_max, found.u_max)
-    factors[140] = 1e300
+    # 5·10⁶ steps of Newmark in one of the record
+    slow = rw.Wall(**SET | {"solver": "newmark", "newmark_step": 1e-9})
     for threads in (1, 6):
-        with pytest.raises(RuntimeError, match=r"run 28[01], of factor 1e300: gave up"):
-            rw.simulate_many(walls, record, factors, threads=threads)
+        with pytest.raises(RuntimeError, match=r"run 281, of factor 0.5: gave up"):
+            rw.simulate_many([walls[0]] * 281 + [slow] + [walls[1]] * 19, record, 0.5, threads=threads)
 
 
 def test_many_runs_that_cannot_be(record):
@@ -128,7 +129,7 @@ def test_many_runs_that_cannot_be(record):
         rw.simulate_many([wall, 3.0], record)
     with pytest.raises(TypeError, match=r"rw.read_record\('x.AT2'\)"):
         rw.simulate_many(wall, "x.AT2")
-    with pytest.raises(ValueError, match="a factor is inf"):
+    with pytest.raises(ValueError, match="cannot be scaled by inf"):
         rw.simulate_many(wall, record, [1.0, float("inf")])
 
 

@@ -59,10 +59,11 @@ def test_examples_in_the_documentation(module):
 
 def test_help_names_the_keys_of_a_study():
     told = pydoc.render_doc(rw.options, renderer=pydoc.plaintext)
+    parts = re.split(r"\n    (?=\w+: )", told)
     schema = json.loads(_native.schemas()[1])
     for table in ("Intensity", "Levels", "Report", "Class", "Hazard", "Uncertain", "Reliability"):
         for key in schema["$defs"][f"{table}Table"]["properties"]:
-            keys = told.partition(f"class {table}(")[2].partition("\n    class ")[0]
+            keys = next(part for part in parts if part.startswith(f"{table}: "))
             assert f"- {key}: " in keys, (table, key)
 
 

@@ -2,7 +2,7 @@
 
 use crate::motion::{GroundMotion, floor_index};
 use crate::record::Record;
-use crate::warning::{CREDIBLE_PEAK, USUAL_STEP, Warning};
+use crate::warning::{CREDIBLE_PEAK, Warning};
 
 /// Largest final velocity of the ground relative to its peak velocity; processed records have less than 0.1
 /// %.
@@ -75,9 +75,7 @@ impl Record {
         if self.is_vertical {
             warnings.push(Warning::Vertical);
         }
-        if !(USUAL_STEP[0]..=USUAL_STEP[1]).contains(&step) {
-            warnings.push(Warning::Step { step });
-        }
+        warnings.extend(Warning::of_step(step));
         let peak = motion.peak();
         if peak == 0.0 {
             warnings.push(Warning::NoMotion);

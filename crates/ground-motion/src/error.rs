@@ -13,12 +13,13 @@ pub enum GroundMotionError {
     /// Fewer than two samples.
     #[error("a ground motion needs at least two samples, found {found}")]
     TooFewSamples { found: usize },
-    /// A sample is NaN or infinite.
-    #[error("sample {index} (counted from 0) of the ground motion is {value}; every sample must be finite")]
+    /// A sample that is no acceleration.
+    #[error("sample {index} (counted from 0) is {value:?}; every sample must be finite and at most 1e6 m/s²")]
     NotFinite { index: usize, value: f64 },
-    /// A scale factor that is not finite or makes a sample overflow.
+    /// A scale factor that is not finite or makes a sample too large.
     #[error(
-        "a ground motion with the peak {peak} m/s² cannot be scaled by {factor}; give a smaller finite factor"
+        "a ground motion with the peak {peak:?} m/s² cannot be scaled by {factor:?}: it may have 1e6 m/s²; \
+         give a smaller finite factor"
     )]
     Factor { factor: f64, peak: f64 },
     /// A target peak that is negative or not finite.
@@ -37,7 +38,7 @@ pub enum GroundMotionError {
     )]
     Trim { from: f64, to: f64, duration: f64 },
     /// A parameter of a pulse or of the synthetic motion is outside its limits.
-    #[error("{name} of the ground motion is {value}; it must be {limit}")]
+    #[error("{name} is {value}; it must be {limit}")]
     Parameter { name: &'static str, value: f64, limit: &'static str },
     /// A harmonic motion without an end.
     #[error("a harmonic motion without an end needs a duration; state one of the two")]

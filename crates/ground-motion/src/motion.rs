@@ -29,7 +29,7 @@ impl GroundMotion {
     ///
     /// # Errors
     /// If the step is not positive or the duration not finite, if there are fewer than two samples, if a
-    /// sample is not finite.
+    /// sample is not a number from −10⁶ to 10⁶ m/s².
     pub fn new(step: f64, samples: Vec<f64>) -> Result<Self, GroundMotionError> {
         if samples.len() < 2 {
             return Err(GroundMotionError::TooFewSamples { found: samples.len() });
@@ -37,7 +37,7 @@ impl GroundMotion {
         if !(step > 0.0 && ((samples.len() - 1) as f64 * step).is_finite()) {
             return Err(GroundMotionError::Step { step });
         }
-        if let Some(index) = samples.iter().position(|a| !a.is_finite()) {
+        if let Some(index) = samples.iter().position(|a| !is_possible(*a)) {
             return Err(GroundMotionError::NotFinite { index, value: samples[index] });
         }
         Ok(Self { step, samples: samples.into() })
@@ -81,8 +81,7 @@ impl GroundMotion {
     /// Multiplies every sample by `factor`.
     ///
     /// # Panics
-    /// If the factor or a scaled sample is not finite; [`checked_scaled`](Self::checked_scaled) is for
-    /// factors from outside.
+    /// Where [`checked_scaled`](Self::checked_scaled) has an error; it is for factors from outside.
     pub fn scaled(&self, factor: f64) -> Self {
         self.checked_scaled(factor).unwrap_or_else(|error| panic!("{error}"))
     }
@@ -90,13 +89,23 @@ impl GroundMotion {
     /// Multiplies every sample by `factor`.
     ///
     /// # Errors
-    /// If the factor or a scaled sample is not finite.
+    /// If the factor is not finite, or a scaled sample beyond 10⁶ m/s².
     pub fn checked_scaled(&self, factor: f64) -> Result<Self, GroundMotionError> {
-        let peak = self.peak();
-        if !factor.is_finite() || !(factor * peak).is_finite() {
-            return Err(GroundMotionError::Factor { factor, peak });
-        }
+        self.check_factor(factor)?;
         Ok(Self { step: self.step, samples: self.samples.iter().map(|a| factor * a).collect() })
+    }
+
+    /// Checks that every sample may be multiplied by `factor`.
+    ///
+    /// # Errors
+    /// As [`checked_scaled`](Self::checked_scaled).
+    pub fn check_factor(&self, factor: f64) -> Result<(), GroundMotionError> {
+        let peak = self.peak();
+        if factor.is_finite() && is_possible(factor * peak) {
+            Ok(())
+        } else {
+            Err(GroundMotionError::Factor { factor, peak })
+        }
     }
 
     /// Scales the motion to the peak ground acceleration `pga` (m/s²).
@@ -128,6 +137,11 @@ impl GroundMotion {
         let samples = &self.samples[floor_index(first)..=floor_index(end)];
         Ok(Self { step: self.step, samples: samples.into() })
     }
+}
+
+/// Returns whether supports may have an acceleration (m/s²): at most 10⁶, the limit of the inputs of FMUs.
+fn is_possible(acceleration: f64) -> bool {
+    acceleration.abs() <= 1e6
 }
 
 /// Returns the whole part of a position that is not negative.

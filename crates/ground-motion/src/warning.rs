@@ -7,7 +7,7 @@ use crate::unit::{STANDARD_GRAVITY, Unit};
 pub(crate) const CREDIBLE_PEAK: [f64; 2] = [1e-4, 3.0];
 
 /// Range of time steps without a warning (s); records have 0.02 s and less, and 0.001 s and more.
-pub(crate) const USUAL_STEP: [f64; 2] = [5e-4, 0.1];
+const USUAL_STEP: [f64; 2] = [5e-4, 0.1];
 
 /// A sign that a record or a scaled motion is not ready for use.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -150,6 +150,11 @@ impl Warning {
     /// [`GroundMotion::warning`](crate::GroundMotion::warning) does.
     pub fn of_peak(peak: f64) -> Option<Self> {
         (peak != 0.0 && !is_credible(peak, CREDIBLE_PEAK)).then_some(Self::Strength { peak })
+    }
+
+    /// Warns about a time step (s) that is longer or shorter than that of any record.
+    pub fn of_step(step: f64) -> Option<Self> {
+        (!(USUAL_STEP[0]..=USUAL_STEP[1]).contains(&step)).then_some(Self::Step { step })
     }
 
     /// Warns about a peak (m/s²), read in a unit, that is outside a range (g).

@@ -1,6 +1,6 @@
 //! Samples from Python, and arrays to Python.
 
-use ground_motion::GroundMotion;
+use ground_motion::{GroundMotion, Unit};
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::inspect::PyStaticExpr;
@@ -52,18 +52,11 @@ pub(crate) fn grid<'py, P, T: Element>(
 /// an array that is misaligned, in another byte order or of another type of real numbers.
 ///
 /// # Errors
-/// `TypeError` for values that are not real numbers, `ValueError` for another shape or for masked values.
+/// `TypeError` for values that are not real numbers, `ValueError` for another shape, for masked values, and
+/// for values with a unit of their own.
 pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let numpy = given.py().import("numpy")?;
-    if numpy.getattr("ma")?.call_method1("is_masked", (given,))?.is_truthy()? {
-        return Err(PyValueError::new_err("samples are masked; fill or cut out what is missing"));
-    }
-    let array = numpy.call_method1("asarray", (given,))?;
-    let dtype = array.getattr("dtype")?;
-    if !["i", "u", "f"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
-        return Err(PyTypeError::new_err(format!("expected real numbers, found values of the type {dtype}")));
-    }
-    let array = numpy.call_method1("require", (array, "float64", ["C", "A"]))?;
+    let array = plain(given, None)?;
+    let array = given.py().import("numpy")?.call_method1("require", (array, "float64", ["C", "A"]))?;
     let Ok(array) = array.cast::<PyArray1<f64>>() else {
         let shape = array.getattr("shape")?;
         return Err(PyValueError::new_err(format!(
@@ -71,6 +64,36 @@ pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         )));
     };
     Ok(array.readonly().as_slice()?.to_vec())
+}
+
+/// Makes an array of real numbers without gaps, and without a unit but that of acceleration that is stated.
+#[pyfunction]
+#[pyo3(signature = (given, unit=None))]
+pub(crate) fn plain<'py>(given: &Bound<'py, PyAny>, unit: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = given.py().import("numpy")?;
+    if numpy.getattr("ma")?.call_method1("is_masked", (given,))?.is_truthy()? {
+        return Err(PyValueError::new_err("values are masked; fill or cut out what is missing"));
+    }
+    let stated: Option<Unit> = unit.and_then(|unit| unit.parse().ok());
+    if let Some(own) = own_unit(given).filter(|own| stated.is_none() || own.parse().ok() != stated) {
+        let to = unit.map_or_else(String::new, |unit| format!(" to {unit}"));
+        let message =
+            format!("the values have a unit of their own, {own}; convert them{to} and give numbers");
+        return Err(PyValueError::new_err(message));
+    }
+    let array = numpy.call_method1("asarray", (given,))?;
+    let dtype = array.getattr("dtype")?;
+    if !["i", "u", "f"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
+        return Err(PyTypeError::new_err(format!("expected real numbers, found values of the type {dtype}")));
+    }
+    Ok(array)
+}
+
+/// Returns the unit that values bring along, as those of pint, astropy and xarray do.
+fn own_unit(given: &Bound<'_, PyAny>) -> Option<String> {
+    let of_attributes = || given.getattr("attrs").ok()?.get_item("units").ok();
+    let unit = ["units", "unit"].iter().find_map(|name| given.getattr(*name).ok()).or_else(of_attributes)?;
+    Some(unit.to_string()).filter(|unit| !["", "1", "dimensionless", "None"].contains(&unit.trim()))
 }
 
 /// Names the motions of records.

@@ -12,7 +12,7 @@ use run::parallel;
 use run::shaking::{Shaken, Shaking, felt, together};
 
 use crate::arrays::{Motion, Numbers, samples};
-use crate::errors::{failed, of_scene, refused};
+use crate::errors::{failed, of_motion, of_scene, refused};
 use crate::walls::Wall;
 use crate::watch::{stoppable, threads_of};
 
@@ -79,10 +79,7 @@ pub(crate) fn simulate_many<'py>(
     let walls = walls.iter().map(|wall| Prepared::new(wall.get())).collect::<PyResult<Vec<_>>>()?;
     let mut runs = Vec::with_capacity(factors.len());
     for (number, ((wall, record), factor)) in wall_of.into_iter().zip(record_of).zip(factors).enumerate() {
-        if !(factor * records[record].0.peak()).is_finite() {
-            let remedy = "give finite factors that keep the record finite";
-            return Err(refused(format!("a factor is {factor}; {remedy}")));
-        }
+        records[record].0.check_factor(factor).map_err(of_motion)?;
         runs.push(Numbered { number, wall, record, factor });
     }
     // the runs of a wall and record beside each other, so that they are prepared once

@@ -10,7 +10,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use run::record_facts::figure::{self, Drawn};
 
-use crate::arrays::{Motion, Numbers, samples};
+use crate::arrays::{Motion, Numbers, plain, samples};
 use crate::errors::of_motion;
 
 /// A channel of a record file: its motion, its name, and warnings.
@@ -42,10 +42,11 @@ pub(crate) fn read_channels(
     Ok(records.into_iter().map(channel).collect())
 }
 
-/// Warns of a channel, such as that of a trace, whose code is vertical.
+/// Warns of a time step \[s\] that no record has, and of a channel whose code is vertical.
 #[pyfunction]
-pub(crate) fn warnings_of_channel(code: &str) -> Vec<String> {
-    ground_motion::is_vertical_channel(code).then(|| Warning::Vertical.to_string()).into_iter().collect()
+pub(crate) fn warnings_of(step: f64, channel: &str) -> Vec<String> {
+    let vertical = ground_motion::is_vertical_channel(channel).then_some(Warning::Vertical);
+    Warning::of_step(step).into_iter().chain(vertical).map(|warning| warning.to_string()).collect()
 }
 
 /// Samples a motion given by a formula.
@@ -79,8 +80,8 @@ pub(crate) fn synthetic(seed: u64, duration: f64, dt: f64, pga: f64) -> PyResult
 #[pyfunction]
 pub(crate) fn in_si(given: (f64, Bound<'_, PyAny>), unit: &str) -> PyResult<Motion> {
     let (step, given) = given;
-    let unit: Unit = unit.parse().map_err(of_motion)?;
-    let samples = samples(&given)?.into_iter().map(|sample| unit.to_si(sample)).collect();
+    let of: Unit = unit.parse().map_err(of_motion)?;
+    let samples = samples(&plain(&given, Some(unit))?)?.into_iter().map(|sample| of.to_si(sample)).collect();
     made(GroundMotion::new(step, samples))
 }
 

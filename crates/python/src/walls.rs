@@ -205,8 +205,6 @@ impl Wall {
             check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
             scene.shake(Excitation::new(record, top.map(|Motion(top)| top)), tail, Vec::new());
             scene.parameters.u_start = self.start.unwrap_or(0.0);
-        } else if top.is_some() {
-            return Err(refused("top needs a record for the bottom support beside it"));
         }
         if hold {
             scene.excitation = scene.excitation.map(Excitation::held);
@@ -260,8 +258,10 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
         if name == POINTS {
             continue;
         }
+        let is_truth = value.get_type().name()?.to_string().starts_with("bool");
         let text = match value.extract::<String>() {
             Ok(text) => text,
+            Err(_) if is_truth => return Err(not_a_value(&name, &value)),
             Err(_) => format!("{:?}", value.extract::<f64>().map_err(|_| not_a_value(&name, &value))?),
         };
         if name == "force_law" {
@@ -274,7 +274,8 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
         let unknown = |error: rocking_wall::scene::SceneError| PyTypeError::new_err(error.to_string());
         scene.set(&name, &text).map_err(if known { of_scene } else { unknown })?;
     }
-    let points = parameters.get_item(POINTS)?.map(|points| points.extract::<Vec<[f64; 2]>>()).transpose()?;
+    let points = parameters.get_item(POINTS)?.map(|points| points.extract::<Vec<[f64; 2]>>()).transpose();
+    let points = points.map_err(|_| PyTypeError::new_err("points must be pairs [[u/u_ins, F/F0], ...]"))?;
     match (law_of_points, points) {
         (true, Some(points)) => scene.parameters.multilinear = Some(points.into()),
         (true, None) if scene.parameters.multilinear.is_none() => {

@@ -50,6 +50,7 @@ fn refuses_what_is_no_motion() {
         (0.01, vec![1.0], "found 1"),
         (0.01, vec![0.0, f64::NAN], "sample 1"),
         (0.01, vec![f64::INFINITY, 0.0], "sample 0"),
+        (0.01, vec![0.0, -1e6, 1e6_f64.next_up()], "sample 2"),
     ] {
         let error = GroundMotion::new(step, samples).unwrap_err().to_string();
         assert!(error.contains(message), "{error}");
@@ -64,7 +65,8 @@ fn scales_to_a_factor_or_a_peak() {
     // pga / peak and its product with the peak are each rounded once.
     let peak = motion.scaled_to_peak(0.3).unwrap().peak();
     assert!((peak - 0.3).abs() <= 0.3 * 2.0 * f64::EPSILON, "{peak}");
-    for factor in [f64::NAN, f64::INFINITY, f64::MAX] {
+    assert_eq!(motion.scaled(-5e5).samples(), [0.0, -7.5e5, 1e6]);
+    for factor in [f64::NAN, f64::INFINITY, f64::MAX, (-5e5_f64).next_down()] {
         assert!(motion.checked_scaled(factor).unwrap_err().to_string().contains("cannot be scaled by"));
     }
     for peak in [-1.0, f64::NAN, f64::INFINITY] {

@@ -116,10 +116,7 @@ fn refuses_what_is_no_oscillator() {
     }
     for period in [-1.0, 1e-4, 101.0, f64::NAN, f64::INFINITY] {
         let error = Spectrum::default().acceleration(&motion, period).unwrap_err().to_string();
-        assert!(
-            error.contains("period of the ground motion is") && error.contains("0.001 to 100 s"),
-            "{error}"
-        );
+        assert!(error.contains("period is") && error.contains("0.001 to 100 s"), "{error}");
     }
     let error = Spectrum::default().acceleration(&motion, 0.001).unwrap_err().to_string();
     assert!(error.contains("time step in s") && error.contains("500 periods"), "{error}");

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from typing import Any
 from warnings import warn
 
@@ -128,7 +128,7 @@ class Building:
     walls = Attribute[list[str]]("Names of the walls.")
 
     def __init__(self, path: str | PathLike[str]) -> None:
-        self._native = _native.Building(fspath(path))
+        self._native = _native.Building(fsdecode(path))
         for warning in self._native.warnings:
             warn(warning, stacklevel=2)
 

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -153,7 +153,7 @@ def read_results(folder: str | PathLike[str]) -> StudyResults:
     complete.
     """
     path = Path(folder)
-    kept = _native.Folder.open(fspath(path))
+    kept = _native.Folder.open(fsdecode(path))
     levels, collapses = kept.curves()
     if not (path / "study.html").exists():
         raise ValueError(f"{path}: has no results yet; run the study with this folder to make them")
@@ -183,8 +183,8 @@ def merge(
     Raises `ValueError` where runs are missing or the folders hold different studies.
     """
     folders = [folders] if isinstance(folders, str | PathLike) else folders
-    paths = [fspath(folder) for folder in folders]
-    kept = _native.Folder.merged(paths, None if into is None else fspath(into))
+    paths = [fsdecode(folder) for folder in folders]
+    kept = _native.Folder.merged(paths, None if into is None else fsdecode(into))
     tell(kept.finish(threads)[1])
     return read_results(kept.path)
 
@@ -235,7 +235,7 @@ def number(cell: str) -> float:
 
 def place(folder: str | PathLike[str] | None) -> AbstractContextManager[str]:
     """Gives the folder of a study: a temporary one where none is named."""
-    return TemporaryDirectory(prefix="rocking_wall_") if folder is None else nullcontext(fspath(folder))
+    return TemporaryDirectory(prefix="rocking_wall_") if folder is None else nullcontext(fsdecode(folder))
 
 
 def tell(warnings: Iterable[str], level: int = 3) -> None:

@@ -49,11 +49,12 @@ def simulate_many(
     >>> bool(peaks.u_max[2, 1] == walls[2].peaks(records[1], [0.5]).u_max[0])
     True
     """
+    all_factors = _native.plain(factors)
     given = (_objects(walls, Wall, "walls"), _objects(records, Record, "records"))
     try:
-        of_walls, of_records, of_factors = np.broadcast_arrays(*given, np.asarray(factors))
+        of_walls, of_records, of_factors = np.broadcast_arrays(*given, all_factors)
     except ValueError:
-        shapes = f"{given[0].shape}, {given[1].shape} and {np.shape(factors)}"
+        shapes = f"{given[0].shape}, {given[1].shape} and {all_factors.shape}"
         raise ValueError(f"walls, records and factors have the shapes {shapes}, which do not fit") from None
     (all_walls, wall_of), (all_records, record_of) = _numbered(of_walls), _numbered(of_records)
     found = _native.simulate_many(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 from warnings import warn
@@ -18,9 +19,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Unit = Literal["m/s2", "cm/s2", "mm/s2", "g"]
+Motion = tuple[float, NDArray[np.float64]]
 Maxima = Literal["everywhere", "at_samples"]
 
-NUMBERS = (int, float, np.integer, np.floating)
+def is_number(value: object) -> bool:
+    """Returns whether a value is a real number; neither a truth value nor a span of time is one."""
+    is_real = isinstance(value, int | float | np.integer | np.floating)
+    return is_real and not isinstance(value, bool | np.timedelta64)
+
 
 AVERAGE_PERIODS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4)
 """Usual periods of AvgSA [s]."""
@@ -70,19 +76,32 @@ class Record:
     ) -> None:
         """Makes a record of its samples, at least two, in a `unit`: m/s2, cm/s2 (gal), mm/s2 or g.
 
-        Raises `TypeError` for what are not numbers and `ValueError` for samples that are not finite or not in
-        one dimension, for a step that is not positive, and for an unknown unit.
+        Warns of a step that no record has. Raises `TypeError` for what are not numbers and `ValueError` for
+        samples that are not finite and at most 1e6 m/s², not in one dimension, or have times or a unit of
+        their own that differ, for a step that is not positive, and for an unknown unit.
         """
-        if not isinstance(dt, NUMBERS):
+        if not is_number(dt):
             swapped = "; they are swapped" if np.ndim(a) == 0 else ""
             raise TypeError(
                 f"Record(dt, samples): dt must be the time between samples in s, found a value of the type "
                 f"{type(dt).__name__}{swapped}"
             )
+        if isinstance(a, Record) or hasattr(a, "stats"):
+            remedy = "record.a" if isinstance(a, Record) else "Record.from_trace(trace, unit)"
+            raise TypeError(f"samples are a {type(a).__name__}, which has a step of its own; use {remedy}")
+        check_times(a, float(dt))
         dt, samples = _native.in_si((float(dt), a), unit)
-        samples.flags.writeable = False
-        for attribute, value in (("dt", dt), ("a", samples), ("name", name), ("warnings", tuple(warnings))):
-            object.__setattr__(self, attribute, value)
+        for warning in set(_native.warnings_of(dt, "")).difference(warnings):
+            warn(f"{name}: {warning}", stacklevel=2)
+            warnings = (*warnings, warning)
+        self.__setstate__({"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings)})
+
+    @classmethod
+    def _of(cls, motion: Motion, name: str, warnings: Sequence[str] = ()) -> Record:
+        """Makes a record of a motion whose step needs no warning."""
+        (dt, samples), record = _native.in_si(motion, "m/s2"), cls.__new__(cls)
+        record.__setstate__({"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings)})
+        return record
 
     @classmethod
     def from_trace(cls, trace: Any, unit: Unit | None = None, *, name: str | None = None) -> Record:
@@ -108,11 +127,12 @@ class Record:
         if np.ma.is_masked(data):
             raise ValueError("the trace has gaps; merge it with a fill_value, or cut a part without gaps")
         channel = str(getattr(stats, "channel", ""))
-        warnings = tuple(_native.warnings_of_channel(channel))
+        warnings = tuple(_native.warnings_of(float(delta), channel))
         name = name or str(getattr(trace, "id", "") or channel or "trace")
+        record = cls(float(delta), data, unit=unit, name=name, warnings=warnings)
         for warning in warnings:
             warn(f"{name}: {warning}", stacklevel=2)
-        return cls(float(delta), data, unit=unit, name=name, warnings=warnings)
+        return record
 
     def __repr__(self) -> str:
         size = f"{len(self.a)} samples of {self.dt:g} s"
@@ -150,7 +170,7 @@ class Record:
 
     def __mul__(self, factor: float) -> Record:
         """Returns `scaled(factor)`."""
-        if not isinstance(factor, NUMBERS):
+        if not is_number(factor):
             found = type(factor).__name__
             raise TypeError(f"expected a number, found a value of the type {found}; use record.a")
         return self.scaled(float(factor))
@@ -165,11 +185,11 @@ class Record:
         return np.array(self.a, dtype=dtype, copy=copy)
 
     @property
-    def _motion(self) -> tuple[float, NDArray[np.float64]]:
+    def _motion(self) -> Motion:
         return self.dt, self.a
 
-    def _with(self, motion: tuple[float, NDArray[np.float64]]) -> Record:
-        return Record(*motion, name=self.name, warnings=self.warnings)
+    def _with(self, motion: Motion) -> Record:
+        return Record._of(motion, self.name, self.warnings)
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -281,12 +301,25 @@ class Record:
         return _native.picture(self._motion, self.name)
 
 
-def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.float64]]:
+def check_times(samples: Any, dt: float) -> None:
+    """Compares the times that samples of pandas or xarray bring along, if any, with their step [s]."""
+    index = next(iter(getattr(samples, "indexes", {}).values()), getattr(samples, "index", None))
+    kind = getattr(getattr(index, "dtype", None), "kind", "")
+    if kind not in ("f", "m", "M") or len(samples) < 2:
+        return
+    steps = np.diff(np.asarray(index)) / (1.0 if kind == "f" else np.timedelta64(1, "s"))
+    # times may be rounded
+    if not (np.abs(steps - dt) < 0.5 * dt).all() or abs(steps.mean() - dt) > 1e-3 * dt:
+        found = f"{steps.min():g} to {steps.max():g} s apart, and dt is {dt:g} s"
+        raise ValueError(f"samples have times of their own, {found}; give that step, or samples.to_numpy()")
+
+
+def motion_of(record: object, name: str = "record") -> Motion:
     """Returns the motion of what must be a record; `name` stands for it in messages."""
     if isinstance(record, Record):
         return record._motion
     if isinstance(record, (str, PathLike)):
-        remedy = f"read it with rw.read_record({fspath(record)!r})"
+        remedy = f"read it with rw.read_record({fsdecode(record)!r})"
     else:
         of_trace = ", or rw.Record.from_trace(trace, unit)" if hasattr(record, "stats") else ""
         remedy = f"make one with rw.Record(dt, samples) or rw.read_record(path){of_trace}"
@@ -297,16 +330,14 @@ def listed(records: Any) -> list[Any]:
     """Returns records as a list, also one alone."""
     if isinstance(records, Record):
         return [records]
-    if not np.iterable(records):
+    if not np.iterable(records) or hasattr(records, "columns"):
         motion_of(records, "records")
     return list(records)
 
 
-def scaled(
-    motion: tuple[float, NDArray[np.float64]], factor: float, name: str
-) -> tuple[float, NDArray[np.float64]]:
+def scaled(motion: Motion, factor: float, name: str) -> Motion:
     """Returns a motion multiplied by a factor; `name` stands for the factor in messages."""
-    if not isinstance(factor, NUMBERS):
+    if not is_number(factor):
         raise TypeError(f"{name} = {factor!r} must be a finite number")
     if not np.isfinite(factor):
         raise ValueError(f"{name} = {factor} must be a finite number")
@@ -336,9 +367,9 @@ def read_channels(
 ) -> list[Record]:
     """Reads every channel of a record file, or the one that is asked for; see `read_record`."""
     records = []
-    for motion, found, warnings in _native.read_channels(fspath(path), unit, dt, column, channel, format):
-        name = Path(path).name + (f" [{found}]" if found else "")
-        records.append(Record(*motion, name=name, warnings=tuple(warnings)))
+    for motion, found, warnings in _native.read_channels(fsdecode(path), unit, dt, column, channel, format):
+        name = Path(fsdecode(path)).name + (f" [{found}]" if found else "")
+        records.append(Record._of(motion, name, warnings))
     return records
 
 
@@ -359,9 +390,9 @@ def read_record(
     records = read_channels(path, unit=unit, dt=dt, column=column, channel=channel, format=format)
     if len(records) != 1:
         names = ", ".join(record.name for record in records)
-        raise ValueError(f"{fspath(path)}: expected one channel, found {names}; state channel=")
+        raise ValueError(f"{fsdecode(path)}: expected one channel, found {names}; state channel=")
     for warning in records[0].warnings:
-        warn(f"{fspath(path)}: {warning}", stacklevel=2)
+        warn(f"{fsdecode(path)}: {warning}", stacklevel=2)
     return records[0]
 
 
@@ -374,7 +405,7 @@ def synthetic_record(
     Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s2)
     """
     seed = drawn(seed)
-    return Record(*_native.synthetic(seed, duration, dt, pga), name=f"synthetic {seed}")
+    return Record._of(_native.synthetic(seed, duration, dt, pga), f"synthetic {seed}")
 
 
 def ricker(amplitude: float, frequency: float, *, centre: float | None = None) -> Record:
@@ -412,4 +443,4 @@ def pulse(
 ) -> Record:
     """Samples a motion given by a formula."""
     motion = _native.pulse(shape, amplitude, frequency, centre, phase, duration)
-    return Record(*motion, name=shape.replace("_", " "))
+    return Record._of(motion, shape.replace("_", " "))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from os.path import abspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -132,8 +132,8 @@ class Study:
         else:
             if given:
                 raise TypeError(f"a study file has its own {', '.join(given)}; leave them out")
-            self._native = _native.Study(fspath(path))
-            self._name = Path(path).stem
+            self._native = _native.Study(fsdecode(path))
+            self._name = Path(fsdecode(path)).stem
             self._is_file = True
         for warning in self._native.warnings:
             warn(warning, stacklevel=2)
@@ -161,7 +161,7 @@ class Study:
         """
         if self._is_file:
             raise ValueError(f"the study {self._name!r} is a file already; copy it and what it names")
-        write_study(Path(path), *self._native.sent())
+        write_study(Path(fsdecode(path)), *self._native.sent())
 
     def __repr__(self) -> str:
         walls, records, models = len(self.walls), len(self.records), len(self.models)
@@ -222,10 +222,10 @@ class Study:
         The shares of a study may have folders of their own, or one that they share; `rocking_wall.merge`
         makes the results once all are there.
         """
-        number, of = shard
-        if not 1 <= number <= of:
+        numbers = [number for number in np.ravel(shard).tolist() if type(number) is int]
+        if len(numbers) != 2 or not 1 <= numbers[0] <= numbers[1]:
             raise ValueError(f"shard = {shard} must be a number and how many there are, such as (2, 8)")
-        self._complete(fspath(folder), threads, progress, shard)
+        self._complete(fsdecode(folder), threads, progress, (numbers[0], numbers[1]))
 
     def _complete(
         self, path: str, threads: int | None, progress: bool, shard: tuple[int, int] = (1, 1)
@@ -242,11 +242,11 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
     """Returns names, and walls or dictionaries of their parameters."""
     if isinstance(walls, Wall):
         walls = [walls]
-    elif hasattr(walls, "to_dataframe"):
+    elif hasattr(walls, "to_dataframe") and len(walls.dims) > 0 and hasattr(walls, "data_vars"):
         # a Dataset of xarray has coordinates beside its columns
         walls = rows_of(walls.to_dataframe())
     elif hasattr(walls, "columns"):
-        walls = rows_of(walls)
+        walls = rows_of(walls.collect() if hasattr(walls, "collect") else walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
             walls = rows_of_columns(walls)
@@ -334,12 +334,13 @@ WITHOUT_GAPS = ("height", "thickness", "density")
 """Parameters that every wall of a table has if one has it."""
 
 
-def is_missing(value: object) -> bool:
+def is_missing(value: Any) -> bool:
     """Returns whether a cell of a table is empty."""
-    if isinstance(value, float | np.floating):
-        return bool(np.isnan(value))
-    # that of pandas cannot be compared
-    return value is None or type(value).__name__ == "NAType" or (isinstance(value, str) and value == "")
+    if isinstance(value, str):
+        return value.strip() == ""
+    # that of pandas cannot be compared; NaN, NaT and their like differ from themselves
+    is_none = value is None or value is np.ma.masked or type(value).__name__ == "NAType"
+    return is_none or (np.ndim(value) == 0 and bool(value != value))
 
 
 def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:

@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 from html import escape
+from os import PathLike, fsdecode
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -79,7 +80,7 @@ def printable(text: str) -> str:
 
 def toml_lines(values: Mapping[str, object]) -> str:
     """Returns the lines of a table in TOML."""
-    return "".join(f"{name} = {toml(value)}\n" for name, value in values.items())
+    return "".join(f"{name} = {toml(value, name)}\n" for name, value in values.items())
 
 
 def drawn(seed: int | np.random.Generator) -> int:
@@ -87,21 +88,24 @@ def drawn(seed: int | np.random.Generator) -> int:
     return int(seed.integers(2**32)) if isinstance(seed, np.random.Generator) else seed
 
 
-def toml(value: object) -> str:
-    """Returns the text of a value in TOML."""
+def toml(value: object, name: str = "a value") -> str:
+    """Returns the text of a value in TOML; `name` stands for it in messages."""
     if isinstance(value, Mapping):
-        entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
+        entries = (f"{json.dumps(str(key))} = {toml(each, str(key))}" for key, each in value.items())
         return "{ " + ", ".join(entries) + " }"
     if isinstance(value, np.random.Generator):
         return str(drawn(value))
-    if isinstance(value, np.ndarray | np.generic):
+    if isinstance(value, np.ndarray | np.generic) and not hasattr(value, "unit"):
         value = value.tolist()
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(toml(each) for each in value) + "]"
+    if isinstance(value, PathLike):
+        value = fsdecode(value)
+    if isinstance(value, list | tuple | range):
+        return "[" + ", ".join(toml(each, name) for each in value) + "]"
     if isinstance(value, float):
         # also nan and inf
         return repr(value)
     if isinstance(value, str | bool | int):
         return json.dumps(value, ensure_ascii=False)
     found = type(value).__name__
-    raise TypeError(f"expected numbers, texts, lists and dictionaries, found a value of the type {found}")
+    expected = "expected numbers, texts, lists and dictionaries"
+    raise TypeError(f"{name}: {expected}, found a value of the type {found}")

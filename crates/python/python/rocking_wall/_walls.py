@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
 from inspect import getdoc
-from os import PathLike, fspath
+from os import PathLike, fsdecode
 from typing import Any, Literal, NoReturn, Unpack
 from warnings import warn
 
@@ -110,7 +110,7 @@ class Wall(Given):
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Wall:
         """Reads a scene: a wall and, if it has one, its motion."""
-        return cls._of(_native.Wall.from_toml(fspath(path)))
+        return cls._of(_native.Wall.from_toml(fsdecode(path)))
 
     def replace(self, **parameters: Unpack[Parameters]) -> Wall:
         """Returns the same wall with other values of some parameters.
@@ -222,7 +222,7 @@ class Wall(Given):
         >>> peaks.overturned
         array([False, False,  True])
         """
-        given = np.asarray(factors)
+        given = _native.plain(factors)
         of_runs = [0] * given.size
         found = _native.simulate_many(
             [self._native], [motion_of(record)], of_runs, of_runs, given.ravel(), tail, 1
@@ -431,7 +431,7 @@ class Wall(Given):
         >>> abs(found.fits["damping"][0] - 0.04) < 0.01
         np.True_
         """
-        names = None if models is None else list(models)
+        names = [models] if isinstance(models, str) else None if models is None else list(models)
         (fits, coefficients, laws), pictures = _native.calibrate_wall(
             self._native, names, restitution, a1, start, step, threads
         )
@@ -460,14 +460,14 @@ def package(
     """
     wall = scene if isinstance(scene, Wall) else Wall.from_toml(scene)
     if base is not None:
-        return wall._native.package(fspath(path), fspath(base))
+        return wall._native.package(fsdecode(path), fsdecode(base))
     if not (files(__package__) / "wall.fmu").is_file():
         raise FileNotFoundError(
             "this installation has no wall.fmu, because pip has built it from a checkout: install the wheel "
             "of `cargo xtask wheel`, or run `cargo xtask fmu` and pass base='fmu_out/wall.fmu'"
         )
     with as_file(files(__package__) / "wall.fmu") as general:
-        return wall._native.package(fspath(path), fspath(general))
+        return wall._native.package(fsdecode(path), fsdecode(general))
 
 
 Wall.__doc__ = f"""A wall: a parapet, or a vertical spanning strip.
