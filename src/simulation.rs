@@ -73,7 +73,10 @@ pub enum RunError {
     #[error("the step spans more than {limit} samples; use smaller steps")]
     TooManySegments { limit: usize },
     /// The segments of the step have too many pieces together.
-    #[error("more than {limit} pieces of motion in one step, at t = {time:?} s; use smaller steps")]
+    #[error(
+        "more than {limit} pieces of motion, between samples, impacts and turns, in one step, at \
+         t = {time:?} s; use smaller steps (`output_step` of a scene)"
+    )]
     TooManyPieces { time: f64, limit: u64 },
 }
 

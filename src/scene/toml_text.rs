@@ -94,7 +94,9 @@ impl<'a> Found<'a> {
             in_toml_words(expected)
         } else if is("wanted string or table") {
             "a name in quotes".to_owned()
-        } else if is("wanted") || is("data did not match") || overflows {
+        } else if overflows {
+            "a smaller number".to_owned()
+        } else if is("wanted") || is("data did not match") {
             "another value".to_owned()
         } else {
             return format!("{}: {message}", self.given());
@@ -146,6 +148,8 @@ fn in_value(value: &DeValue<'_>, span: &Range<usize>, keys: &mut Vec<String>) ->
 fn in_toml_words(expected: &str) -> String {
     let counted = |rest: &str| rest.split(' ').find_map(|word| word.parse::<usize>().ok());
     match expected {
+        // of a number that no type holds
+        "any valid TOML value" => "a smaller number".to_owned(),
         "a map" => "a table".to_owned(),
         "a sequence" => "a list".to_owned(),
         "path string" => "a path in quotes".to_owned(),

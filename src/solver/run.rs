@@ -72,7 +72,9 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        Err(self.exhausted())
+        Err(self.not_followed(
+            "the motion has more samples, impacts, turns and steps of Newmark than are followed,",
+        ))
     }
 
     fn forcing_now(&self) -> f64 {
@@ -176,7 +178,8 @@ impl<'a> Run<'a> {
             event::find_ending(piece, places, &mut peaks)
         };
         self.state.peaks = peaks;
-        let ending = ending.map_err(|_| self.exhausted())?;
+        let event = "the next turn, impact or fall of the wall cannot be found";
+        let ending = ending.map_err(|_| self.not_followed(event))?;
         let (length, displacement, velocity, exit) = match ending {
             Ending::Horizon(end) => (piece.horizon(), end.displacement, end.velocity, None),
             Ending::Exit(Exit { time, velocity, upwards }) => {
@@ -191,7 +194,7 @@ impl<'a> Run<'a> {
             let (motion, tie) = (!overturned, !departed && watch.demands.tie.is_some());
             let watched = if motion { watch.piece(&followed) } else { Ok(()) };
             let watched = watched.and_then(|()| if tie { watch.tie(&followed) } else { Ok(()) });
-            watched.map_err(|_| self.exhausted())?;
+            watched.map_err(|_| self.not_followed("a largest value of the motion cannot be found"))?;
         }
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
@@ -204,7 +207,7 @@ impl<'a> Run<'a> {
             let finished = self.time + length >= self.duration || length >= self.duration - self.time;
             self.time = if finished { self.duration } else { self.time + length };
             if length <= 0.0 && !is_turn {
-                return Err(self.exhausted());
+                return Err(self.not_followed(event));
             }
             if is_newmark {
                 self.state.branch = self.motion.wall.branch_of(displacement, velocity);
@@ -284,9 +287,9 @@ impl<'a> Run<'a> {
         Err(SolverError::NotFinite { reached, duration, displacement, velocity, forcing })
     }
 
-    fn exhausted(&self) -> SolverError {
+    fn not_followed(&self, fault: &'static str) -> SolverError {
         let State { displacement, velocity, .. } = self.state;
-        let (reached, duration, limit) = (self.time, self.duration, self.motion.most_pieces());
-        SolverError::TooManyPieces { reached, duration, limit, displacement, velocity }
+        let (reached, duration) = (self.time, self.duration);
+        SolverError::NotFollowed { fault, reached, duration, displacement, velocity }
     }
 }

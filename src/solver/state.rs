@@ -151,12 +151,13 @@ impl Work {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum SolverError {
-    /// Too many pieces in one segment.
+    /// Too many pieces in one segment, or a search without an end.
     #[error(
-        "gave up {reached:?} s into a step of {duration:?} s after {limit} pieces of motion \
-         (u = {displacement:?} m, u_dot = {velocity:?} m/s); use smaller steps"
+        "{fault} {reached:?} s into a step of {duration:?} s (u = {displacement:?} m, \
+         u_dot = {velocity:?} m/s); use smaller steps (`output_step` of a scene), and check that the \
+         accelerations and parameters are those meant"
     )]
-    TooManyPieces { reached: f64, duration: f64, limit: u64, displacement: f64, velocity: f64 },
+    NotFollowed { fault: &'static str, reached: f64, duration: f64, displacement: f64, velocity: f64 },
     /// Overflow.
     #[error(
         "the motion exceeded the range of floating-point numbers {reached:?} s into a step of {duration:?} s \

@@ -111,7 +111,7 @@ def test_many_runs_are_the_same_on_any_number_of_threads(record):
     # 5·10⁶ steps of Newmark in one of the record
     slow = rw.Wall(**SET | {"solver": "newmark", "newmark_step": 1e-9})
     for threads in (1, 6):
-        with pytest.raises(RuntimeError, match=r"run 281, of factor 0.5: gave up"):
+        with pytest.raises(RuntimeError, match=r"run 281, of factor 0.5: .*than are followed"):
             rw.simulate_many([walls[0]] * 281 + [slow] + [walls[1]] * 19, record, 0.5, threads=threads)
 
 

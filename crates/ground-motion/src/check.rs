@@ -81,6 +81,7 @@ impl Record {
             warnings.push(Warning::NoMotion);
             return Check { mean, peak_velocity, final_velocity, warnings };
         }
+        warnings.extend(spike(samples));
         if final_velocity.abs() > FINAL_VELOCITY * peak_velocity {
             warnings.push(Warning::Baseline { last: final_velocity, peak: peak_velocity });
         }
@@ -99,6 +100,19 @@ impl Record {
         }
         Check { mean, peak_velocity, final_velocity, warnings }
     }
+}
+
+/// Warns about a sample that is several times as large as all others: in records the ratio is below 1.5.
+fn spike(samples: &[f64]) -> Option<Warning> {
+    const RATIO: f64 = 3.0;
+    const FEWEST: usize = 20;
+    let size = |at: &usize| samples[*at].abs();
+    let mut places: Vec<usize> = (0..samples.len()).collect();
+    places.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let [place, next, ..] = places[..] else { return None };
+    let (peak, others) = (size(&place), size(&next));
+    let is_spike = samples.len() >= FEWEST && others > 0.0 && peak > RATIO * others;
+    is_spike.then_some(Warning::Spike { place: place + 1, peak, others })
 }
 
 /// Finds the largest acceleration of the last second, or of the last twentieth of a record below 20 s.

@@ -17,10 +17,11 @@ mod lines;
 pub use crate::error::Fault;
 pub use cells::{Numbers, TextRow, Thousands};
 pub use heading::Name;
+pub(crate) use heading::unit_of_title;
 pub(crate) use lines::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 
 use crate::error::excerpt;
-use crate::fields::{Numbered, all_lines, unit_word};
+use crate::fields::{Numbered, all_lines};
 use crate::options::RecordOptions;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
@@ -207,7 +208,10 @@ impl<'a> Columns<'a> {
 
     /// Reads the numbers of a column; `take` takes each behind that of the first column, which is 0 where the
     /// first column itself is read, and its line.
-    pub(crate) fn read(
+    ///
+    /// # Errors
+    /// [`Fault`] of a cell that is no number, or of `take`.
+    pub fn read(
         &self,
         column: usize,
         mut take: impl FnMut(f64, f64, usize) -> Result<(), Fault>,
@@ -299,20 +303,13 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Finds the unit of one column of samples that a title or a comment above states, `# units: gal` or
-    /// `NS (counts)`.
+    /// Finds the unit of samples that a title or a comment above the rows states.
     fn unit_above(&self) -> Option<(String, usize)> {
-        let of_line = |(line, text): Numbered<'_>| {
-            let name = Name::of(text);
-            let bracketed = name.unit().filter(|_| text.matches(['[', '(']).count() == 1);
-            let stated = [unit_word(text), bracketed.map(str::to_owned)];
-            let is_meant = |unit: &String| {
-                matches!(Quantity::of(unit), Some(Quantity::Acceleration(_) | Quantity::Signal))
-            };
-            stated.into_iter().flatten().find(is_meant).map(|unit| (unit, line))
-        };
-        let mut above = lines(self.text).take_while(|(line, _)| *line < self.heading.0 && self.width <= 2);
-        above.find_map(of_line)
+        let mut above = lines(self.text).take_while(|(line, _)| *line < self.first_row);
+        above.find_map(|(line, text)| {
+            let unit = (line != self.heading.0).then(|| unit_of_title(text, self.width <= 2))??;
+            Some((unit, line))
+        })
     }
 
     /// Finds the only column beside the first.

@@ -147,6 +147,10 @@ impl Fault {
             cell if cell.starts_with('#') => {
                 "this is an error of a spreadsheet: correct its cell there and save the file again"
             }
+            cell if cell.starts_with(char::is_alphabetic) && cell.parse::<f64>().is_err() => {
+                "delete this line if it is a title or a summary; mark a comment with `# `; write numbers \
+                 with digits"
+            }
             cell if cell.contains("**") => {
                 "asterisks stand for a number that was too wide for its field: write the file again with \
                  wider fields"

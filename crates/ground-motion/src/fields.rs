@@ -55,12 +55,16 @@ pub(crate) fn leading_number(text: &str) -> (&str, &str) {
 }
 
 /// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
+/// Fortran leaves out the letter of an exponent with three digits, `.1234567-103`: that is one number.
 pub(crate) fn touching(word: &str) -> impl Iterator<Item = &str> {
     let mut rest = word;
     std::iter::from_fn(move || {
         let bytes = rest.as_bytes();
+        let is_exponent =
+            |at: usize| bytes.len() == at + 4 && rest[..at].contains('.') && !rest[at..].contains('.');
         let is_start = |at: &usize| {
-            matches!(bytes[*at], b'+' | b'-') && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
+            let is_sign = matches!(bytes[*at], b'+' | b'-') && !is_exponent(*at);
+            is_sign && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
         };
         let (number, after) = rest.split_at((1..bytes.len()).find(is_start).unwrap_or(bytes.len()));
         rest = after;

@@ -43,15 +43,28 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>> {
     if bytes.len() as u64 > limit { refused("more") } else { Ok(bytes) }
 }
 
-/// Says of a path with a line break or a tab where these come from.
+/// Says of a path that cannot be read what is unusual about it: a line break or a tab, a home folder, a web
+/// address, a blank at an end.
 ///
 /// ```
 /// assert!(ground_motion::escapes("records\new.AT2".as_ref()).contains("single quotes"));
 /// ```
 pub fn escapes(path: &Path) -> &'static str {
-    const HINT: &str = "; in TOML, \\n and \\t in double quotes are a line break and a tab: write / or \
-                        single quotes";
-    if path.to_string_lossy().contains(char::is_control) { HINT } else { "" }
+    let path = path.to_string_lossy();
+    let has_part = |is: fn(&str) -> bool| path.split('/').any(is);
+    match () {
+        () if path.contains(char::is_control) => {
+            "; in TOML, \\n and \\t in double quotes are a line break and a tab: write / or single quotes"
+        }
+        () if path.contains("://") => "; web addresses are not read: fetch the file and give its path",
+        () if has_part(|part| part.starts_with(['~', '$', '%'])) => {
+            "; `~` and variables are not replaced: write them out"
+        }
+        () if path.is_empty() || has_part(|part| part.trim() != part) => {
+            "; the path is empty, or has a blank at an end"
+        }
+        () => "",
+    }
 }
 
 /// Returns the name of a path for messages, on one line.

@@ -44,23 +44,12 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 15] = [
-        Self::At2,
-        Self::Esm,
-        Self::Knet,
-        Self::KnetCsv,
-        Self::Cosmos,
-        Self::Csmip,
-        Self::Smc,
-        Self::Geonet,
-        Self::Afad,
-        Self::Cwa,
-        Self::Unam,
-        Self::Volume1,
-        Self::Fdsn,
-        Self::Csv,
-        Self::Numbers,
-    ];
+    pub const ALL: [Self; 15] = {
+        use Format::{
+            Afad, At2, Cosmos, Csmip, Csv, Cwa, Esm, Fdsn, Geonet, Knet, KnetCsv, Numbers, Smc, Unam, Volume1,
+        };
+        [At2, Esm, Knet, KnetCsv, Cosmos, Csmip, Smc, Geonet, Afad, Cwa, Unam, Volume1, Fdsn, Csv, Numbers]
+    };
 
     /// Lists what people call the formats.
     ///
@@ -69,27 +58,6 @@ impl Format {
     /// ```
     pub fn listed() -> String {
         Self::ALL.map(Self::description).join(", ")
-    }
-
-    /// Returns by what people know its files: their ending, their origin.
-    pub fn files(self) -> &'static str {
-        match self {
-            Self::At2 => "NGA-West and older",
-            Self::Esm => "`.ASC`; ITACA before DYNA 1.2; AFAD `.asc` (Türkiye)",
-            Self::Knet => "`.EW`, `.NS` …",
-            Self::KnetCsv => "NIED's CSV with `RelativeTime(s)`",
-            Self::Cosmos => "`.V2c`",
-            Self::Csmip => "`.V2`, also of CDMG",
-            Self::Smc => "`.smc`; not the unevenly spaced pairs of film",
-            Self::Geonet => "`.V1A`, `.V2A` (New Zealand)",
-            Self::Afad => "text with three columns (Türkiye)",
-            Self::Cwa => "`.dat`, `.txt`, formerly of CWB (Taiwan)",
-            Self::Unam => "`ARCHIVO ESTANDAR DE ACELERACION` 2.0 (Mexico)",
-            Self::Volume1 => "volume 1, `.v1` (Chile, Iran)",
-            Self::Fdsn => "SLIST, TSPAIR and GeoCSV of data centres, and of ObsPy",
-            Self::Csv => "or text: one column, or times and accelerations",
-            Self::Numbers => "several a line, as for OpenSees",
-        }
     }
 }
 

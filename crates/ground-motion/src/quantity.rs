@@ -135,44 +135,24 @@ impl Quantity {
     }
 }
 
-/// Units that are neither of motion nor of time, in small letters.
-const OTHERS: [&str; 24] = [
-    "-",
-    "kg",
-    "kn",
-    "pa",
-    "kpa",
-    "mpa",
-    "rad",
-    "rad/s2",
-    "rads-2",
-    "deg",
-    "°",
-    "°c",
-    "m2",
-    "m3",
-    "bar",
-    "psi",
-    "db",
-    "%",
-    "strain",
-    "microstrain",
-    "µstrain",
-    "µε",
-    "με",
-    "µm/m",
-];
+/// Units that are neither of motion nor of time, in small letters; also above a `/`: rad/s2.
+const OTHERS: &str = "- kg kn pa kpa mpa rad deg ° °c m2 m3 bar psi db % strain microstrain µstrain µε με";
 
 /// Returns whether a plain text is another unit, such as `kg` and `m/s3`, or a factor and a unit, such as
 /// `10^-3 m/s2`. Directions, such as `N/S`, and words, such as `corrected`, are none.
 fn is_other_unit(word: &str) -> bool {
-    let is_factor = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'x' | '×');
-    let unit = word.trim_start_matches(is_factor);
-    let has_factor = unit.len() < word.len() && (parts(unit).is_some() || ["g", "gal"].contains(&unit));
+    let may_have_exponent = word.starts_with(|c: char| c.is_ascii_digit());
+    let is_factor = |c: char| {
+        c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'x' | '×') || c == 'e' && may_have_exponent
+    };
+    let is_motion =
+        |unit: &str| unit.len() < word.len() && (parts(unit).is_some() || ["g", "gal"].contains(&unit));
+    let has_factor = [word.trim_start_matches(is_factor), word.trim_end_matches(is_factor)];
     let above = word.split('/').next().filter(|above| above.len() < word.len());
     let above = above.or_else(|| word.split_once("s-").map(|(above, _)| above));
-    let is_ratio = above.is_some_and(|above| size_of(above, &LENGTHS).is_some() || above == "g");
-    has_factor || is_ratio || OTHERS.contains(&word)
+    let is_other = |unit: &str| OTHERS.split(' ').any(|other| other == unit);
+    let is_ratio = |above: &str| size_of(above, &LENGTHS).is_some() || above == "g" || is_other(above);
+    has_factor.into_iter().any(is_motion) || above.is_some_and(is_ratio) || is_other(word)
 }
 
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.

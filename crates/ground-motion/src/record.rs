@@ -7,7 +7,7 @@ use crate::error::{Fault, GroundMotionError, excerpt};
 use crate::file::{check_is_text, read_bounded, shown_path};
 use crate::format::Format;
 use crate::motion::GroundMotion;
-use crate::options::RecordOptions;
+use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical;
@@ -51,8 +51,8 @@ impl Parsed {
             let expected = format!("a time step of at most {LONGEST_STEP} s");
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
-        if is_pairs(&samples) {
-            let found = "pairs of times and accelerations: every second number rises";
+        if has_times(&samples) {
+            let found = "pairs of times and accelerations, or times above accelerations";
             let remedy = "write times and accelerations in two columns; uneven times are not read";
             return Err(Fault::new(last_line, "samples of the acceleration alone", found, remedy));
         }
@@ -118,11 +118,15 @@ pub fn parse(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<Reco
     only(parse_channels(name, bytes, options)?, name)
 }
 
-/// Returns whether every second sample rises as times do, while those between do not.
-fn is_pairs(samples: &[f64]) -> bool {
+/// Returns whether every second sample rises as times do, while those between do not; or whether the first
+/// half rises uniformly, as a row of times above a row of samples.
+fn has_times(samples: &[f64]) -> bool {
     const FEWEST: usize = 20;
     let rise = |start: usize| samples[start..].iter().step_by(2).is_sorted_by(|before, after| before < after);
-    samples.len() >= FEWEST && rise(0) && !rise(1)
+    let (times, rest) = samples.split_at(samples.len() / 2);
+    let is_step = |pair: &[f64]| is_close(times[1] - times[0], pair[1] - pair[0]);
+    let is_row = || times[1] > times[0] && times.windows(2).all(is_step) && !rest.windows(2).all(is_step);
+    samples.len() >= FEWEST && (rise(0) && !rise(1) || is_row())
 }
 
 /// Returns the only record of a file.

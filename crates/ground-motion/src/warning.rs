@@ -89,7 +89,8 @@ pub enum Warning {
     /// A line has another number of samples than the others, so one may be missing.
     #[error(
         "samples: line {line} has {found} numbers, the others {usual}, and {more} more lines differ; where \
-         one is missing, all later samples come too early"
+         one is missing, all later samples come too early{}",
+        if *found == 0 { ", and behind an empty line or a comment another record may begin" } else { "" }
     )]
     Gap {
         /// The first such line, from 1.
@@ -101,10 +102,32 @@ pub enum Warning {
         /// How many more lines have another number.
         more: usize,
     },
-    /// The times of the file, in another unit than seconds, have another step than the stated one.
-    #[error("step: the times of the file are {step} s apart; the {stated} s that you state count")]
+    /// The first sample may be the number of samples, or their step.
+    #[error(
+        "samples: the first, {first}, is the number of those that follow, or their step; if it is no \
+         sample, begin its line with `# `"
+    )]
+    FirstNumber {
+        /// The first sample, in the unit of the file.
+        first: f64,
+    },
+    /// One sample is far above all others, so it may stand for a missing one.
+    #[error(
+        "spike: sample {place} has {:.3} g, all others at most {:.3} g; correct it if it stands for a \
+         missing value, such as -999", peak / STANDARD_GRAVITY, others / STANDARD_GRAVITY
+    )]
+    Spike {
+        /// Which sample it is, from 1.
+        place: usize,
+        /// Its size (m/s²).
+        peak: f64,
+        /// Largest size of all others (m/s²).
+        others: f64,
+    },
+    /// The file has another step than the stated one: in its header, or by times in another unit.
+    #[error("step: the file has {step} s between samples; the {stated} s that you state count")]
     StatedStep {
-        /// Step of the times (s).
+        /// Step of the file (s).
         step: f64,
         /// The step that the user has stated, which counts (s).
         stated: f64,

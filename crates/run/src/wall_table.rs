@@ -16,6 +16,9 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The column of the walls' names.
 const NAME: &str = "name";
 
+/// What stands for no name, and what names summaries below the walls, in small letters.
+const NO_NAMES: &str = "nan na n/a none null total sum mean average count std totale somma media";
+
 /// Parameters that every wall of a table has if one has it.
 const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
 
@@ -58,9 +61,10 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
                 scene.set(column, &cell).map_err(|error| fail(row.line, error.to_string()))?;
             }
         }
-        let wall = wall.filter(|name| !["nan", "na", "n/a"].contains(&name.to_lowercase().as_str()));
+        let wall = wall.filter(|name| !NO_NAMES.split(' ').any(|none| name.eq_ignore_ascii_case(none)));
         let Some(wall) = wall else {
-            let message = "the wall has no name; write one in the column `name`, or delete the row";
+            let message = "the wall has no name, or one of a gap or a summary, such as `nan` and `mean`; \
+                           write another in the column `name`, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         };
         if stated.is_empty() && names.len() > 1 {

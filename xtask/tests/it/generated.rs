@@ -30,10 +30,31 @@ fn commands() -> String {
     table("command | purpose", wall::command().get_subcommands().map(row))
 }
 
+/// By what people know the files of a format: their ending, their origin.
+fn files(format: Format) -> &'static str {
+    match format {
+        Format::At2 => "NGA-West and older",
+        Format::Esm => "`.ASC`; ITACA before DYNA 1.2; AFAD `.asc` (Türkiye)",
+        Format::Knet => "`.EW`, `.NS` …",
+        Format::KnetCsv => "NIED's CSV with `RelativeTime(s)`",
+        Format::Cosmos => "`.V2c`",
+        Format::Csmip => "`.V2`, also of CDMG",
+        Format::Smc => "`.smc`; not the unevenly spaced pairs of film",
+        Format::Geonet => "`.V1A`, `.V2A` (New Zealand)",
+        Format::Afad => "text with three columns (Türkiye)",
+        Format::Cwa => "`.dat`, `.txt`, formerly of CWB (Taiwan)",
+        Format::Unam => "`ARCHIVO ESTANDAR DE ACELERACION` 2.0 (Mexico)",
+        Format::Volume1 => "volume 1, `.v1` (Chile, Iran)",
+        Format::Fdsn => "SLIST, TSPAIR and GeoCSV of data centres, and of ObsPy",
+        Format::Csv => "or text: one column, or times and accelerations",
+        Format::Numbers => "several a line, as for OpenSees",
+    }
+}
+
 /// The formats of records with their files.
 fn formats() -> String {
     let row = |format: Format| {
-        [format!("{} | {}", format.description(), format.files()), format!("`{}`", format.name())]
+        [format!("{} | {}", format.description(), files(format)), format!("`{}`", format.name())]
     };
     table("format | files | `--format`", Format::ALL.map(row))
 }

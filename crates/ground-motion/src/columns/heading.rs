@@ -2,6 +2,7 @@
 
 use super::cells::{Separator, cells, unquoted};
 use crate::error::Fault;
+use crate::fields::{find, unit_word};
 use crate::quantity::Quantity;
 use crate::unit::Unit;
 use crate::vertical::is_vertical_channel;
@@ -74,11 +75,15 @@ impl Name {
     /// Returns the quantity other than an acceleration of the ground that its words say.
     pub(crate) fn says(&self) -> Option<Quantity> {
         let words = self.words();
+        // in English, German, French, Italian and Spanish
+        let starts = |word: &str, all: &[&str]| all.iter().any(|start| word.starts_with(start));
         let quantity = words.iter().find_map(|word| match word.as_str() {
             "sv" | "psv" | "vg" => Some(Quantity::Velocity),
             "sd" | "dg" => Some(Quantity::Displacement),
-            word if word.starts_with("vel") => Some(Quantity::Velocity),
-            word if word.starts_with("dis") => Some(Quantity::Displacement),
+            word if starts(word, &["vel", "gesch", "vites"]) => Some(Quantity::Velocity),
+            word if starts(word, &["dis", "spost", "dépl", "depl", "versch", "despl"]) => {
+                Some(Quantity::Displacement)
+            }
             _ => None,
         });
         let is_period = words.first().is_some_and(|word| word.starts_with("period") || word == "tn");
@@ -134,6 +139,33 @@ fn behind(name: &str) -> Option<(usize, &str)> {
     };
     let starts = std::iter::once((0, 0)).chain(name.match_indices(['_', ' ']).map(|(at, _)| (at, at + 1)));
     starts.map(|(at, start)| (at, name[start..].trim())).find(|(_, unit)| is_unit(unit))
+}
+
+/// Finds the unit that a title or a comment states: `units: gal`, `acceleration in g`, and `NS (counts)` if
+/// it `may_be_in_brackets`. Lengths, velocities and other units count where the line starts with `unit`; they
+/// may be those of something else.
+pub(crate) fn unit_of_title(line: &str, may_be_in_brackets: bool) -> Option<String> {
+    // not `scaled to (0.3g)`
+    let is_acceleration = |unit: &str| {
+        matches!(Quantity::of(unit), Some(Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
+            && !unit.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let says_unit = find(line, "UNIT").is_some_and(|at| !line[..at].contains(char::is_alphanumeric));
+    let is_meant = |unit: &String| match Quantity::of(unit) {
+        Some(Quantity::Signal) => true,
+        Some(Quantity::Time(_) | Quantity::Frequency) | None => false,
+        Some(_) => says_unit || is_acceleration(unit),
+    };
+    let name = Name::of(line);
+    let in_brackets = name.unit().filter(|_| may_be_in_brackets && line.matches(['[', '(']).count() == 1);
+    let stated = [unit_word(line), in_brackets.map(str::to_owned)].into_iter().flatten().find(is_meant);
+    stated.or_else(|| {
+        let line = line.to_lowercase();
+        let after_in = line.match_indices(" in ").map(|(at, word)| line[at + word.len()..].trim());
+        let mut units =
+            after_in.flat_map(|rest| [rest, rest.split([' ', ',', ';']).next().unwrap_or_default()]);
+        units.find(|unit| is_acceleration(unit)).map(str::to_owned)
+    })
 }
 
 /// Finds the bracket that closes one which is open at the start of a text.

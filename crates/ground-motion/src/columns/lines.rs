@@ -9,7 +9,7 @@ use crate::fields::{Numbered, line_end};
 pub(crate) const COMMENTS: [char; 2] = ['#', '%'];
 
 /// What starts a comment in other programs' files.
-const OTHER_COMMENTS: [&str; 2] = ["//", "!"];
+const OTHER_COMMENTS: [&str; 4] = ["//", "/*", "!", "; "];
 
 /// Most lines of a quoted cell. A quote that none of them closes opens no cell.
 const LONGEST_CELL: usize = 20;

@@ -13,6 +13,7 @@
 //!
 //! The oldest files write `3930 0.00500 NPTS, DT` instead, and eqsig `401 0.01` below a title.
 
+use crate::columns::unit_of_title;
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{
     Numbered, check_count, find, leading_number, lines, positive, real, touching, unit_word,
@@ -127,7 +128,9 @@ fn unit<'a>(
         let remedy = "use the acceleration file (.AT2) of this record";
         return Err(Fault::excerpt(number, "an acceleration record", line, remedy));
     }
-    let stated = header.into_iter().find_map(|(number, line)| Some((number, unit_word(line)?)));
+    let of_title = |line| find(line, "ACCELERATION").and_then(|_| unit_of_title(line, true));
+    let stated =
+        header.into_iter().find_map(|(at, line)| Some((at, unit_word(line).or_else(|| of_title(line))?)));
     match (stated, options.unit) {
         (Some((number, word)), _) => options.unit_of(&word, number),
         (None, Some(given)) => Ok(given),

@@ -78,8 +78,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         parsed.push(Some(sample), line, || overflow(sample, line))
     })?;
-    if !has_times {
-        parsed.warnings.extend(numbers::gap(columns.lines_below()));
+    if let Some(step) = options.step.filter(|_| !has_times) {
+        numbers::warn(&mut parsed, step, columns.header(), columns.lines_below());
     }
     match (times.uniform()?, options.step) {
         (Some(of_times), _) => take_times(&mut parsed, of_times.into(), seconds, options, columns.line())?,

@@ -33,6 +33,15 @@ fn is_series(line: &str) -> bool {
     find(line, "TIMESERIES ") == Some(0) && line.split(',').count() > 4
 }
 
+/// Seconds of a day.
+const DAY: f64 = 86_400.0;
+
+/// Reads the time of day (s) of `2020-01-01T00:00:01.5Z`.
+fn seconds(time: &str) -> Option<f64> {
+    let mut parts = time.trim_end_matches('Z').split_once('T')?.1.split(':').map(real);
+    Some(3600.0 * parts.next()?? + 60.0 * parts.next()?? + parts.next()??)
+}
+
 /// Reads the text of such a file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let is_header = |line: &str| line.starts_with(|c: char| c == '#' || c.is_ascii_alphabetic());
@@ -47,15 +56,26 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     }
     let (count_line, count) = number(value(&header, "sample_count")?, "sample_count")?;
     let step = step(&header, "sample_rate_hz", |rate| 1.0 / rate, options)?;
-    let (unit_line, units) = value(&header, "field_unit")?;
+    let (unit_line, units) = value(&header, "field_unit").unwrap_or((first_line, ""));
     let unit = options.unit_of(units.rsplit([',', '|']).next().unwrap_or_default().trim(), unit_line)?;
     let is_list = value(&header, "form").is_ok_and(|(_, form)| form.eq_ignore_ascii_case("SLIST"));
     let mut parsed = Parsed::new(step, unit, first_line);
+    let mut first_time = None;
     for (number, line) in rows {
         let is_edge = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|');
         let words = line.split(is_edge).filter(|word| !word.is_empty());
         if !is_list && words.clone().count() != 2 {
             return Err(Fault::excerpt(number, "a time and a sample", line, DAMAGED));
+        }
+        if let Some(time) = words.clone().next().filter(|_| !is_list).and_then(seconds) {
+            let due = parsed.samples.len() as f64 * step;
+            // clocks begin anew at midnight
+            let late = time - *first_time.get_or_insert(time) - due + DAY / 2.0;
+            if (late.rem_euclid(DAY) - DAY / 2.0).abs() > step / 2.0 {
+                let expected = format!("a sample {due:.3} s after the first");
+                let remedy = "the series has a gap, or another step than its header: fill it, or use a part";
+                return Err(Fault::excerpt(number, expected, line, remedy));
+            }
         }
         for word in words.skip(usize::from(!is_list)) {
             parsed.push(real(word), number, || Fault::no_number(number, "a finite number", word, DAMAGED))?;

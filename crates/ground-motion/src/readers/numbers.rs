@@ -11,8 +11,8 @@
 
 use crate::columns::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Numbered, all_lines, lines, real, touching};
-use crate::options::{RecordOptions, no_unit};
+use crate::fields::{Numbered, after, all_lines, find, leading_number, lines, positive, real, touching};
+use crate::options::{RecordOptions, is_close, no_unit};
 use crate::parsed::Parsed;
 use crate::warning::Warning;
 
@@ -68,6 +68,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     };
     let unit = options.unit.ok_or_else(|| no_unit(first_line))?;
     let mut parsed = Parsed::new(step, unit, first_line);
+    parsed.keep_header(lines(text).map(|(_, line)| line));
     for (number, line) in rows() {
         if line.starts_with(COMMENTS) {
             refuse_unclear((number, line))?;
@@ -77,21 +78,48 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             parsed.push(real(word), number, || Fault::no_number(number, "a finite number", word, DAMAGED))?;
         }
     }
-    parsed.warnings.extend(gap(all_lines(text).skip_while(|(line, _)| *line < first_line)));
+    let header = lines(text).take_while(|(line, _)| *line < first_line).map(|(_, line)| line);
+    warn(&mut parsed, step, header, all_lines(text).skip_while(|(line, _)| *line < first_line));
     // the last line may be shorter
     let columns = words(first).count();
     let is_table = parsed.warnings.is_empty() && parsed.samples.len().div_ceil(columns) == rows().count();
     check_order(&parsed, if is_table { columns } else { 0 }, first_line)?;
-    parsed.keep_header(lines(text).map(|(_, line)| line));
     Ok(vec![parsed])
 }
 
+/// Warns about what samples alone give reason to: gaps among their `rows`, another step in the header than
+/// the one that the user states, and a count or a step that stands as the first sample.
+pub(super) fn warn<'a>(
+    parsed: &mut Parsed,
+    step: f64,
+    header: impl IntoIterator<Item = &'a str>,
+    rows: impl Iterator<Item = Numbered<'a>> + Clone,
+) {
+    const FEWEST: usize = 20;
+    parsed.warnings.extend(gap(rows));
+    // a header in milliseconds agrees, too
+    let agrees = |of_file: &f64| is_close(step, *of_file) || is_close(1e3 * step, *of_file);
+    let other = header.into_iter().find_map(step_in).filter(|of_file| !agrees(of_file));
+    parsed.warnings.extend(other.map(|of_file| Warning::StatedStep { step: of_file, stated: step }));
+    let (first, all) = (parsed.samples[0] / parsed.unit.to_si(1.0), parsed.samples.len());
+    let is_meant = [all as f64 - 1.0, all as f64 - 2.0, step].iter().any(|of| (first - of).abs() < 1e-9 * of);
+    parsed.warnings.extend((all >= FEWEST && is_meant).then_some(Warning::FirstNumber { first }));
+}
+
+/// Finds the step in a line of a header: `dt = 0.01 s`, `time step: 10 ms`, `sampling rate: 100 Hz`.
+fn step_in(line: &str) -> Option<f64> {
+    let is_edge = |c: char| c.is_whitespace() || "=:,([s])".contains(c);
+    let number = |word| positive(leading_number(after(line, word)?.trim_start_matches(is_edge)).0);
+    let rate = || find(line, "SAMPL").and_then(|_| ["RATE", "FREQUENCY"].into_iter().find_map(number));
+    ["DT", "STEP", "INTERVAL"].into_iter().find_map(number).or_else(|| rate().map(|rate| 1.0 / rate))
+}
+
 /// Warns about the first of the lines from the first sample on that has another number of samples than most
-/// have, or none. Empty lines behind every line do not count, nor does the last line.
-pub(super) fn gap<'a>(lines: impl Iterator<Item = Numbered<'a>> + Clone) -> Option<Warning> {
+/// have, or none, as a comment has. Empty lines behind every line do not count, nor does the last line.
+fn gap<'a>(lines: impl Iterator<Item = Numbered<'a>> + Clone) -> Option<Warning> {
     let is_edge = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
     let length = |line: &str| line.split(is_edge).flat_map(touching).count();
-    let lines = lines.filter(|(_, line)| !is_comment(line.trim_start()));
+    let length = |line: &str| if is_comment(line.trim_start()) { 0 } else { length(line) };
     let rows = lines.map(|(line, text)| (line, length(text))).skip_while(|(_, length)| *length == 0);
     let (last, _) = rows.clone().filter(|(_, length)| *length > 0).last()?;
     let rows = rows.take_while(|(line, _)| *line < last);

@@ -189,7 +189,7 @@ fn the_stated_step_counts_beside_times_in_other_units() {
         record.warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     assert!(of(0.01).is_empty());
-    let warning = "step: the times of the file are 0.01 s apart; the 0.005 s that you state count";
+    let warning = "step: the file has 0.01 s between samples; the 0.005 s that you state count";
     assert_eq!(of(0.005), [warning]);
     let error = crate::read("x.csv", text, &RecordOptions::default()).unwrap_err();
     assert_mentions(&error, &["times in s", "`time [ms]`", "--record-step"]);

@@ -20,6 +20,7 @@ mod record_file;
 mod record_formats;
 mod record_real;
 mod records;
+mod silent;
 mod specimen;
 mod spectrum;
 mod spectrum_file;

@@ -281,7 +281,9 @@ fn files_of_other_programs_are_read_or_named() {
         &RecordOptions::default(),
         &["12 samples", "found 11"],
     );
-    refused(&slist.replace(", CM/S**2", ""), &si(), &["line 1", "field_unit"]);
+    let without = slist.replace(", CM/S**2", "");
+    refused(&without, &RecordOptions::default(), &["line 1", "a unit of acceleration", "--unit"]);
+    assert_eq!(crate::read("x.txt", &without, &si()).unwrap().unit, Unit::MetrePerSecondSquared);
     // a gap starts a new segment
     refused(&(slist.clone() + &slist), &RecordOptions::default(), &["line 4", "found `TIMESERIES`"]);
     // pairs in one sequence of numbers

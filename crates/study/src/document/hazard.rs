@@ -31,8 +31,8 @@ tables! {
         /// Years of the probabilities.
         #[key(exclusiveMinimum = 0, default = YEARS)]
         years: Option<f64>,
-        /// Annual rate that each limit state should not exceed \[1/year\].
-        #[key(exclusiveMinimum = 0)]
+        /// Annual rate that each limit state should not exceed \[1/year\], such as 1/475.
+        #[key(exclusiveMinimum = 0, maximum = 1)]
         target: Option<f64>,
     }
 }
@@ -104,7 +104,7 @@ pub(super) fn hazard(
             unit: unit.as_ref().map(|unit| unit.get_ref().clone()),
             site: site.as_ref().map(|site| *site.get_ref()),
         },
-        _ => return Err(place.error(table.span(), "hazard needs points, or a file with them")),
+        _ => return Err(place.error(table.span(), "hazard needs points, or a file with them, and not both")),
     };
     Ok(HazardEntry { curve, years: years.unwrap_or(YEARS), target: *target })
 }

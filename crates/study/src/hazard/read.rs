@@ -39,7 +39,7 @@ pub fn read(
                 let message = "site of [hazard] belongs to a table of OpenQuake; leave it out";
                 Err((columns.line(), message.to_owned()))
             }
-            (None, ..) => two_columns(&columns, &rows, measure, unit),
+            (None, ..) => two_columns(&columns, measure, unit),
         }
     };
     read().map_err(|(line, message)| file.error_on(line, message))
@@ -56,10 +56,28 @@ fn in_file(fault: Fault) -> LineFault {
 /// Return period at which the intensities of sites are compared \[years\].
 const PERIOD: f64 = 2475.0;
 
-/// Warns of a curve in another unit than the study states.
+/// Return period at which probabilities and percentages in place of rates are noticed \[years\], and the
+/// largest intensity there relative to the usual ones: .125 g for PGA, which no site exceeds.
+const SHORT_PERIOD: f64 = 10.0;
+const LARGEST: f64 = 1.0 / 16.0;
+
+/// Warns of a curve in another unit than the study states, or of other numbers than rates.
 pub fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
-    let warning = measure.usual().warning(measure.unit().of(curve.intensity(1.0 / PERIOD)))?;
-    Some(format!("at a return period of {PERIOD} years, {warning}; state its unit"))
+    let (usual, unit) = (measure.usual(), measure.unit());
+    let at = |period: f64| unit.of(curve.intensity(1.0 / period));
+    if let Some(warning) = usual.warning(at(PERIOD)) {
+        return Some(format!("at a return period of {PERIOD} years, {warning}; state its unit"));
+    }
+    let often = at(SHORT_PERIOD);
+    let begins = curve.points()[0][1] >= 1.0 / SHORT_PERIOD;
+    (begins && often > LARGEST * usual.range[1]).then(|| {
+        format!(
+            "{} = {often:.3} {} every {SHORT_PERIOD} years is more than any site has; are these annual \
+             rates, and not probabilities in 50 years or per cent? A probability P in t years is a rate of \
+             -ln(1 - P)/t",
+            usual.name, usual.unit
+        )
+    })
 }
 
 /// Returns the comment that begins a table of `OpenQuake`, and its line.
@@ -71,7 +89,6 @@ fn comment(text: &str) -> Option<(usize, &str)> {
 
 fn two_columns(
     columns: &Columns<'_>,
-    rows: &[TextRow<'_>],
     measure: &IntensityMeasure,
     unit: Option<&str>,
 ) -> Result<Read, LineFault> {
@@ -85,7 +102,9 @@ fn two_columns(
     }
     let given = measure.to_si(unit).map_err(|message| (line, message))?;
     // brackets may hold a period, too
-    let own = name.unit().and_then(|own| Some((own, measure.to_si(Some(own)).ok()?)));
+    let is_measure = name.text() == "intensity" || same_measure(name.text(), measure).is_ok();
+    let own = name.unit().filter(|_| is_measure).map(|own| Ok((own, measure.to_si(Some(own))?)));
+    let own = own.transpose().map_err(|message| (line, message))?;
     if let (Some((own, of_name)), Some(unit)) = (own, unit)
         && of_name(1.0) != given(1.0)
     {
@@ -95,15 +114,15 @@ fn two_columns(
     let (name, to_si) = own.map_or((name.written(), given), |(_, to_si)| (name.text(), to_si));
     let warning = if name == "intensity" { Ok(None) } else { same_measure(name, measure) };
     let warning = warning.map_err(|message| (line, message))?;
-    let mut numbers = Numbers::new(columns);
-    let point = |row: &TextRow<'_>| {
-        let mut cells = row.cells();
-        let mut next = || numbers.real(&cells.next().unwrap_or_default(), row.line).map_err(in_file);
-        Ok([next()?, next()?])
-    };
-    let points = rows.iter().map(point).collect::<Result<_, LineFault>>()?;
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
+    let read = columns.read(1, |intensity, rate, line| {
+        points.push([intensity, rate]);
+        lines.push(line);
+        Ok(())
+    });
+    read.map_err(in_file)?;
     let curve = HazardCurve::converted(points, to_si)
-        .map_err(|error| (error.point.map_or(line, |point| rows[point - 1].line), error.to_string()))?;
+        .map_err(|error| (error.point.map_or(line, |point| lines[point - 1]), error.to_string()))?;
     let unusual = unusual(&curve, measure);
     Ok((curve, warning.into_iter().chain(unusual).collect()))
 }
@@ -155,7 +174,7 @@ fn open_quake(
             let message = format!("the probability {poe} at {level} {} must be from 0 to 1", unit.name());
             return Err((row.line, message));
         }
-        points.push([level * unit.size(), -libm::log1p(-poe) / years]);
+        points.push([level, -libm::log1p(-poe) / years]);
     }
     if points.is_empty() {
         return Err((heading, "no column is named poe-LEVEL, as OpenQuake names them".into()));
@@ -169,7 +188,9 @@ fn open_quake(
         let left = all - points.len();
         warnings.push(format!("{left} of {all} levels have a probability of 0, of 1 or of the next level"));
     }
-    let curve = HazardCurve::new(points).map_err(|error| (row.line, error.to_string()))?;
+    let curve = HazardCurve::converted(points, |level| level * unit.size());
+    let curve = curve.map_err(|error| (row.line, error.to_string()))?;
+    warnings.extend(unusual(&curve, measure));
     Ok((curve, warnings))
 }
 
@@ -276,7 +297,7 @@ mod tests {
             ("a,b\n", 1, "found \"b\""),
             ("PGA;annual_rate;return_period\n1;1;1\n", 1, "found [\"PGA\", \"annual_rate\", \"ret"),
             ("AvgSA,annual_rate\n0.1,1e-2\n", 1, "the study of PGA"),
-            ("PGA [cm],annual_rate\n0.1,1e-2\n", 1, "\"PGA [cm]\", the study of PGA"),
+            ("PGA [cm],annual_rate\n0.1,1e-2\n", 1, "unit \"cm\" of PGA: expected m/s2"),
             ("PGA,annual_rate\n0.1,x\n", 2, "a finite number, found `x`"),
             ("PGA,annual_rate\n0.1,1e-2\n\n0.2,\n", 4, "a finite number, found ``"),
             ("PGA,annual_rate\n0.1,1e-2\n\n0.2,2e-2\n", 4, "must be below 0.01"),

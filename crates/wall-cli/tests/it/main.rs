@@ -12,6 +12,7 @@ mod check_report_walls;
 mod command_line;
 mod describe;
 mod files;
+mod given_files;
 mod hazard;
 mod ida;
 mod measure;
