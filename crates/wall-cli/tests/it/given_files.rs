@@ -115,7 +115,8 @@ fn hazard_curves() {
     let folder = folder("given_hazards");
     let study = |hazard: &str| {
         let study = "models = [\"CR\"]\nintensity = { measure = \"PGA\" }\n\
-                     records = { synthetic = { count = 2, duration = 10 } }\nlevels = { method = \"grid\", values = [0.1, 0.4] }\n";
+                     records = { synthetic = { count = 2, duration = 10 } }\n\
+                     levels = { method = \"grid\", values = [0.1, 0.4] }\n";
         let wall = "[[walls]]\nname = \"a\"\ngeometry = { height = 3, thickness = 0.3 }\n";
         write(&folder, "study.toml", format!("{study}hazard = {{ {hazard} }}\n{wall}"));
         let _ = fs::remove_dir_all(folder.join("out"));
