@@ -35,10 +35,10 @@ def assert_table(table, path, names=None):
         for value, text in zip(table[name], texts, strict=True):
             if isinstance(value, (np.bool_, np.str_)):
                 assert str(value).lower() == text.lower(), name
-            elif text == "" or text.startswith("open <"):
-                assert np.isnan(value), name
             elif text.startswith("open >"):
                 assert value == np.inf, name
+            elif text == "" or text.startswith("open "):
+                assert np.isnan(value), name
             elif text in ("true", "false"):
                 assert value == (text == "true"), name
             else:
