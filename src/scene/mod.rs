@@ -33,7 +33,7 @@ pub use keys::{Group, KINEMATICS, POINTS};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{input_names, parameter_text, set_names};
-pub use storeys::{Floors, StoreyTable, SupportsTable};
+pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
 pub use document::read_text;
 pub use error::{Place, SceneError};

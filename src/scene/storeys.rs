@@ -18,7 +18,7 @@ use super::error::{Place, SceneError};
 /// Damping ratio of a storey that states none (-).
 const DAMPING: f64 = 0.05;
 /// Largest ratio of a wall's mass to that of its floor that needs no warning.
-const LIGHT: f64 = 1.0 / 20.0;
+pub const LIGHT: f64 = 1.0 / 20.0;
 
 tables! {
     /// A storey: a floor, and the spring below it.
@@ -60,6 +60,17 @@ pub struct Floors {
     bottom: Option<usize>,
     top: Option<usize>,
     drift: bool,
+}
+
+/// A wall that is heavy beside a floor that supports it.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; above {LIGHT} \
+     use `wall building`, whose walls act on the floors"
+)]
+pub struct HeavyWall {
+    /// Its mass over that of the floor \[-\].
+    pub ratio: f64,
 }
 
 impl Floors {
@@ -190,7 +201,8 @@ impl Floors {
     /// Returns what a user should know of a wall on these storeys: improbable periods, and a wall that is
     /// heavy beside a floor that supports it.
     pub fn warnings(&self, wall: &Wall) -> impl Iterator<Item = String> {
-        self.improbable().map(|warning| warning.to_string()).chain(self.heavy(wall))
+        let heavy = self.heavy(wall).map(|heavy| heavy.to_string());
+        self.improbable().map(|warning| warning.to_string()).chain(heavy)
     }
 
     /// Finds the periods of storeys that are improbable.
@@ -200,18 +212,13 @@ impl Floors {
     }
 
     /// Returns a warning where the wall is heavy beside a floor that supports it.
-    pub fn heavy(&self, wall: &Wall) -> Option<String> {
+    pub fn heavy(&self, wall: &Wall) -> Option<HeavyWall> {
         let (bottom, top) = self.supports(wall.body().mechanism).ok()?;
         let floors = [Some(bottom), top].into_iter().flatten().filter(|floor| *floor > 0);
         let least = floors.map(|floor| self.storeys.storeys()[floor - 1].mass).fold(f64::INFINITY, f64::min);
         let ratio = wall.body().mass / least;
         let has_masses = self.tables.iter().all(|table| table.mass.is_some());
-        (has_masses && ratio > LIGHT).then(|| {
-            format!(
-                "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; \
-                 above {LIGHT} use `wall building`, whose walls act on the floors"
-            )
-        })
+        (has_masses && ratio > LIGHT).then_some(HeavyWall { ratio })
     }
 
     /// Describes the storeys in a few words, for the facts about a motion.

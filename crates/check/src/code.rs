@@ -15,7 +15,7 @@
 //! let parameters = Parameters::default();
 //! let verdict = code.check(Subject::new(&parameters))?;
 //! assert!(!verdict.passed && (verdict.zeta - 0.855812).abs() < 5e-7);
-//! assert_eq!(verdict.headline(), "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
+//! assert_eq!(&*verdict.headline(), "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

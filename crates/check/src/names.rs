@@ -81,6 +81,14 @@ impl Side {
         }
     }
 
+    /// Its name in JSON.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Positive => "positive",
+            Self::Negative => "negative",
+        }
+    }
+
     /// Returns the name of the side in tables, `u > 0` or `u < 0`.
     pub fn name(self) -> &'static str {
         match self {

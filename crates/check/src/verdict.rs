@@ -3,13 +3,16 @@
 use std::fmt::Write;
 
 use report::number;
-use report::table::{Column, Digits, Table};
+use report::table::{Cell, Column, Digits, Table};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
 use crate::entry::Entry;
 use crate::error::CheckError;
+use crate::ledger::{Ledger, numbers};
+use crate::report::markup::side_head;
 use crate::report::{Figure, Origin, overview, the_wall};
+use crate::words::{Language, Sentence, Written, markup, passed, said, say, side};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {
@@ -28,23 +31,23 @@ pub struct Verdict<'a> {
     /// What a rule of the code replaces, where that lets the wall pass, or governs one that fails.
     pub raise: Option<Raise>,
     /// What is to be said of the rows, in sentences.
-    pub notes: Vec<String>,
+    pub notes: Vec<Sentence>,
     /// What the engineer should know, and
     /// [`Parameters::unusual`](rocking_wall::wall::Parameters::unusual); none of it stops the check.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Sentence>,
     /// What only this code knows.
     pub details: Box<dyn Details + Send + 'a>,
 }
 
 /// A ratio of capacity to demand that a rule of the code replaces by a larger one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Raise {
     /// The check whose ratio it is, such as `SLV`.
     pub check: &'static str,
     /// The ratio that is replaced \[-\].
     pub ratio: f64,
     /// What replaces it, such as `SLD`.
-    pub by: &'static str,
+    pub by: Sentence,
 }
 
 /// A check of one side.
@@ -52,6 +55,8 @@ pub struct Raise {
 pub struct Row {
     /// Name of the check, such as `SLV`.
     pub check: &'static str,
+    /// The same for people.
+    pub title: Sentence,
     /// The side.
     pub side: &'static str,
     /// Capacity over demand \[-\].
@@ -69,15 +74,22 @@ pub struct Row {
     /// Where the code has it.
     pub clause: &'static str,
     /// What is to be said beside the numbers; empty where nothing is.
-    pub remark: String,
+    pub remark: Sentence,
 }
 
 impl Row {
     /// Makes a row of a check that informs, and passes from capacity over demand 1 on; the rest is empty.
-    pub(crate) fn new(check: &'static str, side: &'static str, zeta: f64, ends: Ends) -> Self {
+    pub(crate) fn new(
+        check: &'static str,
+        title: Sentence,
+        side: &'static str,
+        zeta: f64,
+        ends: Ends,
+    ) -> Self {
         let (passed, decides, ground, displacement) = (zeta >= 1.0, false, None, None);
         Self {
             check,
+            title,
             side,
             zeta,
             passed,
@@ -86,7 +98,7 @@ impl Row {
             ends,
             displacement,
             clause: "",
-            remark: String::new(),
+            remark: Sentence::default(),
         }
     }
 }
@@ -135,31 +147,31 @@ pub trait Details {
     ///
     /// # Errors
     /// [`CheckError`] of a record, or of a spectrum that ends too early.
-    fn figure(&self) -> Result<Figure, CheckError>;
+    fn figure(&self, language: Language) -> Result<Figure, CheckError>;
 
-    /// Intermediate numbers: a row for each, a column for each side.
-    fn numbers(&self) -> Table;
+    /// The numbers of the sides that differ, with what is said of them, by the names of the sides.
+    fn ledgers(&self) -> Vec<(&'static str, Ledger)>;
 
     /// The wall in a table of walls: headings, with units, and cells, as markup.
-    fn overview(&self) -> Vec<(String, String)> {
-        overview(self.wall(), self.parameters())
+    fn overview(&self, language: Language) -> Vec<(String, String)> {
+        overview(self.wall(), self.parameters(), language)
     }
 
     /// The sections of a report about the site, which the walls of a building share; by default none.
     ///
     /// # Errors
     /// Those of [`figure`](Self::figure).
-    fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
+    fn site(&self, _language: Language) -> Result<Vec<Section>, CheckError> {
         Ok(Vec::new())
     }
 
     /// The symbols of the sections, as markup; by default none.
-    fn symbols(&self) -> String {
+    fn symbols(&self, _language: Language) -> String {
         String::new()
     }
 
-    /// Where the code can be read in two ways: the readings taken, as markup; by default none.
-    fn readings(&self) -> Vec<String> {
+    /// Where the code can be read in two ways: the readings taken; by default none.
+    fn readings(&self) -> Vec<Sentence> {
         Vec::new()
     }
 
@@ -167,37 +179,69 @@ pub trait Details {
     ///
     /// # Errors
     /// Those of [`figure`](Self::figure).
-    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
+    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<Section>, CheckError> {
+        let language = origin.report.language;
         let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
+        let ledgers = self.ledgers();
+        let head = |side| if ledgers.len() > 1 { side_head(side, language) } else { String::new() };
+        let numbers = ledgers.iter().map(|(side, ledger)| head(side) + &ledger.markup("", language));
+        let over = self.figure(language)?.html(language) + &numbers.collect::<String>();
         Ok(vec![
-            ("The wall".to_owned(), wall),
-            ("Capacity over demand".to_owned(), self.figure()?.html() + &self.numbers().html()),
+            Section::new(say!("The wall", "La parete"), wall),
+            Section::new(say!("Capacity over demand", "Rapporto capacità/domanda"), over),
         ])
     }
 }
 
-/// A table of intermediate numbers of some digits, without rows: a name, a unit, and a column for each side.
-pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>, digits: Digits) -> Table {
-    let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
-    Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, digits))))
+/// A section of a report.
+pub struct Section {
+    pub(crate) heading: Sentence,
+    pub(crate) markup: String,
+}
+
+impl Section {
+    /// Makes a section of its heading and its markup.
+    pub fn new(heading: Sentence, markup: String) -> Self {
+        Self { heading, markup }
+    }
 }
 
 impl Verdict<'_> {
     /// The verdict in a line.
-    pub fn headline(&self) -> String {
-        let said = |Raise { check, ratio, by }| format!("{by}; {check} by displacement {ratio:.3}");
-        let raised = self.raise.map(said);
-        let [passed, raised] = match (self.passed, raised) {
-            (true, None) => ["PASSED".to_owned(), String::new()],
-            (true, Some(raised)) => [format!("PASSED by the raise of {raised}"), String::new()],
-            (false, None) => ["NOT PASSED".to_owned(), String::new()],
-            (false, Some(raised)) => ["NOT PASSED".to_owned(), format!(", raised by {raised}")],
+    pub fn headline(&self) -> Sentence {
+        let raised = self.raise.as_ref().map(|Raise { check, ratio, by }| {
+            let ratio = Written(format!("{ratio:.3}"));
+            let said = say! {
+                "{by}; {check} by displacement {ratio}",
+                "{by}; {check} in spostamento {ratio}", by, check, ratio
+            };
+            if self.passed {
+                say!(" by the raise of {said}", " assumendo a_g,{said}", said)
+            } else {
+                say!(", raised by {said}", ", innalzato dallo {said}", said)
+            }
+        });
+        let raised = raised.unwrap_or_default();
+        let title = self.rows.iter().find(|row| row.check == self.governs).map(|row| row.title.clone());
+        let (governs, symbol) = (title.unwrap_or_else(|| Sentence::same(self.governs)), self.code.ratio());
+        let zeta = Written(format!("{:.3}", self.zeta));
+        let of = match self.side {
+            Some(name) => side(name),
+            None => say!("both sides alike", "identico nei due versi"),
         };
-        let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
-        format!(
-            "{passed}: {governs} governs with {symbol} = {zeta:.3}{raised} ({})",
-            self.at("both sides alike")
-        )
+        if self.passed {
+            say! {
+                "PASSED{raised}: {governs} governs with {symbol} = {zeta} ({of})",
+                "VERIFICA SODDISFATTA{raised}: {governs} è determinante con {symbol} = {zeta} ({of})",
+                raised, governs, symbol, zeta, of
+            }
+        } else {
+            say! {
+                "NOT PASSED: {governs} governs with {symbol} = {zeta}{raised} ({of})",
+                "VERIFICA NON SODDISFATTA: {governs} è determinante con {symbol} = {zeta}{raised} ({of})",
+                governs, symbol, zeta, raised, of
+            }
+        }
     }
 
     /// The side that governs, or `both` where they are alike.
@@ -207,42 +251,79 @@ impl Verdict<'_> {
 
     /// The rows as a table: for people four digits, for files SI units and every digit.
     pub fn table(&self) -> Table {
+        self.table_in(Language::En)
+    }
+
+    /// The rows as a table whose people read a language.
+    pub(crate) fn table_in(&self, language: Language) -> Table {
         let four = Digits::AtMost(4);
+        let head = |heading: Sentence| heading.of(language).to_owned();
+        let only = |is_there: bool, heading: Sentence| if is_there { head(heading) } else { String::new() };
         let has_ground = self.rows.iter().any(|row| row.ground.is_some());
-        let ground = |heading: &'static str| if has_ground { heading } else { "" };
         let has_remarks = self.rows.iter().any(|row| !row.remark.is_empty());
-        Table::over(&self.rows)
-            .text("check", "check", |row| row.check)
-            .text("side", "side", |row| row.side)
-            .number(self.code.symbol, self.code.symbol, four, |row| row.zeta)
+        let ground = |name: &'static str| if has_ground { name } else { "" };
+        let [bears, site] = [
+            only(has_ground, say!("bears a_g [g]", "a_g\nsopportata\n[g]")),
+            only(has_ground, say!("site a_g [g]", "a_g\ndel sito\n[g]")),
+        ];
+        let remark = only(has_remarks, say!("remark", "osservazione"));
+        let table = Table::over(&self.rows)
+            .column(Column::text("check", ""), |row| row.check)
+            .text("", head(say!("check", "verifica")), |row| row.title.of(language).to_owned())
+            .column(Column::text("side", ""), |row| row.side)
+            .text("", head(say!("side", "verso")), |row| side(row.side).of(language).to_owned())
+            .number(self.code.symbol, head(self.code.ratio()), four, |row| row.zeta)
             .value("passed", |row| row.passed)
-            .text("", "result", |row| if row.passed { "passed" } else { "not passed" })
-            .number(ground("ag_g"), ground("bears a_g [g]"), four, |row| row.ground.map(|of| of[0]))
-            .number(ground("site_ag_g"), ground("site a_g [g]"), four, |row| row.ground.map(|of| of[1]))
+            .text("", head(say!("result", "esito")), |row| passed(row.passed).of(language).to_owned())
+            .number(ground("ag_g"), bears, four, |row| row.ground.map(|of| of[0]))
+            .number(ground("site_ag_g"), site, four, |row| row.ground.map(|of| of[1]))
             .value("capacity", |row| row.ends.values()[0])
             .value("demand", |row| row.ends.values()[1])
             .column(Column::text("unit", ""), |row| row.ends.unit())
-            .text("", "capacity", |row| row.ends.shown(row.ends.values()[0]))
-            .text("", "demand", |row| row.ends.shown(row.ends.values()[1]))
-            .number("decides", "decides", four, |row| row.decides)
-            .text("clause", "clause", |row| row.clause)
-            .text("remark", if has_remarks { "remark" } else { "" }, |row| row.remark.clone())
-            .done()
+            .text("", head(say!("capacity", "capacità")), |row| {
+                language.decimal(&row.ends.shown(row.ends.values()[0]))
+            })
+            .text("", head(say!("demand", "domanda")), |row| {
+                language.decimal(&row.ends.shown(row.ends.values()[1]))
+            })
+            .value("decides", |row| row.decides)
+            .number("", head(say!("decides", "decide")), four, |row| {
+                Cell::from(said(row.decides).of(language).to_owned())
+            })
+            .text("clause", head(say!("clause", "punto della norma")), |row| row.clause)
+            .column(Column::text("remark", ""), |row| row.remark.to_string())
+            .text("", remark, |row| row.remark.of(language).to_owned())
+            .done();
+        language.table(table)
     }
 
     /// The rows as markup, with classes for those that decide and for those that fail.
     pub fn html(&self) -> String {
-        self.table().html_with(|index| match (self.rows[index].decides, self.rows[index].passed) {
+        self.table().html_with(|index| self.class(index))
+    }
+
+    /// The rows as markup of a report, with formulas.
+    pub(crate) fn markup(&self, language: Language) -> String {
+        self.table_in(language).html_by(|index| self.class(index), markup)
+    }
+
+    fn class(&self, index: usize) -> &'static str {
+        match (self.rows[index].decides, self.rows[index].passed) {
             (true, true) => "decides",
             (true, false) => "decides fails",
             (false, true) => "",
             (false, false) => "fails",
-        })
+        }
+    }
+
+    /// The numbers of the sides as a table.
+    pub fn numbers(&self) -> Table {
+        numbers(&self.details.ledgers())
     }
 
     /// The verdict for a terminal: title, headline, rows, numbers and notes.
     pub fn text(&self, title: &str) -> String {
-        let numbers = self.details.numbers().text();
+        let numbers = self.numbers().text();
         let mut text = format!("{title}\n{}\n\n{}\n{numbers}\n", self.headline(), self.table().text());
         for note in &self.notes {
             // writing to a String cannot fail

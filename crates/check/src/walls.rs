@@ -16,6 +16,7 @@ use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::verdict::Verdict;
+use crate::words::{Language, Sentence, joined, markup, said, say, side};
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {
@@ -94,32 +95,70 @@ impl WallVerdicts<'_> {
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.walls.iter().filter_map(|(name, verdict)| {
             let own = &verdict.as_ref().ok()?.warnings;
-            (!own.is_empty()).then(|| format!("warning: wall {name:?}: {}", own.join("; ")))
+            (!own.is_empty()).then(|| format!("warning: wall {name:?}: {}", joined(own, "; ")))
         })
     }
 
     /// A row for each wall: what governs, the least ratio of each check, and why there is none.
     pub fn table(&self) -> Table {
+        self.table_in(Language::En)
+    }
+
+    /// The same table whose people read a language.
+    fn table_in(&self, language: Language) -> Table {
         let Entry { symbol, checks, .. } = self.code;
         let four = Digits::Decimals(4);
+        let head = |heading: Sentence| heading.of(language).to_owned();
+        let is_refused = self.refused() > 0;
+        let refused = if is_refused { head(say!("not checked", "non verificata")) } else { String::new() };
         let table = Table::over(self.walls.iter().map(|(name, verdict)| (*name, verdict.as_ref())))
-            .column(Column::text("name", "wall").of_user(), |wall| wall.0.to_owned())
-            .number("passed", "passed", four, |wall| Some(wall.1.ok()?.passed))
-            .number(symbol, symbol, four, |wall| Some(wall.1.ok()?.zeta))
-            .text("governs", "governs", |wall| Some(wall.1.ok()?.governs))
-            .text("side", "side", |wall| Some(wall.1.ok()?.at("both")));
+            .column(Column::text("name", head(say!("wall", "parete"))).of_user(), |wall| wall.0.to_owned())
+            .value("passed", |wall| Some(wall.1.ok()?.passed))
+            .number("", head(say!("passed", "verifica\nsoddisfatta")), four, |wall| {
+                Some(said(wall.1.ok()?.passed).of(language).to_owned())
+            })
+            .number(symbol, head(self.code.ratio()), four, |wall| Some(wall.1.ok()?.zeta))
+            .column(Column::text("governs", ""), |wall| Some(wall.1.ok()?.governs))
+            .text("", head(say!("governs", "determinante")), |wall| {
+                Some(self.title(wall.1.ok()?.governs).of(language).to_owned())
+            })
+            .column(Column::text("side", ""), |wall| Some(wall.1.ok()?.at("both")))
+            .text("", head(say!("side", "verso")), |wall| {
+                let both = say!("both", "entrambi");
+                Some(wall.1.ok()?.side.map_or(both, side).of(language).to_owned())
+            });
         let table = checks.iter().fold(table, |table, check| {
             let name = check.replace(" with ", "_").replace(' ', "_");
-            table.number(format!("{symbol}_{name}"), *check, four, |wall| {
+            table.number(format!("{symbol}_{name}"), head(self.title(check)), four, |wall| {
                 let of_check = wall.1.ok()?.rows.iter().filter(|row| row.check == *check);
                 of_check.map(|row| row.zeta).min_by(f64::total_cmp)
             })
         });
-        let refused = if self.refused() > 0 { "not checked" } else { "" };
-        table
+        let table = table
             .text("not_checked", refused, |wall| Some(wall.1.err()?.to_string()))
-            .column(Column::text("warnings", ""), |wall| Some(wall.1.ok()?.warnings.join("; ")))
-            .done()
+            .column(Column::text("warnings", ""), |wall| {
+                Some(joined(&wall.1.ok()?.warnings, "; ").to_string())
+            })
+            .done();
+        language.table(table)
+    }
+
+    /// The name of a check for people.
+    fn title(&self, check: &str) -> Sentence {
+        let rows = self.walls.iter().filter_map(|(_, verdict)| Some(&verdict.as_ref().ok()?.rows)).flatten();
+        rows.filter(|row| row.check == check)
+            .map(|row| row.title.clone())
+            .next()
+            .unwrap_or(Sentence::same(check))
+    }
+
+    /// The table as markup of a report, with formulas.
+    pub(crate) fn markup(&self, language: Language) -> String {
+        let class = |index: usize| match &self.walls[index].1 {
+            Ok(verdict) if verdict.passed => "",
+            _ => "fails",
+        };
+        self.table_in(language).html_by(class, markup)
     }
 
     /// The verdicts by the names of the walls.

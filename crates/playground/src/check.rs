@@ -41,13 +41,13 @@ pub(crate) fn report(prepared: &Prepared, language: Language) -> Result<Value, F
 fn outcome(text: &str, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {
     let code = read(&CheckFile::parse(NO_FIELD, text)?)?;
     let verdict = code.check(Subject::new(parameters))?;
-    let figure = verdict.details.figure()?;
+    let figure = verdict.details.figure(Language::En)?;
     let plot = Plot { size: [width, (0.5 * width).clamp(200.0, 270.0)], ..figure.plot };
     let mut outcome = verdict.summary();
     for (name, value) in [
         ("title", verdict.code.title),
         ("rows", &verdict.html()),
-        ("numbers", &verdict.details.numbers().html()),
+        ("numbers", &verdict.numbers().html()),
         ("caption", &figure.caption),
         ("svg", &plot.svg()),
     ] {

@@ -1,7 +1,7 @@
 //! What is computed of a wall beside its runs: checks by codes, rocking spectra, ties of any stiffness,
 //! damping that matches restitution; and of formulas beside references.
 
-use check::{AtLevel, CheckError, CheckFile, Code, Origin, Subject, at_level, page, read};
+use check::{AtLevel, CheckError, CheckFile, Code, Language, Origin, Subject, at_level, page, read};
 use evidence::verification::{self, verify};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -39,7 +39,7 @@ pub(crate) fn check_wall<'py>(
     let checked = stoppable(py, || {
         let code = read(&CheckFile::parse("check", &text)?.with_records(records))?;
         let verdict = code.check(subject)?;
-        let picture = verdict.details.figure()?.plot.picture();
+        let picture = verdict.details.figure(Language::En)?.plot.picture();
         Ok((verdict.summary().to_string(), verdict.json().to_string(), verdict.table(), picture))
     })?;
     let (summary, numbers, rows, picture) = checked.map_err(of_check)?;

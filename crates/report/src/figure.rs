@@ -38,13 +38,13 @@ impl Plot {
             "<figure><figcaption>{}</figcaption>{}<p class=\"key\">{}</p></figure>\n",
             escaped(&self.title),
             self.traced(SIZES[0]).svg(),
-            self.key(true)
+            self.key(true, escaped)
         )
     }
 
     /// The legend as text of a page: a sample and the name of each series that has one; `marked` says whether
-    /// lines have the marks of a figure.
-    pub fn key(&self, marked: bool) -> String {
+    /// lines have the marks of a figure, and `markup` makes the markup of a name.
+    pub fn key(&self, marked: bool, markup: impl Fn(&str) -> String) -> String {
         let mut key = String::new();
         for series in self.series.iter().filter(|series| !series.name.is_empty()) {
             let color = series.color;
@@ -58,7 +58,7 @@ impl Plot {
             if let Some(mark) = self.mark(series).filter(|_| is_shown) {
                 sample += &sign(color, mark);
             }
-            let _ = write!(key, "<span>{sample}{}</span>", escaped(&series.name));
+            let _ = write!(key, "<span>{sample}{}</span>", markup(&series.name));
         }
         key
     }

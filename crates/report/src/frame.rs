@@ -32,6 +32,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) scale: Scale,
     /// Size of the numbers on the axes \[px\].
     pub(crate) number_size: f64,
+    /// Whether numbers have a decimal comma.
+    pub(crate) comma: bool,
     /// Numbers on both axes with their texts, in place of round ones.
     pub(crate) numbers: Option<[Vec<(f64, String)>; 2]>,
 }
@@ -67,14 +69,18 @@ impl Frame<'_> {
         }
         let ([left, right, top, bottom], [across, up]) = (self.area(), self.ranges);
         let count = [(right - left) / BETWEEN_NUMBERS[0], (bottom - top) / BETWEEN_NUMBERS[1]];
-        match self.scale {
+        let mut numbers = match self.scale {
             Scale::Linear => [ticks(across, count[0]), ticks(up, count[1])],
             Scale::LogarithmicAcross => [logarithmic(across, count[0]), ticks(up, count[1])],
             Scale::Logarithmic => {
                 let powers = multiples(EXPONENTS, up);
                 [decades(across, &[1.0]), powers.map(|power| (power, power_of_ten(power))).collect()]
             }
+        };
+        if self.comma {
+            numbers.iter_mut().flatten().for_each(|(_, text)| *text = text.replace('.', ","));
         }
+        numbers
     }
 
     /// Draws the axes with their numbers and labels around what is drawn inside, cut off at the plot area.

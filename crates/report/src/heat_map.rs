@@ -108,6 +108,7 @@ impl HeatMap<'_> {
             labels: axes.map(|axis| &*axis.label),
             scale: Scale::Linear,
             number_size: NUMBERS,
+            comma: false,
             numbers: Some(axes.map(|axis| axis.ticks.clone())),
         };
         let mut inside = "<g shape-rendering=\"crispEdges\">".to_owned();

@@ -59,6 +59,21 @@ impl From<&str> for Axis {
     }
 }
 
+/// How a picture writes its numbers, and what it says of its axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Locale {
+    /// What stands between the labels of y and x for those who hear them: `over`.
+    pub over: &'static str,
+    /// Whether numbers have a decimal comma.
+    pub comma: bool,
+}
+
+impl Default for Locale {
+    fn default() -> Self {
+        Self { over: "over", comma: false }
+    }
+}
+
 /// A pair of axes and what is on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
@@ -74,12 +89,15 @@ pub struct Plot {
     pub series: Vec<Series>,
     /// Dashed horizontal lines and their colours.
     pub limits: Vec<(f64, &'static str)>,
+    /// Its language.
+    pub locale: Locale,
 }
 
 impl Plot {
     /// A plot without a title, of linear axes and no limits.
     pub fn new(size: [f64; 2], axes: [Axis; 2], series: Vec<Series>) -> Self {
-        Self { size, title: String::new(), axes, scale: Scale::Linear, series, limits: Vec::new() }
+        let (title, scale, limits, locale) = (String::new(), Scale::Linear, Vec::new(), Locale::default());
+        Self { size, title, axes, scale, series, limits, locale }
     }
 
     /// Draws inline SVG that takes the width of its place: it has a view box instead of a size, rounded to
@@ -89,8 +107,9 @@ impl Plot {
         let [width, height] = self.size.map(f64::round);
         format!(
             "<svg viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\" role=\"img\" \
-             aria-label=\"{} over {}\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
+             aria-label=\"{} {} {}\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
             escaped(&self.axes[1].label),
+            self.locale.over,
             escaped(&self.axes[0].label),
             self.body(&frame)
         )
@@ -117,7 +136,17 @@ impl Plot {
     fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
         let labels = self.axes.each_ref().map(|axis| &*axis.label);
         let ranges = [0, 1].map(|axis| self.range(axis, true));
-        Frame { size: self.size, margins, ranges, labels, scale: self.scale, number_size, numbers: None }
+        let comma = self.locale.comma;
+        Frame {
+            size: self.size,
+            margins,
+            ranges,
+            labels,
+            scale: self.scale,
+            number_size,
+            numbers: None,
+            comma,
+        }
     }
 
     /// The range of an axis, x or y: its own, or that of the data, with or without room around them.

@@ -1,7 +1,9 @@
 //! The static checks of a side.
 
+pub(super) mod ledger;
+mod spectrum;
+
 use report::apart;
-use serde::Serialize;
 
 use super::case::Case;
 use super::curve::{Curve, TieBreak};
@@ -20,19 +22,15 @@ pub const LARGEST_LOSS: f64 = 0.5;
 const SOFTEST: f64 = 0.10;
 
 /// The checks of a side; `None` for one that is not made.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
 pub struct Checks {
     /// SLD, activation.
-    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
     pub sld: Option<ActivationCheck>,
     /// SLV with q.
-    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
     pub slv_q: Option<ActivationCheck>,
     /// SLV by displacement.
-    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
     pub slv: Option<DisplacementCheck>,
     /// SLC by displacement.
-    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
     pub slc: Option<DisplacementCheck>,
 }
 
@@ -48,7 +46,7 @@ impl Checks {
         hinge: Option<f64>,
         tied: bool,
     ) -> Result<(Curve, Self), CheckError> {
-        Self::of_these(case, sign, (hinge, tied), [true; 4])
+        Self::of_these(case, sign, hinge, tied, [true; 4])
     }
 
     /// The same with those of the checks that are wanted, in the order of
@@ -56,7 +54,8 @@ impl Checks {
     pub(super) fn of_these(
         case: &Case<'_>,
         sign: f64,
-        (hinge, tied): (Option<f64>, bool),
+        hinge: Option<f64>,
+        tied: bool,
         wanted: [bool; 4],
     ) -> Result<(Curve, Self), CheckError> {
         let named = |error: CheckError| match hinge {
@@ -85,7 +84,7 @@ impl Checks {
         let of = |state: LimitState| statement.demanded(demands).find(|(given, _)| given.state == state);
         let sld = of(LimitState::Sld)
             .filter(|_| wants_sld || wants_slv || wants_slc)
-            .map(|(given, demand)| activation(curve, statement, (given, demand), given.damping, 1.0))
+            .map(|(given, demand)| activation(curve, statement, given, demand, given.damping, 1.0))
             .transpose()?;
         let q = statement.behaviour_factor;
         // a spectrum of another damping than that of the activation leaves this check out
@@ -94,14 +93,14 @@ impl Checks {
             .filter(|(given, demand)| {
                 statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
             })
-            .map(|(given, demand)| activation(curve, statement, (given, demand), given.activation_damping, q))
+            .map(|(given, demand)| activation(curve, statement, given, demand, given.activation_damping, q))
             .transpose()?;
         let floor = sld.map(|sld| sld.ag);
         let by_displacement = |state: LimitState, is_wanted: bool| {
             let rules = statement.rules(state);
             of(state)
                 .filter(|_| is_wanted)
-                .map(|stated| displacement(curve, stated, rules, floor))
+                .map(|(given, demand)| displacement(curve, given, demand, rules, floor))
                 .transpose()
         };
         let slv = by_displacement(LimitState::Slv, wants_slv)?;
@@ -146,26 +145,22 @@ impl Checks {
 }
 
 /// A wall at its activation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtActivationNumbers {
     /// α0 with the tie \[-\].
     pub alpha0: f64,
     /// a with the tie, without FC \[m/s²\].
-    #[serde(rename = "a")]
     pub acceleration: f64,
     /// T0 with the tie \[s\].
-    #[serde(rename = "T0")]
     pub t0: f64,
     /// N of the tie \[N\].
-    #[serde(rename = "tie_force")]
     pub force: f64,
 }
 
 /// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActivationCheck {
     /// Where the hinge of a strip is, of h \[-\].
-    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
     pub hinge: Option<f64>,
     /// Capacity, with FC and, in the linear check, times q \[m/s²\].
     pub capacity: f64,
@@ -176,31 +171,25 @@ pub struct ActivationCheck {
     /// `a_g` that just brings the wall there \[g\].
     pub ag: f64,
     /// Strength of the tie at which `ζ_E` is 1; `None` without a tie, and for one with slack \[N\].
-    #[serde(rename = "tie_required")]
     pub required: Option<f64>,
     /// a of the activation, without FC and q \[m/s²\].
-    #[serde(skip)]
     pub acceleration: f64,
     /// T0 of the demand \[s\].
-    #[serde(skip)]
     pub t0: f64,
 }
 
 /// A check of displacements, C8.7.1.2.1.8.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementCheck {
     /// Where the hinge of a strip is, of h \[-\].
-    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
     pub hinge: Option<f64>,
     /// `d_SLV` or `d_SLC` \[m\].
     pub d: f64,
     /// a there, with FC \[m/s²\].
     pub a: f64,
     /// `T_SLV` or `T_SLC` \[s\].
-    #[serde(rename = "T")]
     pub period: f64,
     /// `S_e` or `S_eZ` at that period \[m/s²\].
-    #[serde(rename = "S_e")]
     pub acceleration: f64,
     /// `S_d` \[m\].
     pub demand: f64,
@@ -211,15 +200,12 @@ pub struct DisplacementCheck {
     /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
     pub ag: f64,
     /// `ζ_E` \[-\].
-    #[serde(rename = "zeta_E")]
     pub zeta: f64,
     /// Whether the tie breaks there.
     pub limited_by_tie: bool,
     /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
-    #[serde(rename = "raised_to_SLD")]
     pub raised: bool,
     /// The tie there and at the demand.
-    #[serde(flatten)]
     pub tie: Option<TieAtLimit>,
 }
 
@@ -228,7 +214,8 @@ pub struct DisplacementCheck {
 fn activation(
     curve: &Curve,
     statement: &Statement,
-    (given, demand): (&StateStatement, &Demand),
+    given: &StateStatement,
+    demand: &Demand,
     xi: f64,
     factor: f64,
 ) -> Result<ActivationCheck, CheckError> {
@@ -323,7 +310,8 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
 
 fn displacement(
     curve: &Curve,
-    (given, demand): (&StateStatement, &Demand),
+    given: &StateStatement,
+    demand: &Demand,
     rules: Displacements,
     floor: Option<f64>,
 ) -> Result<DisplacementCheck, CheckError> {

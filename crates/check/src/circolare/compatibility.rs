@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::ground::GroundSpectrum;
 use crate::error::CheckError;
 use crate::site::Records;
+use crate::words::{Sentence, fixed, say};
 
 /// Periods at which spectra are compared, in equal ratios.
 const PERIODS: u32 = 100;
@@ -107,28 +108,34 @@ impl Ratios {
 
 impl Compatibility {
     /// What the engineer should know of the records of a limit state.
-    pub(super) fn warnings(&self, state: &str, factors: impl Iterator<Item = f64>) -> Vec<String> {
+    pub(super) fn warnings(&self, state: &str, factors: impl Iterator<Item = f64>) -> Vec<Sentence> {
         let mut warnings = Vec::new();
-        let Self { least, least_at, largest, largest_at, .. } = *self;
+        let [low, high] = BAND;
         if !self.compatible {
-            warnings.push(format!(
+            warnings.push(say! {
                 "{state}: the records are not compatible with the spectrum (NTC 3.2.3.6): their mean is from \
-                 {least:.3} (T = {least_at:.3} s) to {largest:.3} (T = {largest_at:.3} s) of it, beyond {} \
-                 to {}",
-                BAND[0], BAND[1]
-            ));
+                 {least} (T = {from} s) to {largest} (T = {to} s) of it, beyond {low} to {high}",
+                "{state}: gli accelerogrammi non sono compatibili con lo spettro (NTC 3.2.3.6): la loro \
+                 media è da {least} (T = {from} s) a {largest} (T = {to} s) volte lo spettro, fuori da \
+                 {low}-{high}",
+                state, least = fixed(self.least, 3), from = fixed(self.least_at, 3),
+                largest = fixed(self.largest, 3), to = fixed(self.largest_at, 3), low, high
+            });
         }
-        if self.largest_single > BAND[1] {
-            warnings.push(format!(
-                "{state}: a single record reaches {:.3} of the spectrum, above {} (C7.11.3.1.2.2)",
-                self.largest_single, BAND[1]
-            ));
+        if self.largest_single > high {
+            warnings.push(say! {
+                "{state}: a single record reaches {reached} of the spectrum, above {high} (C7.11.3.1.2.2)",
+                "{state}: un singolo accelerogramma raggiunge {reached} dello spettro, oltre {high} \
+                 (C7.11.3.1.2.2)", state, reached = fixed(self.largest_single, 3), high
+            });
         }
         let [low, high] = USUAL;
         if let Some(factor) = factors.into_iter().find(|factor| !(low..=high).contains(factor)) {
-            warnings.push(format!(
-                "{state}: a record is scaled by {factor:.3}; {low} to {high} is usual (C3.2.3.6)"
-            ));
+            warnings.push(say! {
+                "{state}: a record is scaled by {factor}; {low} to {high} is usual (C3.2.3.6)",
+                "{state}: un accelerogramma è scalato di {factor}; è usuale {low}-{high} (C3.2.3.6)",
+                state, factor = fixed(factor, 3), low, high
+            });
         }
         warnings
     }

@@ -13,11 +13,12 @@
 //! r is the share of the overburden O whose mass moves with a parapet. A strip wall is held at its top, where
 //! its overburden rests: O is in F alone.
 
+pub(super) mod ledger;
+
 use std::f64::consts::{PI, TAU};
 
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
-use serde::Serialize;
 
 use super::case::{Case, has_plateau};
 use super::set_back::SetBack;
@@ -25,52 +26,43 @@ use super::table::Activation;
 use super::tie;
 use crate::error::CheckError;
 
-/// κ of [C8.7.1.7] for a cantilever and for vertical bending \[-\].
-const CANTILEVER: f64 = 6.2;
-const BENDING: f64 = 2.2;
+/// κ of [C8.7.1.7], for a cantilever and for vertical bending \[-\].
+fn factor_of_beam(mechanism: Mechanism) -> f64 {
+    match mechanism {
+        Mechanism::Parapet => 6.2,
+        Mechanism::VerticalSpanning => 2.2,
+    }
+}
 
-/// The curve of one side, with the hinge of a strip in one place. Serialized it is its numbers.
-#[derive(Clone, Debug, Serialize)]
+/// The curve of one side, with the hinge of a strip in one place.
+#[derive(Clone, Debug)]
 pub struct Curve {
-    #[serde(skip)]
     statics: Statics,
-    #[serde(skip)]
     sign: f64,
-    #[serde(skip)]
     activation: Activation,
-    #[serde(skip)]
     confidence_factor: f64,
     /// Whether the tie counts.
-    #[serde(skip)]
     tied: bool,
-    #[serde(skip)]
     gravity: f64,
     /// `u_0`, where the force of the wall alone vanishes \[m\].
-    #[serde(skip)]
     pub zero: f64,
     /// How many anchors hold the width, of a tie that is given by its bar \[-\].
-    #[serde(skip)]
     pub anchors: Option<f64>,
     /// Where the hinge of a strip is, of h \[-\].
-    #[serde(rename = "hinge_ratio", skip_serializing_if = "Option::is_none")]
     pub hinge: Option<f64>,
     /// Set-backs of the hinges; 0 without a compressive strength.
     pub set_back: SetBack,
     /// F0'/F0 of hinges that are set back \[-\].
-    #[serde(skip)]
     pub a3: f64,
     /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
-    #[serde(skip)]
     pub pushed_weight: f64,
     /// `F_act`, the force at u = 0 of the line from `a_0` to `d_0` \[N\].
-    #[serde(skip)]
     pub acting_force: f64,
     /// α0 [C8.7.1.1] \[-\].
     pub alpha0: f64,
     /// e* [C8.7.1.5] \[-\].
     pub e_star: f64,
     /// M* = e* Σ(P + Q)/g \[kg\].
-    #[serde(rename = "M_star")]
     pub mass: f64,
     /// `a_0` = α0 g/e*, without FC \[m/s²\].
     pub a0: f64,
@@ -79,7 +71,6 @@ pub struct Curve {
     /// d/u \[-\].
     pub d_per_u: f64,
     /// T0 of the elastic branch, C8.7.1.2.1.3; 0 where the wall is rigid \[s\].
-    #[serde(rename = "T0")]
     pub t0: f64,
     /// `d_y`, the end of the elastic branch \[m\].
     pub dy: f64,
@@ -180,6 +171,11 @@ impl Curve {
     /// Whether the wall is held before it rocks.
     pub(super) fn is_rigid(&self) -> bool {
         self.activation == Activation::Rigid
+    }
+
+    /// The symbol of its largest acceleration before the wall rocks.
+    pub(super) fn own_symbol(&self) -> &'static str {
+        if self.t0 > 0.0 { "a_y" } else { "a_0" }
     }
 
     /// The body, with the hinge where it is.
@@ -292,10 +288,7 @@ impl Curve {
                 self.t0 = TAU * (self.dy / a1).sqrt();
             }
             (Activation::Beam, Some(young_modulus)) => {
-                let factor = match self.body().mechanism {
-                    Mechanism::Parapet => CANTILEVER,
-                    Mechanism::VerticalSpanning => BENDING,
-                };
+                let factor = factor_of_beam(self.body().mechanism);
                 let Parameters { height, thickness, density, .. } = *parameters;
                 // [C8.7.1.7]: T0 = κ λ L √(W_s/(E g)), W_s/g the density
                 self.t0 = factor * (height / thickness) * height * (density / young_modulus).sqrt();

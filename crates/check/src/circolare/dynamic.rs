@@ -21,6 +21,7 @@ use super::sides::SideVerdicts;
 use super::table::{Method, Polarities};
 use crate::error::CheckError;
 use crate::names::LimitState;
+use crate::words::{Sentence, fixed, say};
 
 /// The dynamic check of a wall.
 #[derive(Clone, Debug, Serialize)]
@@ -52,46 +53,57 @@ impl DynamicCheck {
 }
 
 impl DynamicCheck {
-    pub(super) fn warnings(&self, case: &Case<'_>) -> Vec<String> {
+    pub(super) fn warnings(&self, case: &Case<'_>) -> Vec<Sentence> {
         let (statement, parameters) = (case.statement, &case.parameters);
         let mut warnings = Vec::new();
         let count = statement.records.named.len();
         if count <= MEAN_COUNTS_FROM {
-            let what =
-                if count < MEAN_COUNTS_FROM { "the least favourable one counts" } else { "the mean counts" };
-            warnings.push(format!(
+            let what = if count < MEAN_COUNTS_FROM {
+                say!("the least favourable one counts", "vale il più sfavorevole")
+            } else {
+                say!("the mean counts", "vale la media")
+            };
+            warnings.push(say! {
                 "{count} records: {what} (NTC 7.3.5); the dynamic check asks for more records than a global \
-                 analysis (C8.7.1.2.1.9)"
-            ));
+                 analysis (C8.7.1.2.1.9)",
+                "{count} accelerogrammi: {what} (NTC 7.3.5); la verifica dinamica ne richiede più di \
+                 un'analisi globale (C8.7.1.2.1.9)", count, what
+            });
         }
         if parameters.overburden > 0.0 && statement.table.overburden_mass.is_some_and(|r| r > 0.0) {
-            warnings.push(
-                "the dynamic model has no mass on top: the overburden loads the wall without inertia".into(),
-            );
+            warnings.push(say! {
+                "the dynamic model has no mass on top: the overburden loads the wall without inertia",
+                "il modello dinamico non ha massa in sommità: il carico agisce sulla parete senza inerzia"
+            });
         }
         if self.tie_is_end {
-            warnings.push(
-                "the tie of the dynamic model does not break: a run that reaches its strength fails".into(),
-            );
+            warnings.push(say! {
+                "the tie of the dynamic model does not break: a run that reaches its strength fails",
+                "la catena del modello dinamico non si rompe: un'analisi che ne raggiunge la resistenza non \
+                 è soddisfatta"
+            });
         }
-        for (name, state) in self.states() {
-            if state.judged.passed && state.zeta < 1.0 {
-                warnings.push(format!(
-                    "{name}: the wall passes under the records, and fails when they are scaled by {:.3}: the \
-                     response is not monotonic",
-                    state.zeta
-                ));
+        for (state, found) in self.states() {
+            if found.judged.passed && found.zeta < 1.0 {
+                warnings.push(say! {
+                    "{state}: the wall passes under the records, and fails when they are scaled by {zeta}: \
+                     the response is not monotonic",
+                    "{state}: la parete supera gli accelerogrammi, ma non se scalati per {zeta}: la risposta \
+                     non è monotona", state, zeta = fixed(found.zeta, 3)
+                });
             }
-            let factors = state.runs.iter().map(|run| run.factor);
-            let compatibility = state.compatibility.iter();
-            warnings.extend(compatibility.flat_map(|own| own.warnings(name.key(), factors.clone())));
+            let factors = found.runs.iter().map(|run| run.factor);
+            let compatibility = found.compatibility.iter();
+            warnings.extend(compatibility.flat_map(|own| own.warnings(state.key(), factors.clone())));
             let stated = case.floors.into_iter().flat_map(Floors::stated_damping);
-            let xi = statement.state(name).and_then(|given| given.building_damping);
+            let xi = statement.state(state).and_then(|given| given.building_damping);
             if let Some((xi, stated)) = xi.zip(stated.into_iter().find(|stated| Some(*stated) != xi)) {
-                warnings.push(format!(
-                    "{name}: the runs have building_damping = {xi} for every mode, not damping_ratio = \
-                     {stated} of [[storeys]]"
-                ));
+                warnings.push(say! {
+                    "{state}: the runs have building_damping = {xi} for every mode, not damping_ratio = \
+                     {stated} of [[storeys]]",
+                    "{state}: le analisi hanno building_damping = {xi} per ogni modo, non damping_ratio = \
+                     {stated} di [[storeys]]", state, xi, stated
+                });
             }
         }
         warnings

@@ -11,7 +11,7 @@ use super::statement::Statement;
 use super::states::StateStatement;
 use crate::error::CheckError;
 use crate::names::LimitState;
-use crate::report::markup::shown;
+use crate::words::{Language, Sentence, say};
 
 /// Size of spectra and of capacity over demand \[px\].
 const SIZE: [f64; 2] = [820.0, 400.0];
@@ -53,14 +53,19 @@ fn periods(last: f64) -> impl Iterator<Item = f64> {
 ///
 /// # Errors
 /// [`CheckError`] of a record, or of points with another damping.
-pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, CheckError> {
+pub(super) fn spectra(
+    demands: &[Drawn<'_>],
+    label: &str,
+    last: f64,
+    language: Language,
+) -> Result<Plot, CheckError> {
     let (mut lines, mut marks, mut top) = (Vec::new(), Vec::new(), 0.0_f64);
     for Drawn { state, demand, damping, period } in demands {
         let at = |period: f64| Ok((period, demand.acceleration(*state, period, *damping)?));
         let end = last.min(demand.last_period());
         let points = periods(end).map(at).collect::<Result<Vec<_>, CheckError>>()?;
         top = points.iter().map(|point| point.1).fold(top, f64::max);
-        let name = format!("{state}, {} %", shown(100.0 * damping));
+        let name = format!("{state}, {} %", language.shown(100.0 * damping));
         lines.push((name, color(*state), points));
         if let Some(period) = period {
             let place = vec![at(*period)?];
@@ -88,7 +93,9 @@ pub(super) fn over_demand(
     statement: &Statement,
     demands: &[Option<Demand>; 3],
     cut: Option<f64>,
+    language: Language,
 ) -> Result<Plot, CheckError> {
+    let of = |said: Sentence| said.of(language).to_owned();
     let corners = side.curve.corners();
     let shown = side.by_displacement().filter_map(|(state, check)| {
         Some((statement.state(state)?, demands[state as usize].as_ref()?, check))
@@ -118,20 +125,27 @@ pub(super) fn over_demand(
         };
         let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
         let state = given.state;
-        let spectrum = Series { name: format!("spectrum of {state}"), ..Series::stroke(color, 1.3, points) };
+        let spectrum = Series {
+            name: of(say!("spectrum of {state}", "spettro allo {state}", state)),
+            ..Series::stroke(color, 1.3, points)
+        };
         for piece in spectrum.within([[0.0, right], [0.0, top]]) {
             series.push(Series { points: simplified(&piece.points, scale), ..piece });
         }
         let ray = |look, name, to| Series { look, name, ..Series::stroke(color, 1.2, vec![(0.0, 0.0), to]) };
-        series.push(ray(Look::Dashed, format!("secant to d_{state}"), (check.d, check.a)));
+        series.push(ray(
+            Look::Dashed,
+            of(say!("secant to d_{state}", "secante a d_{state}", state)),
+            (check.d, check.a),
+        ));
         series.push(ray(Look::Dotted, format!("T_{state}"), place(&check)));
         let mark =
             |mark, name, at| Series { look: Look::Marks(mark), name, ..Series::stroke(color, 5.0, vec![at]) };
         marks.push(mark(CAPACITY, format!("d_{state}"), (check.d, check.a)));
-        marks.push(mark(DEMAND, format!("demand of {state}"), place(&check)));
+        marks.push(mark(DEMAND, of(say!("demand of {state}", "domanda allo {state}", state)), place(&check)));
     }
     let curve = Series::stroke(BLACK, 2.2, corners);
-    series.push(Series { name: "capacity, with FC".to_owned(), ..curve });
+    series.push(Series { name: of(say!("capacity, with FC", "capacità, con FC")), ..curve });
     series.extend(marks);
     let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
     for line in &mut series {

@@ -61,8 +61,8 @@ pub(super) fn least<const N: usize, E>(
                 continue;
             }
             let ends = [points[index.saturating_sub(1)].0, points[last.min(index + 1)].0];
-            let start = (points[index].0, at(index));
-            let (x, value) = valley(width, ends, start, |x| Ok(values(x, Some(which))?[which]))?;
+            let start = points[index].0;
+            let (x, value) = valley(width, ends, start, at(index), |x| Ok(values(x, Some(which))?[which]))?;
             if best.is_none_or(|(_, least)| value < least * (1.0 - EQUAL)) {
                 best = Some((x, value));
             }
@@ -72,13 +72,15 @@ pub(super) fn least<const N: usize, E>(
     Ok(found)
 }
 
-/// Goes down a valley: returns the lowest point that was looked at.
+/// Goes down a valley from its lowest point that is known: returns the lowest that was looked at.
 fn valley<E>(
     width: f64,
     [mut left, mut right]: [f64; 2],
-    mut best: (f64, f64),
+    start: f64,
+    lowest: f64,
     mut value: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<(f64, f64), E> {
+    let mut best = (start, lowest);
     let mut look = |x: f64| {
         let value = value(x)?;
         if value < best.1 {

@@ -42,7 +42,7 @@ pub(super) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
     let (factors, compatibility) = scaled(&case, given, longest)?;
     let of_records = compatibility.iter().flat_map(|own| own.warnings(name, factors.iter().copied()));
     let of_rocking = statement.differs_in_rocking(subject.parameters);
-    let warnings = of_rocking.into_iter().chain(of_records).collect();
+    let warnings = of_rocking.into_iter().chain(of_records).map(|warning| warning.to_string()).collect();
     let both_signs = statement.table.polarities == Polarities::Both;
     let floors = subject.floors.map(|floors| floors.in_state(given.building_damping, given.building_period));
     Ok(Level { factors, floors: floors.transpose()?, both_signs, warnings })

@@ -17,7 +17,7 @@
 //! | 8 | `compatibility`, `level`, `runs`, `dynamic` | records at the level of a limit state; runs |
 //! | 9 | `outcome`, `warnings`, `check`, `blocks` | what governs, what to know; why no tie passes |
 //!
-//! `rows`, `lines`, `figure` and `report` show the outcome.
+//! `rows`, `figure` and `report` show the outcome. What is said of a number stands in `ledger` beside it.
 
 mod blocks;
 mod case;
@@ -33,7 +33,6 @@ mod grid;
 mod ground;
 mod hinge;
 mod level;
-mod lines;
 mod outcome;
 mod report;
 mod rows;
@@ -56,6 +55,7 @@ use crate::find::Sought;
 use crate::names::{Deciding, LimitState};
 use crate::site::{Level, Records};
 use crate::verdict::Verdict;
+use crate::words::say;
 
 pub use checks::{ActivationCheck, AtActivationNumbers, Checks, DisplacementCheck, LARGEST_LOSS};
 pub use compatibility::{BAND, Compatibility};
@@ -82,8 +82,14 @@ pub use tie::{TieAtLimit, TieState};
 pub const ENTRY: Entry = Entry {
     name: table::NAME,
     title: "Circolare 7/2019",
-    source: "Check of local out-of-plane mechanisms by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
+    source: || {
+        say! {
+            "Check of local out-of-plane mechanisms by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
              C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
+            "Verifica dei meccanismi locali fuori piano secondo Circolare C.S.LL.PP. 21.1.2019 n. 7, \
+             C8.7.1.2.1 e C7.2.3, con gli spettri delle NTC 2018 (D.M. 17.1.2018)"
+        }
+    },
     symbol: "zeta_E",
     gravity: G,
     checks: &["SLD", "SLV with q", "SLV", "SLC"],

@@ -10,6 +10,7 @@ use super::sides::{SideVerdict, SideVerdicts};
 use super::statement::Statement;
 use super::table::Hinge;
 use crate::names::{Deciding, Side};
+use crate::words::Sentence;
 
 /// A wall that was checked, with what it was checked by.
 #[derive(Debug)]
@@ -54,12 +55,13 @@ pub struct Outcome {
     #[serde(skip)]
     pub alike: bool,
     /// The sides to which the wall can rock.
+    #[serde(skip)]
     pub sides: SideVerdicts,
     /// The dynamic check, where there are records for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<DynamicCheck>,
     /// What the engineer should know; none of it stops the check.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Sentence>,
 }
 
 /// What governs a verdict.

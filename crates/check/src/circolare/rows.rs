@@ -1,25 +1,25 @@
-//! The verdict on a wall as every code has it: rows, numbers and notes.
+//! The outcome as the verdict that every code has: rows, notes and the numbers of its sides.
 
-use std::fmt::Write;
+use std::collections::BTreeSet;
 
-use ::report::table::{Cell, Digits, Table};
-use ::report::{apart, number};
 use rocking_wall::wall::{Parameters, TiePart, Wall};
 use serde_json::{Value, json};
 
 use super::checks::DisplacementCheck;
+use super::curve::ledger::OfSide;
 use super::dynamic::DynamicCheck;
-use super::lines::{DISPLACEMENT, SIDE};
 use super::outcome::{Checked, Outcome};
+use super::report;
 use super::runs::DynamicState;
 use super::sides::SideVerdict;
-use super::table::{Method, UseClass};
+use super::table::{Hinge, Method, UseClass};
 use crate::entry::Entry;
 use crate::error::CheckError;
+use crate::ledger::Ledger;
 use crate::names::{Deciding, LimitState};
-use crate::report::markup::or_dash;
 use crate::report::{Figure, Origin};
-use crate::verdict::{Details, Ends, Raise, Row, Verdict, numbers};
+use crate::verdict::{Details, Ends, Raise, Row, Section, Verdict};
+use crate::words::{Language, Sentence, Written, apart, at_most, fixed, joined, passed, say, side};
 
 impl<'a> Checked<'a> {
     /// The verdict.
@@ -50,17 +50,14 @@ impl<'a> Checked<'a> {
                 (Deciding::SlvWithQ, verdict.checks.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
             ];
             for (check, found, decides, clause) in activations {
-                rows.extend(found.map(|found| Row {
+                let Some(found) = found else { continue };
+                let ends = Ends::Accelerations([found.capacity, found.demand]);
+                rows.push(Row {
                     decides,
                     ground: Some([found.ag, site(check.state())]),
                     clause,
-                    ..Row::new(
-                        check.name(),
-                        side,
-                        found.ratio,
-                        Ends::Accelerations([found.capacity, found.demand]),
-                    )
-                }));
+                    ..Row::new(check.name(), say!("{check}", "{check}", check), side, found.ratio, ends)
+                });
             }
             rows.extend(verdict.by_displacement().map(|(state, found)| Row {
                 decides: method == Method::Nonlinear,
@@ -68,12 +65,19 @@ impl<'a> Checked<'a> {
                 displacement: Some(found.d / verdict.curve.d_per_u),
                 clause: "C8.7.1.2.1.8",
                 remark: remark(state, &found),
-                ..Row::new(state.key(), side, found.zeta, Ends::Displacements([found.d, found.demand]))
+                ..Row::new(
+                    state.key(),
+                    Sentence::same(state.key()),
+                    side,
+                    found.zeta,
+                    Ends::Displacements([found.d, found.demand]),
+                )
             }));
         }
         for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
-            let (judged, is_slc) = (found.judged, state == LimitState::Slc);
-            let check = if is_slc { "SLC under records" } else { "SLV under records" };
+            let judged = found.judged;
+            let check = if state == LimitState::Slc { "SLC under records" } else { "SLV under records" };
+            let title = say!("{state} under records", "{state} con accelerogrammi", state);
             let side = if self.outcome.alike { "both sides" } else { judged.side.name() };
             let ends = Ends::Displacements([judged.ratio * judged.d, judged.d]);
             rows.push(Row {
@@ -81,7 +85,7 @@ impl<'a> Checked<'a> {
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
                 clause: "C8.7.1.2.1.9",
-                ..Row::new(check, side, found.zeta, ends)
+                ..Row::new(check, title, side, found.zeta, ends)
             });
         }
         rows
@@ -105,159 +109,201 @@ impl<'a> Checked<'a> {
         }
         // the code has the raise for SLV only
         let has_slc = raised.iter().any(|(_, state)| *state == LimitState::Slc);
-        let by = if has_slc { "SLD, for SLC by analogy with C8.7.1.2.1.8" } else { "SLD" };
+        let by = if has_slc {
+            say! {
+                "SLD, for SLC by analogy with C8.7.1.2.1.8", "SLD, allo SLC per analogia con C8.7.1.2.1.8"
+            }
+        } else {
+            Sentence::same("SLD")
+        };
         let (ratio, state) = raised.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b))?;
         Some(Raise { check: state.key(), ratio, by })
     }
 
-    fn notes(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<Sentence> {
         let governs = self.outcome.governs;
         let site = self.statement.state(governs.limit_state.state()).map_or(f64::NAN, |given| given.ag);
-        let [bears, at_site] = [governs.zeta * site, site].map(|ag| number(ag, 3));
+        let [bears, site] = [governs.zeta * site, site].map(|ag| at_most(ag, 3));
+        let (deciding, factor) = (self.statement.deciding_checks(), self.statement.confidence_factor);
         let mut notes = vec![
-            format!("It holds up to a_g = {bears} g; the site has {at_site} g."),
-            "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC 8.3); \
-             a check passes for zeta_E ≥ 1. NTC 8.4.2 has what an improvement needs."
-                .to_owned(),
-            format!(
-                "Circolare 7/2019, C8.7.1.2.1; FC = {}; one resultant per body (C8.7.1.1), e* = 1.",
-                self.statement.confidence_factor
-            ),
-            format!("{}; the other checks are for information.", self.statement.deciding_checks()),
+            say! {
+                "It holds up to a_g = {bears} g; the site has {site} g.",
+                "La parete sopporta a_g = {bears} g; a_g del sito: {site} g.", bears, site
+            },
+            say! {
+                "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC \
+                 8.3); a check passes for zeta_E ≥ 1. NTC 8.4.2 has what an improvement needs.",
+                "ζ_E è l'a_g che porta la parete allo stato limite, divisa per quella del sito (NTC 8.3). \
+                 L'esito è riferito a ζ_E ≥ 1; per gli interventi di miglioramento si veda NTC 8.4.2."
+            },
+            say! {
+                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; one resultant per body (C8.7.1.1), e* = 1.",
+                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; una risultante per ogni corpo (C8.7.1.1), e* = \
+                 1.", factor
+            },
+            say! {
+                "{deciding}; the other checks are for information.",
+                "{deciding}; le altre verifiche sono a titolo informativo.", deciding
+            },
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
-        for (name, _, side) in self.sides() {
-            notes.extend(self.of_side(side).into_iter().map(|note| format!("{name}: {note}")));
+        for (name, _, verdict) in self.sides() {
+            let name = side(name);
+            let own = self.of_side(verdict);
+            notes.extend(own.into_iter().map(|note| say!("{name}: {note}", "{name}: {note}", name, note)));
         }
         for (given, demand) in self.statement.demanded(&self.demands) {
             let Some(floor) = demand.floor() else { continue };
             if floor.peak_acceleration() > floor.printed_peak() {
                 let [ground, printed] = apart([floor.peak_acceleration(), floor.printed_peak()], 4);
-                notes.push(format!(
-                    "{}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = {printed} \
-                     m/s² [C7.2.8].",
-                    given.state
-                ));
+                notes.push(say! {
+                    "{state}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = \
+                     {printed} m/s² [C7.2.8].",
+                    "{state}: in quota è determinante a_g S = {ground} m/s² del terreno, superiore ad a_Z = \
+                     {printed} m/s² [C7.2.8].", state = given.state, ground, printed
+                });
             }
         }
-        if let Some(part) = self.parameters.weaker_part() {
-            let part = if part == TiePart::Anchor { "the anchor" } else { "the bar" };
-            notes.push(format!("The tie: {part} gives way first."));
-        }
+        notes.extend(self.parameters.weaker_part().map(|part| match part {
+            TiePart::Anchor => {
+                say!("The tie: the anchor gives way first.", "La catena: cede prima l'ancoraggio.")
+            }
+            TiePart::Bar => say!("The tie: the bar gives way first.", "La catena: cede prima la barra."),
+        }));
         for (state, found) in self.outcome.dynamic.iter().flat_map(DynamicCheck::states) {
             notes.extend(of_runs(state, found));
         }
         notes
     }
-}
 
-impl Checked<'_> {
     /// What is to be said of a side: its hinge, its tie, what raises it, and what a₁ or E changes.
-    fn of_side(&self, side: &SideVerdict) -> Vec<String> {
+    fn of_side(&self, side: &SideVerdict) -> Vec<Sentence> {
         let mut notes = Vec::new();
-        let three = |zeta: Option<f64>| or_dash(zeta, |zeta| format!("{zeta:.3}"));
+        let three = |zeta: Option<f64>| zeta.map_or(Written("–".to_owned()), |zeta| fixed(zeta, 3));
         if let (Some(rule), Some(found)) = (self.rule, side.least_alpha0) {
-            let mut note = format!(
-                "{}; the least alpha0, {}, is at {:.4} h: zeta_E = {}",
-                ["hinge of the least multiplier", "least favourable hinge", "hinge as given"][rule as usize],
-                number(found.alpha0, 4),
-                found.hinge,
-                three(found.zeta)
-            );
-            if let Some(x) = found.worst_hinge {
-                let _ = write!(note, "; least favourable is {x:.4} h: zeta_E = {}", three(found.worst));
-            }
-            notes.push(note + ".");
+            let rule = match rule {
+                Hinge::LeastAlpha0 => {
+                    say!("hinge of the least multiplier", "cerniera del moltiplicatore minimo")
+                }
+                Hinge::Worst => say!("least favourable hinge", "cerniera più sfavorevole"),
+                Hinge::Given => say!("hinge as given", "cerniera come fornita"),
+            };
+            let worst = found.worst_hinge.map(|x| {
+                say! {
+                    "; least favourable is {x} h: zeta_E = {zeta}",
+                    "; la più sfavorevole è a {x} h: ζ_E = {zeta}", x = fixed(x, 4), zeta = three(found.worst)
+                }
+            });
+            notes.push(say! {
+                "{rule}; the least alpha0, {alpha0}, is at {hinge} h: zeta_E = {zeta}{worst}.",
+                "{rule}; il minimo α0, {alpha0}, è a {hinge} h: ζ_E = {zeta}{worst}.",
+                rule, alpha0 = at_most(found.alpha0, 4), hinge = fixed(found.hinge, 4),
+                zeta = three(found.zeta), worst = worst.unwrap_or_default()
+            });
         }
         for (state, check) in side.by_displacement() {
             if check.limited_by_tie {
-                notes.push(format!("the tie breaks at d_{state}."));
+                notes.push(say!("the tie breaks at d_{state}.", "la catena si rompe a d_{state}.", state));
             }
-            if let Some(tie) = check.tie {
-                notes.push(format!(
-                    "the tie has {} kN at d_{state} ({}), {} kN at the demand ({}).",
-                    number(1e-3 * tie.force, 4),
-                    tie.state.name(),
-                    number(1e-3 * tie.force_at_demand, 4),
-                    tie.state_at_demand.name()
-                ));
-            }
+            notes.extend(check.tie.map(|tie| {
+                say! {
+                    "the tie has {force} kN at d_{state} ({own}), {later} kN at the demand ({then}).",
+                    "la catena ha {force} kN a d_{state} ({own}), {later} kN alla domanda ({then}).",
+                    force = at_most(1e-3 * tie.force, 4), state, own = tie.state.words(),
+                    later = at_most(1e-3 * tie.force_at_demand, 4), then = tie.state_at_demand.words()
+                }
+            }));
         }
         if let Some(untied) = side.untied {
-            let states = [("SLV", untied.slv), ("SLC", untied.slc)].into_iter();
-            let states = states.filter_map(|(state, zeta)| Some(format!("{state} {:.3}", zeta?)));
-            let states: Vec<_> = states.collect();
+            let states = [(LimitState::Slv, untied.slv), (LimitState::Slc, untied.slc)].into_iter();
+            let states: Vec<_> = states
+                .filter_map(|(state, zeta)| {
+                    Some(say!("{state} {zeta}", "{state} {zeta}", state, zeta = fixed(zeta?, 3)))
+                })
+                .collect();
             if !states.is_empty() {
-                notes.push(format!("untied, {}.", states.join(", ")));
+                let states = joined(&states, ", ");
+                notes.push(say!("untied, {states}.", "in assenza di catena, {states}.", states));
             }
         }
-        for varied in &side.sensitivity {
-            let passed = match varied.passed {
-                Some(true) => "passed",
-                Some(false) => "not passed",
-                None => "no check is possible",
+        notes.extend(side.sensitivity.iter().map(|varied| {
+            let result = match varied.passed {
+                Some(is_passed) => passed(is_passed),
+                None => say!("no check is possible", "nessuna verifica possibile"),
             };
-            notes.push(format!(
-                "sensitivity: with {} zeta_E = {}, {passed}.",
-                varied.assigned(),
-                three(varied.zeta)
-            ));
-        }
+            say! {
+                "sensitivity: with {assigned} zeta_E = {zeta}, {result}.",
+                "analisi di sensibilità: con {assigned} ζ_E = {zeta}, {result}.",
+                assigned = varied.assigned(), zeta = three(varied.zeta), result
+            }
+        }));
         notes
     }
 }
 
 /// What the raise by SLD makes of a check by displacement; empty without it.
-fn remark(state: LimitState, check: &DisplacementCheck) -> String {
+fn remark(state: LimitState, check: &DisplacementCheck) -> Sentence {
     if !check.raised {
-        return String::new();
+        return Sentence::default();
     }
     let exceeded = if check.ratio < 1.0 {
-        "; demand exceeds capacity; the a_g of activation replaces it (C8.7.1.2.1.8)"
+        say! {
+            "; demand exceeds capacity; the a_g of activation replaces it (C8.7.1.2.1.8)",
+            "; la domanda supera la capacità; vale l'a_g di attivazione (C8.7.1.2.1.8)"
+        }
     } else {
-        ""
+        Sentence::default()
     };
-    let DisplacementCheck { ratio, zeta, ag, .. } = *check;
-    format!("{state} {ratio:.3}, raised to {zeta:.3} by SLD (a_g {ag:.3} g){exceeded}")
+    let [ratio, zeta, ag] = [check.ratio, check.zeta, check.ag].map(|value| fixed(value, 3));
+    say! {
+        "{state} {ratio}, raised to {zeta} by SLD (a_g {ag} g){exceeded}",
+        "{state} {ratio}, portato a {zeta} dallo SLD (a_g {ag} g){exceeded}", state, ratio, zeta, ag, exceeded
+    }
 }
 
 /// The dynamic check of a limit state, and its runs.
-fn of_runs(state: LimitState, check: &DynamicState) -> Vec<String> {
-    let records: std::collections::BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
+fn of_runs(state: LimitState, check: &DynamicState) -> Vec<Sentence> {
+    let records: BTreeSet<_> = check.runs.iter().map(|run| &run.record).collect();
     let judged = check.judged;
-    let mut notes = vec![format!(
-        "{state} under {} records in {} runs: {}; d = {} mm, threshold over it {:.3}, zeta_E = {:.3}; {} \
-         runs beyond d_0, {} at the strength of the tie",
-        records.len(),
-        check.runs.len(),
-        if judged.passed { "passed" } else { "not passed" },
-        number(1e3 * judged.d, 4),
-        judged.ratio,
-        check.zeta,
-        judged.beyond_d0,
-        judged.at_strength
-    )];
-    if let Some(found) = &check.compatibility {
-        notes.push(format!(
-            "{state}: the mean spectrum of the records is {:.3} (T = {:.3} s) to {:.3} (T = {:.3} s) of that \
-             of the ground: {} (NTC 3.2.3.6)",
-            found.least,
-            found.least_at,
-            found.largest,
-            found.largest_at,
-            if found.compatible { "compatible" } else { "not compatible" }
-        ));
-    }
+    let mut notes = vec![say! {
+        "{state} under {records} records in {runs} runs: {result}; d = {d} mm, threshold over it {ratio}, \
+         zeta_E = {zeta}; {beyond} runs beyond d_0, {reached} at the strength of the tie",
+        "{state} con {records} accelerogrammi in {runs} analisi: {result}; d = {d} mm, soglia su d {ratio}, \
+         ζ_E = {zeta}; {beyond} analisi oltre d_0, {reached} alla resistenza della catena",
+        state, records = records.len(), runs = check.runs.len(), result = passed(judged.passed),
+        d = at_most(1e3 * judged.d, 4), ratio = fixed(judged.ratio, 3), zeta = fixed(check.zeta, 3),
+        beyond = judged.beyond_d0, reached = judged.at_strength
+    }];
+    notes.extend(check.compatibility.as_ref().map(|found| {
+        let which = if found.compatible {
+            say!("compatible", "compatibile")
+        } else {
+            say!("not compatible", "non compatibile")
+        };
+        say! {
+            "{state}: the mean spectrum of the records is {least} (T = {from} s) to {largest} (T = {to} s) \
+             of that of the ground: {which} (NTC 3.2.3.6)",
+            "{state}: lo spettro medio degli accelerogrammi va da {least} (T = {from} s) a {largest} (T = \
+             {to} s) di quello del suolo: {which} (NTC 3.2.3.6)",
+            state, least = fixed(found.least, 3), from = fixed(found.least_at, 3),
+            largest = fixed(found.largest, 3), to = fixed(found.largest_at, 3), which
+        }
+    }));
+    // lines of single runs are indented: a report has a table of its own
     notes.extend(check.runs.iter().map(|run| {
-        let [positive, negative] = [run.d[0], -run.d[1]].map(|d| number(1e3 * d, 4));
-        let beyond = if run.beyond_d0 { "  beyond d_0" } else { "" };
-        let beyond =
-            if run.at_strength { beyond.to_owned() + "  tie at its strength" } else { beyond.into() };
-        format!(
-            "  {:<30} x {:<8.4} d = {positive} / {negative} mm{beyond}",
-            run.record,
-            run.sign * run.factor
-        )
+        let [positive, negative] = [run.d[0], -run.d[1]].map(|d| at_most(1e3 * d, 4));
+        let beyond = if run.beyond_d0 { say!("  beyond d_0", "  oltre d_0") } else { Sentence::default() };
+        let reached = if run.at_strength {
+            say!("  tie at its strength", "  catena alla resistenza")
+        } else {
+            Sentence::default()
+        };
+        say! {
+            "  {record} x {factor} d = {positive} / {negative} mm{beyond}{reached}",
+            "  {record} x {factor} d = {positive} / {negative} mm{beyond}{reached}",
+            record = format!("{:<30}", run.record),
+            factor = Written(format!("{:<8.4}", run.sign * run.factor)), positive, negative, beyond, reached
+        }
     }));
     notes
 }
@@ -272,55 +318,53 @@ impl Details for Checked<'_> {
     }
 
     fn json(&self, _: &Verdict<'_>) -> Value {
-        json!(self.outcome)
+        let mut json = json!(self.outcome);
+        for (side, verdict) in self.outcome.sides.iter() {
+            json["sides"][side.key()] = self.ledger(side, verdict).json().into();
+        }
+        json
     }
 
-    fn numbers(&self) -> Table {
-        let shown: Vec<_> = self.sides().map(|(name, _, side)| (name, side)).collect();
-        let mut table = numbers(shown.iter().map(|(name, _)| *name), Digits::Significant(4));
-        let mut row = |name: String, unit: &'static str, factor: f64, values: Vec<Option<f64>>| {
-            if values.iter().any(Option::is_some) {
-                let values = values.into_iter().map(|value| Cell::from(value.map(|value| factor * value)));
-                table.row([name.into(), unit.into()].into_iter().chain(values));
-            }
-        };
-        for (name, unit, factor, value) in SIDE {
-            row(name.to_owned(), unit, factor, shown.iter().map(|(_, side)| value(side)).collect());
-        }
-        for state in [LimitState::Slv, LimitState::Slc] {
-            for (name, unit, factor, value) in DISPLACEMENT {
-                let of = |side: &SideVerdict| side.displacement(state).and_then(|check| value(side, &check));
-                let values = shown.iter().map(|(_, side)| of(side)).collect();
-                row(format!("{state} {name}"), unit, factor, values);
-            }
-        }
-        table
+    fn ledgers(&self) -> Vec<(&'static str, Ledger)> {
+        self.sides().map(|(name, side, verdict)| (name, self.ledger(side, verdict))).collect()
     }
 
-    fn figure(&self) -> Result<Figure, CheckError> {
+    fn figure(&self, language: Language) -> Result<Figure, CheckError> {
         let governs = self.outcome.governs.side;
         let shown = self.sides().find(|(_, side, _)| *side == governs).or(self.sides().next());
         let Some((name, _, side)) = shown else { return Err(CheckError::wall("the wall has no side")) };
-        super::report::capacity::figure(self, name, side)
+        report::capacity::figure(self, name, side, language)
     }
 
-    fn overview(&self) -> Vec<(String, String)> {
-        super::report::overview::of(self)
+    fn overview(&self, language: Language) -> Vec<(String, String)> {
+        report::overview::of(self, language)
     }
 
-    fn site(&self) -> Result<Vec<(String, String)>, CheckError> {
-        super::report::site::section(self)
+    fn site(&self, language: Language) -> Result<Vec<Section>, CheckError> {
+        report::site::section(self, language)
     }
 
-    fn symbols(&self) -> String {
-        super::report::symbols::list()
+    fn symbols(&self, language: Language) -> String {
+        report::symbols::list(language)
     }
 
-    fn readings(&self) -> Vec<String> {
-        super::report::readings::of(self)
+    fn readings(&self) -> Vec<Sentence> {
+        report::readings::of(self)
     }
 
-    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
-        super::report::sections(self, origin)
+    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<Section>, CheckError> {
+        report::sections(self, origin)
+    }
+}
+
+impl Checked<'_> {
+    /// The wall on a side.
+    pub(super) fn of(&self, side: crate::names::Side) -> OfSide<'_> {
+        OfSide { statement: self.statement, parameters: &self.parameters, side }
+    }
+
+    /// The numbers of a side.
+    pub(super) fn ledger(&self, side: crate::names::Side, verdict: &SideVerdict) -> Ledger {
+        verdict.ledger(self.of(side), &self.demands)
     }
 }

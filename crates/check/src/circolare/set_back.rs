@@ -6,12 +6,11 @@
 use report::{apart, number};
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Body, Parameters};
-use serde::Serialize;
 
 use crate::error::CheckError;
 
 /// What a strip or a parapet loses of its thickness at its hinges \[m\].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SetBack {
     /// At the base.
     pub base: f64,

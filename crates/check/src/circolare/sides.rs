@@ -1,6 +1,7 @@
 //! A side of a wall: its hinge by the rule that is stated, its numbers there, and what other rules give.
 
-use report::number;
+mod ledger;
+
 use rocking_wall::wall::Body;
 use serde::Serialize;
 
@@ -12,38 +13,31 @@ use super::states::Source;
 use super::table::{Activation, Hinge};
 use crate::error::CheckError;
 use crate::names::{Deciding, LimitState, Side};
+use crate::words::{Sentence, at_most, say};
 
 /// Factors on a₁ or E whose verdicts are told.
 const VARIED: [f64; 2] = [0.5, 2.0];
 
 /// The outcome of one side.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct SideVerdict {
     /// The curve with the hinge of the check that governs, and its numbers.
-    #[serde(flatten)]
     pub curve: Curve,
     /// The checks.
-    #[serde(flatten)]
     pub checks: Checks,
     /// What the hinge of the least α0 gives, and the least favourable one.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub least_alpha0: Option<LeastAlpha0>,
     /// The wall at its activation, with the tie where it counts there.
     pub activation: AtActivationNumbers,
     /// The tie, on a side that it holds.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tie: Option<TieNumbers>,
     /// `ζ_E` without the tie.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub untied: Option<Untied>,
     /// `ζ_E` with half and twice a₁ or E.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<Sensitivity>,
     /// Why other hinges could not be searched, where that failed.
-    #[serde(skip)]
     pub unsearched: Option<String>,
     /// The curves with the hinges of checks that have their own.
-    #[serde(skip)]
     pub others: Vec<Curve>,
 }
 
@@ -142,51 +136,41 @@ impl SideVerdict {
 }
 
 /// What the hinge of the least α0 gives, and beside it the least favourable one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastAlpha0 {
     /// The least α0 \[-\].
     pub alpha0: f64,
     /// Its hinge, of h \[-\].
-    #[serde(rename = "hinge_ratio")]
     pub hinge: f64,
     /// The least `ζ_E` that decides with that hinge \[-\].
-    #[serde(rename = "zeta_E")]
     pub zeta: Option<f64>,
     /// The least `ζ_E` that decides with any hinge of the range; `None` where it was not searched \[-\].
-    #[serde(rename = "worst_zeta_E")]
     pub worst: Option<f64>,
     /// Its hinge, of h \[-\].
-    #[serde(rename = "worst_hinge_ratio")]
     pub worst_hinge: Option<f64>,
     /// The check that has it; `None` where it was not searched.
-    #[serde(skip)]
     pub worst_check: Option<Deciding>,
 }
 
 /// Displacements u of a tie, and what its rupture takes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TieNumbers {
     /// Where it begins to pull \[m\].
-    #[serde(rename = "u_engaged")]
     pub engaged: f64,
     /// Where it has its strength \[m\].
-    #[serde(rename = "u_yield")]
     pub yields: Option<f64>,
     /// Where it breaks \[m\].
-    #[serde(rename = "u_break")]
     pub breaks: Option<f64>,
     /// What the curve loses there, over its largest a \[-\].
     pub loss: Option<f64>,
 }
 
 /// `ζ_E` of a side without its tie.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Untied {
     /// SLV \[-\].
-    #[serde(rename = "SLV")]
     pub slv: Option<f64>,
     /// SLC \[-\].
-    #[serde(rename = "SLC")]
     pub slc: Option<f64>,
 }
 
@@ -215,22 +199,22 @@ pub struct Sensitivity {
 
 impl Sensitivity {
     /// Returns the parameter and its value for people: E in `MPa`.
-    pub(super) fn assigned(&self) -> String {
+    pub(super) fn assigned(&self) -> Sentence {
         match self.parameter {
-            "young_modulus" => format!("E = {} MPa", number(1e-6 * self.value, 4)),
-            name => format!("{name} = {}", number(self.value, 4)),
+            "young_modulus" => {
+                say!("E = {value} MPa", "E = {value} MPa", value = at_most(1e-6 * self.value, 4))
+            }
+            name => say!("{name} = {value}", "{name} = {value}", name, value = at_most(self.value, 4)),
         }
     }
 }
 
 /// The outcomes of both sides; `None` for one to which the wall cannot rock.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct SideVerdicts {
     /// u > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub positive: Option<SideVerdict>,
     /// u < 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub negative: Option<SideVerdict>,
 }
 
@@ -310,7 +294,7 @@ fn by_rule(
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
             let places = hinge::least(search, range, |x, which| {
                 let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
-                let mut zetas = Checks::of_these(case, sign, (Some(x), true), wanted)?.1.zetas();
+                let mut zetas = Checks::of_these(case, sign, Some(x), true, wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }

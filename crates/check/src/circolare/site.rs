@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use report::number;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::Usual;
 
@@ -10,6 +9,7 @@ use crate::error::CheckError;
 use crate::file::lines_of_grid;
 use crate::names::LimitState;
 use crate::site::{no_place, return_period};
+use crate::words::{Sentence, at_most, say};
 
 use super::grid::{Grid, SiteHazard};
 use super::table::{CheckTable, SiteTable};
@@ -17,7 +17,7 @@ use super::table::{CheckTable, SiteTable};
 /// The file that was read, `None` where its lines are in the table, and what is to be said of the numbers.
 pub(super) struct FromGrid {
     pub(super) file: Option<PathBuf>,
-    pub(super) notes: Vec<String>,
+    pub(super) notes: Vec<Sentence>,
     /// Where `a_g` is not that of a site in its unit.
     pub(super) warning: Option<String>,
 }
@@ -51,17 +51,20 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
             (given.f0, given.tc) = (Some(found.f0), Some(found.tc));
         }
         let limited = if (first..=last).contains(&years) {
-            String::new()
+            Sentence::default()
         } else {
-            format!(", taken as {}, the nearest of the grid", number(years.clamp(first, last), 4))
+            say! {
+                ", taken as {nearest}, the nearest of the grid",
+                ", assunto {nearest}, il più vicino del reticolo",
+                nearest = at_most(years.clamp(first, last), 4)
+            }
         };
-        notes.push(format!(
-            "{state}: T_R = {} years{limited}: a_g = {} g, F0 = {}, T_C* = {} s.",
-            number(years, 4),
-            number(found.ag, 4),
-            number(found.f0, 4),
-            number(found.tc, 4)
-        ));
+        notes.push(say! {
+            "{state}: T_R = {years} years{limited}: a_g = {ag} g, F0 = {f0}, T_C* = {tc} s.",
+            "{state}: T_R = {years} anni{limited}: a_g = {ag} g, F0 = {f0}, T_C* = {tc} s.",
+            state, years = at_most(years, 4), limited, ag = at_most(found.ag, 4), f0 = at_most(found.f0, 4),
+            tc = at_most(found.tc, 4)
+        });
     }
     if notes.is_empty() {
         let message = "no limit state takes its numbers from the grid; leave out ag, F0 and TC, or site";
@@ -70,16 +73,25 @@ pub(super) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     let [latitude, longitude] = site.coordinates;
     let named = |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
     let source = file.as_ref().map_or_else(|| "[check.site]".to_owned(), named);
-    let place = format!("Site at latitude {latitude}°, longitude {longitude}° on the grid of {source}");
     let how = if hazard.is_node() {
-        "the numbers of the node that it is"
+        say! {
+            "the numbers of the node that it is",
+            "valori del nodo coincidente con il sito, interpolati linearmente"
+        }
     } else {
-        "the mean of its four nodes by the inverse of their distances"
+        say! {
+            "the mean of its four nodes by the inverse of their distances",
+            "media dei quattro nodi pesata con l'inverso delle distanze, lineare"
+        }
     };
-    notes.push(format!(
-        "{place}: {how}, straight over log T_R, as NTC 2008, Annex A, is known in the field; its text was \
-         not seen. Compare the numbers with those of the ministry."
-    ));
+    notes.push(say! {
+        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {source}: {how}, straight over \
+         log T_R, as NTC 2008, Annex A, is known in the field; its text was not seen. Compare the numbers \
+         with those of the ministry.",
+        "Sito a latitudine {latitude}°, longitudine {longitude}° sul reticolo di {source}: {how} in log T_R, \
+         come è noto dall'Allegato A delle NTC 2008; il testo non è stato visto. Confrontare i numeri con \
+         quelli del ministero.", latitude, longitude, source, how
+    });
     let warning = AG.warning(hazard.hazard(475.0).ag).map(|warning| format!("{warning}; state ag_unit"));
     Ok(Some(FromGrid { file, notes, warning }))
 }

@@ -8,6 +8,7 @@ use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::names::{Deciding, LimitState};
 use crate::site::Records;
+use crate::words::{Language, Sentence, say};
 
 use super::demand::{Demand, Demands};
 use super::site::{self, FromGrid};
@@ -55,7 +56,7 @@ pub struct Statement {
     /// Range in which the hinge of a strip is searched, of h \[-\].
     pub(super) hinge_range: [f64; 2],
     /// What is to be said of the numbers from a grid.
-    pub(super) site_notes: Vec<String>,
+    pub(super) site_notes: Vec<Sentence>,
 }
 
 impl Statement {
@@ -208,38 +209,57 @@ impl Statement {
         }
     }
 
-    /// Names the checks of the method, says that they decide, and where the code has them.
-    pub(super) fn by_method(&self) -> [&'static str; 3] {
+    /// Says which checks of the method decide, and where the code has them.
+    pub(super) fn by_method(&self) -> (Sentence, &'static str) {
         let has = |state| self.state(state).is_some();
-        match self.table.method {
-            Method::Nonlinear if !has(LimitState::Slc) => ["SLV by displacement", "decides", "C8.7.1.2.1.8"],
-            Method::Nonlinear if !has(LimitState::Slv) => ["SLC by displacement", "decides", "C8.7.1.2.1.8"],
-            Method::Nonlinear => ["SLV and SLC by displacement", "decide", "C8.7.1.2.1.8"],
-            Method::Linear => ["SLV with q", "decides", "C8.7.1.2.1.7"],
-            Method::Dynamic => ["The runs under records", "decide", "C8.7.1.2.1.9"],
-        }
+        let decide = match self.table.method {
+            Method::Nonlinear if !has(LimitState::Slc) => {
+                say!("SLV by displacement decides", "Decide lo SLV in spostamento")
+            }
+            Method::Nonlinear if !has(LimitState::Slv) => {
+                say!("SLC by displacement decides", "Decide lo SLC in spostamento")
+            }
+            Method::Nonlinear => {
+                say!("SLV and SLC by displacement decide", "Decidono SLV e SLC in spostamento")
+            }
+            Method::Linear => say!("SLV with q decides", "Decide lo SLV con q"),
+            Method::Dynamic => {
+                say!("The runs under records decide", "Decidono le analisi con accelerogrammi")
+            }
+        };
+        let clause = match self.table.method {
+            Method::Nonlinear => "C8.7.1.2.1.8",
+            Method::Linear => "C8.7.1.2.1.7",
+            Method::Dynamic => "C8.7.1.2.1.9",
+        };
+        (decide, clause)
     }
 
-    /// Names the checks that decide.
-    pub(super) fn deciding_checks(&self) -> String {
-        let has_sld = self.state(LimitState::Sld).is_some();
-        let [method, decides, _] = self.by_method();
-        if self.table.use_class == Some(UseClass::IV) && has_sld {
-            return format!("{method} and SLD in use class IV decide");
+    /// Says which checks decide.
+    pub(super) fn deciding_checks(&self) -> Sentence {
+        let (decide, _) = self.by_method();
+        if self.table.use_class != Some(UseClass::IV) || self.state(LimitState::Sld).is_none() {
+            return decide;
         }
-        format!("{method} {decides}")
+        let method = decide.trim_end_matches(" decides").trim_end_matches(" decide");
+        let italian = decide.of(Language::It);
+        Sentence::new(
+            format!("{method} and SLD in use class IV decide"),
+            format!("{italian} e, in classe d'uso IV, lo SLD"),
+        )
     }
 
     /// Where runs rock as the scene does, and the static checks do not.
-    pub(super) fn differs_in_rocking(&self, scene: &Parameters) -> Option<String> {
+    pub(super) fn differs_in_rocking(&self, scene: &Parameters) -> Option<Sentence> {
         let stated = self.table.rocking?.rocking();
         (stated != scene.rocking).then(|| {
-            format!(
-                "the static checks take rocking = {} of [check], the runs rocking = {} of the scene; state \
-                 the same in [impact]",
-                stated.name(),
-                scene.rocking.name()
-            )
+            say! {
+                "the static checks take rocking = {own} of [check], the runs rocking = {of_scene} of the \
+                 scene; state the same in [impact]",
+                "le verifiche statiche assumono rocking = {own} di [check], le analisi dinamiche rocking = \
+                 {of_scene} della scena; dichiarare lo stesso in [impact]",
+                own = stated.name(), of_scene = scene.rocking.name()
+            }
         })
     }
 

@@ -187,7 +187,7 @@ pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Fou
     let mut found = Vec::new();
     for (check, decides) in checks {
         let passes = |value: f64| Ok(with(value).is_ok_and(|all| of(&all, check).is_some_and(|one| one.2)));
-        found.push(one_check(&tries, (check, decides), passes)?);
+        found.push(one_check(&tries, check, decides, passes)?);
     }
     let (best, _) = &tries[tries.len() - 1];
     let last = sought.applied(parameters, *best)?;
@@ -241,7 +241,8 @@ fn of<'a>(all: &'a [Outcome], check: &str) -> Option<&'a Outcome> {
 /// Finds from which value on the last tries pass a check, and the other intervals that do.
 fn one_check(
     tries: &[(f64, Result<Vec<Outcome>, CheckError>)],
-    (check, decides): (&'static str, bool),
+    check: &'static str,
+    decides: bool,
     mut passes: impl FnMut(f64) -> Result<bool, CheckError>,
 ) -> Result<FoundCheck, CheckError> {
     let one = |index: usize| tries[index].1.as_ref().ok().and_then(|all| of(all, check));

@@ -9,12 +9,18 @@ use super::demand::Demand;
 use super::sides::SideCheck;
 use crate::error::CheckError;
 use crate::report::Figure;
+use crate::words::{Language, Sentence, fixed, say};
 
 /// Draws the capacity curve of a side over the demand.
 ///
 /// # Errors
 /// [`CheckError`] for a period that the demand does not have.
-pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<Figure, CheckError> {
+pub(super) fn figure(
+    wall: &Wall,
+    demand: &Demand,
+    side: &SideCheck,
+    language: Language,
+) -> Result<Figure, CheckError> {
     let (d_s, a_s) = (side.secant_displacement, side.secant_acceleration);
     let right = 1.25 * side.displacement_capacity.max(side.displacement_demand);
     let corners = wall.capacity_corners(side.sign);
@@ -29,16 +35,25 @@ pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<F
     };
     let longest = (right / d_s).min(top / a_s);
     let capacity = 1000.0 * side.displacement_capacity;
-    let named = |name: &str, line: Series| Series { name: name.to_owned(), ..line };
+    let named = |name: Sentence, line: Series| Series { name: name.of(language).to_owned(), ..line };
     let dashed = |points| Series { look: Look::Dashed, ..Series::stroke(DARK_GREY, 1.3, points) };
-    let secant = format!("secant, T = {:.3} s", side.secant_period);
+    let period = fixed(side.secant_period, 3);
     let series = vec![
-        named("demand", Series::stroke(RED, 1.6, in_mm(&spectrum))),
-        named("capacity curve", Series::stroke(BLUE, 2.0, in_mm(&curve))),
-        named(&secant, dashed(vec![(0.0, 0.0), (1000.0 * longest * d_s, longest * a_s)])),
-        named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
+        named(say!("demand", "domanda"), Series::stroke(RED, 1.6, in_mm(&spectrum))),
+        named(say!("capacity curve", "curva di capacità"), Series::stroke(BLUE, 2.0, in_mm(&curve))),
+        named(
+            say!("secant, T = {period} s", "secante, T = {period} s", period),
+            dashed(vec![(0.0, 0.0), (1000.0 * longest * d_s, longest * a_s)]),
+        ),
+        named(
+            say!("displacement capacity", "capacità di spostamento"),
+            dashed(vec![(capacity, 0.0), (capacity, top)]),
+        ),
     ];
     let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
-    let caption = "Capacity curve of the governing side over the demand in acceleration and displacement.";
-    Ok(Figure { caption: caption.to_owned(), plot: Plot::new([820.0, 460.0], axes, series) })
+    let caption = say! {
+        "Capacity curve of the governing side over the demand in acceleration and displacement.",
+        "Curva di capacità del verso determinante e domanda, in accelerazione e spostamento."
+    };
+    Ok(Figure { caption: caption.markup(language), plot: Plot::new([820.0, 460.0], axes, series) })
 }

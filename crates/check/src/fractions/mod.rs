@@ -26,12 +26,15 @@ use crate::code::{Code, InStudies, Subject};
 use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::ledger::Ledger;
 use crate::names::Side;
+use crate::others::{heavy, improbable, storeys};
 use crate::report::Figure;
 use crate::site::{Records, check_points};
-use crate::verdict::{Details, Ends, Row, Verdict, numbers};
-use ::report::table::{Cell, Digits, Table, significant};
-use sides::governing;
+use crate::verdict::{Details, Ends, Row, Verdict};
+use crate::words::{Language, Sentence, Written, say, side};
+use ::report::table::significant;
+use sides::{Outcome, governing, outcomes};
 
 pub use demand::Demand;
 pub use sides::{Fractions, SideCheck, check};
@@ -40,8 +43,14 @@ pub use sides::{Fractions, SideCheck, check};
 pub const ENTRY: Entry = Entry {
     name: "fractions",
     title: "Capacity at fractions",
-    source: "Static capacity of a wall, read at fractions of the displacement at which its force vanishes, \
+    source: || {
+        say! {
+            "Static capacity of a wall, read at fractions of the displacement at which its force vanishes, \
              against a response spectrum",
+            "Capacità statica della parete, letta a frazioni dello spostamento di annullamento della forza, \
+             a confronto con uno spettro di risposta"
+        }
+    },
     symbol: "ratio",
     gravity: ground_motion::STANDARD_GRAVITY,
     checks: &["onset", "displacement"],
@@ -99,7 +108,7 @@ pub struct Statement {
     /// The spectrum that is given; otherwise the demand is that of the records.
     spectrum: Option<Demand>,
     /// Where the spectrum comes from.
-    source: String,
+    source: Sentence,
     damping: f64,
     records: Records,
 }
@@ -114,7 +123,7 @@ impl Statement {
                 secant: table.secant_fraction.unwrap_or(secant),
             },
             spectrum: None,
-            source: String::new(),
+            source: Sentence::default(),
             damping: table.damping.unwrap_or(DAMPING),
             records: file.records(table.records.as_ref())?,
         };
@@ -127,7 +136,10 @@ impl Statement {
                     return Err(CheckError::value(&["unit"], message));
                 };
                 let points: Vec<_> = points.iter().map(|[period, sa]| (*period, *sa)).collect();
-                statement.source = format!("{} points, Sa in {}", points.len(), unit.name());
+                statement.source = say! {
+                    "{count} points, Sa in {unit}",
+                    "{count} punti, Sa in {unit}", count = points.len(), unit = unit.name()
+                };
                 let place = |index| format!("point {} of the spectrum", index + 1);
                 check_points(&points, unit.name(), place)
                     .map_err(|message| CheckError::value(&["spectrum"], message))?;
@@ -165,8 +177,11 @@ impl Statement {
             self.damping = table.damping.unwrap_or(stated);
         }
         let SpectrumFile { points, lines, unit, column, .. } = read;
-        let column = column.map_or_else(String::new, |column| format!("column {column}, "));
-        self.source = format!("{name}, {column}Sa in {unit}");
+        let column = column
+            .map_or_else(Sentence::default, |column| say!("column {column}, ", "colonna {column}, ", column));
+        let (file, unit) = (name.to_string(), unit.to_string());
+        self.source =
+            say!("{file}, {column}Sa in {unit}", "{file}, {column}Sa in {unit}", file, column, unit);
         self.spectrum = Some(Demand::of_points(points, |index| format!("{name}, line {}", lines[index]))?);
         self.records.files.push(path);
         Ok(())
@@ -176,20 +191,27 @@ impl Statement {
         let Subject { parameters, floors, .. } = subject;
         let wall = Wall::new(parameters)?;
         let mut source = self.source.clone();
-        let mut warnings: Vec<_> = parameters.unusual().map(|warning| warning.to_string()).collect();
+        let mut warnings: Vec<_> = parameters.unusual().map(|one| improbable(&one)).collect();
         let demand = if let Some(spectrum) = &self.spectrum {
             if floors.is_some() {
-                warnings.push(
-                    "the storeys are not applied to the spectrum; it must be that of the wall's floor".into(),
-                );
+                warnings.push(say! {
+                    "the storeys are not applied to the spectrum; it must be that of the wall's floor",
+                    "i piani non si applicano allo spettro, che deve essere quello del piano della parete"
+                });
             }
             spectrum.clone()
         } else {
             let count = self.records.named.len();
-            source = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+            source = if count == 1 {
+                say!("median of 1 record", "mediana di 1 accelerogramma")
+            } else {
+                say!("median of {count} records", "mediana di {count} accelerogrammi", count)
+            };
             if let Some(floors) = floors {
-                warnings.extend(floors.warnings(&wall));
-                source = [source, floors.note()].join(" ");
+                warnings.extend(floors.improbable().map(|one| improbable(&one)));
+                warnings.extend(floors.heavy(&wall).map(heavy));
+                let felt = storeys(floors);
+                source = say!("{source} {felt}", "{source} {felt}", source, felt);
             }
             Demand::of_motions(self.records.felt(floors, wall.body())?, self.damping)?
         };
@@ -234,39 +256,14 @@ struct Checked<'a> {
     parameters: &'a Parameters,
     wall: Wall,
     demand: Demand,
-    source: String,
+    source: Sentence,
     sides: Vec<SideCheck>,
-    warnings: Vec<String>,
+    warnings: Vec<Sentence>,
 }
 
 fn name(side: &SideCheck) -> &'static str {
     Side::of(side.sign).name()
 }
-
-/// A name, its ratio, and what it says.
-type Named = (&'static str, fn(&SideCheck) -> f64, [&'static str; 2]);
-
-/// Both results: they mean different things, and neither stands for the other.
-const RESULTS: [Named; 2] = [
-    ("onset", |side| side.acceleration_ratio, ["the wall does not rock", "the wall rocks"]),
-    ("displacement", |side| side.displacement_ratio, ["within the capacity", "beyond the capacity"]),
-];
-
-/// A name, a unit for people, the factor to it from SI units, and the number of a side.
-type Line = (&'static str, &'static str, f64, fn(&SideCheck) -> f64);
-
-const NUMBERS: [Line; 10] = [
-    ("onset a0*", "m/s2", 1.0, |side| side.onset_acceleration),
-    ("zero of F d0*", "mm", 1e3, |side| side.zero_displacement),
-    ("capacity d_u*", "mm", 1e3, |side| side.displacement_capacity),
-    ("secant d_s*", "mm", 1e3, |side| side.secant_displacement),
-    ("secant a_s*", "m/s2", 1.0, |side| side.secant_acceleration),
-    ("secant period T_s", "s", 1.0, |side| side.secant_period),
-    ("demand Sa(0)", "m/s2", 1.0, |side| side.peak_acceleration),
-    ("demand Sd(T_s)", "mm", 1e3, |side| side.displacement_demand),
-    ("a0*/Sa(0)", "-", 1.0, |side| side.acceleration_ratio),
-    ("d_u*/Sd(T_s)", "-", 1.0, |side| side.displacement_ratio),
-];
 
 impl Checked<'_> {
     /// The sides that differ, with their names.
@@ -281,37 +278,57 @@ impl Checked<'_> {
             let onset = Ends::Accelerations([found.onset_acceleration, found.peak_acceleration]);
             let ends = Ends::Displacements([found.displacement_capacity, found.displacement_demand]);
             let displacement = Some(self.wall.body().participation * found.displacement_capacity);
+            let [first, second] = outcomes().map(|outcome| outcome.title);
             [
-                Row { clause: "a0*/Sa(0)", ..Row::new("onset", side, found.acceleration_ratio, onset) },
+                Row {
+                    clause: "a0*/Sa(0)",
+                    ..Row::new("onset", first, side, found.acceleration_ratio, onset)
+                },
                 Row {
                     decides: true,
                     displacement,
                     clause: "d_u*/Sd(T_s)",
-                    ..Row::new("displacement", side, found.displacement_ratio, ends)
+                    ..Row::new("displacement", second, side, found.displacement_ratio, ends)
                 },
             ]
         };
         self.shown().flat_map(of_side).collect()
     }
 
-    fn notes(&self) -> Vec<String> {
-        let Statement { fractions, damping, .. } = self.statement;
+    fn notes(&self) -> Vec<Sentence> {
+        let Statement { fractions: Fractions { displacement, secant }, damping, .. } = *self.statement;
         let mut notes = vec![
-            format!("demand: {}, {} % damping", self.source, 100.0 * damping),
-            format!(
-                "fractions: d_u* at {} of the zero of F, secant at {} of d_u*",
-                fractions.displacement, fractions.secant
-            ),
+            say! {
+                "demand: {source}, {percent} % damping",
+                "domanda: {source}, smorzamento {percent} %", source = self.source, percent = 100.0 * damping
+            },
+            say! {
+                "fractions: d_u* at {displacement} of the zero of F, secant at {secant} of d_u*",
+                "frazioni: d_u* a {displacement} dello zero di F, secante a {secant} di d_u*",
+                displacement, secant
+            },
         ];
-        for (what, ratio, [holds, fails]) in RESULTS {
+        for Outcome { ratio, title, says: [holds, fails], .. } in outcomes() {
             let worst = governing(&self.sides, ratio);
-            let side = if self.wall.has_equal_sides() { "both sides alike" } else { name(worst) };
-            let verdict = if ratio(worst) >= 1.0 { holds } else { fails };
-            notes.push(format!("{what}: {verdict}, ratio {} ({side})", significant(ratio(worst), 4)));
+            let of = if self.wall.has_equal_sides() {
+                say!("both sides alike", "identico nei due versi")
+            } else {
+                Sentence::same(name(worst))
+            };
+            notes.push(say! {
+                "{title}: {verdict}, ratio {ratio} ({of})",
+                "{title}: {verdict}, rapporto {ratio} ({of})",
+                title, verdict = if ratio(worst) >= 1.0 { holds } else { fails },
+                ratio = Written(significant(ratio(worst), 4)), of
+            });
         }
-        for (side, _) in self.shown().filter(|(_, side)| side.limited_by_tie) {
-            notes.push(format!("{side}: the strength of the tie limits d_u*"));
-        }
+        notes.extend(self.shown().filter(|(_, found)| found.limited_by_tie).map(|(name, _)| {
+            let side = side(name);
+            say! {
+                "{side}: the strength of the tie limits d_u*",
+                "{side}: la resistenza della catena limita d_u*", side
+            }
+        }));
         notes
     }
 }
@@ -326,10 +343,11 @@ impl Details for Checked<'_> {
     }
 
     fn json(&self, verdict: &Verdict<'_>) -> Value {
-        let governs = RESULTS.map(|(result, ratio, _)| {
+        let governs = outcomes().map(|Outcome { name: result, ratio, .. }| {
             let worst = governing(&self.sides, ratio);
             (result.to_owned(), json!({ "side": name(worst), "ratio": ratio(worst) }))
         });
+        let sides: Vec<_> = self.sides.iter().map(|side| side.ledger().json()).collect();
         json!({
             "code": ENTRY.name,
             "passed": verdict.passed,
@@ -337,22 +355,18 @@ impl Details for Checked<'_> {
             "damping": self.statement.damping,
             "displacement_fraction": self.statement.fractions.displacement,
             "secant_fraction": self.statement.fractions.secant,
-            "sides": self.sides,
+            "sides": sides,
             "governs": governs.into_iter().collect::<serde_json::Map<_, _>>(),
             "warnings": verdict.warnings,
         })
     }
 
-    fn figure(&self) -> Result<Figure, CheckError> {
-        figure::figure(&self.wall, &self.demand, governing(&self.sides, |side| side.displacement_ratio))
+    fn figure(&self, language: Language) -> Result<Figure, CheckError> {
+        let worst = governing(&self.sides, |side| side.displacement_ratio);
+        figure::figure(&self.wall, &self.demand, worst, language)
     }
 
-    fn numbers(&self) -> Table {
-        let mut table = numbers(self.shown().map(|(name, _)| name), Digits::Significant(4));
-        for (name, unit, factor, value) in NUMBERS {
-            let values = self.shown().map(|(_, side)| (factor * value(side)).into());
-            table.row([name.into(), Cell::from(unit)].into_iter().chain(values));
-        }
-        table
+    fn ledgers(&self) -> Vec<(&'static str, Ledger)> {
+        self.shown().map(|(name, side)| (name, side.ledger())).collect()
     }
 }

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use rocking_wall::wall::{Tie, Wall};
-use serde::Serialize;
 
 use crate::error::CheckError;
+use crate::ledger::{Ledger, Quantity, Unit};
 use crate::names::Side;
+use crate::words::{Sentence, say};
 
 /// The displacements at which capacity is read, as fractions of `u_ins`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,10 +26,9 @@ impl Default for Fractions {
 }
 
 /// The check of one side, in d* = u/λ and a* = F/(λ `m_eff`).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideCheck {
     /// Sign of u.
-    #[serde(rename = "side", serialize_with = "named")]
     pub sign: f64,
     /// a₀*, the acceleration of the onset of rocking: the largest a* of the law, with a tie the largest up to
     /// `d_u*` \[m/s²\].
@@ -55,9 +55,73 @@ pub struct SideCheck {
     pub displacement_ratio: f64,
 }
 
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
-fn named<S: serde::Serializer>(sign: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(Side::of(*sign).name())
+impl SideCheck {
+    /// The numbers of the side.
+    pub(super) fn ledger(&self) -> Ledger {
+        let (mm, acceleration) = (Unit::MILLIMETRES, Unit::ACCELERATION);
+        let mut ledger = Ledger::default();
+        ledger.fact("side", Side::of(self.sign).name());
+        ledger.fact("limited_by_tie", self.limited_by_tie);
+        let mut add = |key, equation, unit, value: f64, words| {
+            ledger.add(Quantity::new(key, equation, unit, value, words));
+        };
+        let words = say!("Acceleration at which the wall rocks", "Accelerazione di attivazione");
+        add("onset_acceleration", "a0*", acceleration, self.onset_acceleration, words);
+        let words = say!("Zero of the force", "Annullamento della forza");
+        add("zero_displacement", "d0*", mm, self.zero_displacement, words);
+        let words = say!("Displacement capacity", "Capacità di spostamento");
+        add("displacement_capacity", "d_u*", mm, self.displacement_capacity, words);
+        let words = say!("Displacement of the secant", "Spostamento della secante");
+        add("secant_displacement", "d_s*", mm, self.secant_displacement, words);
+        let words = say!("Acceleration of the secant", "Accelerazione della secante");
+        add("secant_acceleration", "a_s*", acceleration, self.secant_acceleration, words);
+        let words = say!("Period of the secant", "Periodo della secante");
+        add("secant_period", "T_s", Unit::SECONDS, self.secant_period, words);
+        let words = say!("Demand of acceleration", "Domanda di accelerazione");
+        add("peak_acceleration", "S_a(0)", acceleration, self.peak_acceleration, words);
+        let words = say!("Demand of displacement", "Domanda di spostamento");
+        add("displacement_demand", "S_d(T_s)", mm, self.displacement_demand, words);
+        let words = say!("Capacity over demand, onset", "Rapporto capacità/domanda, attivazione");
+        add("acceleration_ratio", "a0*/S_a(0)", Unit::NONE, self.acceleration_ratio, words);
+        let words = say!("Capacity over demand, displacement", "Rapporto capacità/domanda, spostamento");
+        add("displacement_ratio", "d_u*/S_d(T_s)", Unit::NONE, self.displacement_ratio, words);
+        ledger
+    }
+}
+
+/// A result: its ratio, and what it says.
+pub(super) struct Outcome {
+    /// Its name.
+    pub(super) name: &'static str,
+    pub(super) ratio: fn(&SideCheck) -> f64,
+    /// The same for people.
+    pub(super) title: Sentence,
+    /// Where it holds, and where it does not.
+    pub(super) says: [Sentence; 2],
+}
+
+/// Both results: they mean different things, and neither stands for the other.
+pub(super) fn outcomes() -> [Outcome; 2] {
+    [
+        Outcome {
+            name: "onset",
+            ratio: |side| side.acceleration_ratio,
+            title: say!("onset", "attivazione"),
+            says: [
+                say!("the wall does not rock", "la parete non oscilla"),
+                say!("the wall rocks", "la parete oscilla"),
+            ],
+        },
+        Outcome {
+            name: "displacement",
+            ratio: |side| side.displacement_ratio,
+            title: say!("displacement", "spostamento"),
+            says: [
+                say!("within the capacity", "entro la capacità"),
+                say!("beyond the capacity", "oltre la capacità"),
+            ],
+        },
+    ]
 }
 
 /// Returns the side with the smallest ratio, which governs.

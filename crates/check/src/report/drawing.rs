@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::markup::{formula, kilonewtons, millimetres, shown, stated};
+use crate::words::{Language, Sentence, at_most, say, shown};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
 const SIZE: [f64; 2] = [520.0, 410.0];
@@ -29,15 +29,16 @@ struct Drawing<'a> {
     parameters: &'a Parameters,
     /// px for a metre.
     scale: f64,
+    language: Language,
     svg: String,
 }
 
 /// The figure, with what its marks mean.
-pub(super) fn figure(of: &Wall, parameters: &Parameters) -> String {
+pub(super) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> String {
     let body = of.body();
     let thickness = parameters.thickness;
     let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
-    let mut drawing = Drawing { of, parameters, scale, svg: String::new() };
+    let mut drawing = Drawing { of, parameters, scale, language, svg: String::new() };
     drawing.supports();
     drawing.wall();
     drawing.hinges();
@@ -48,38 +49,57 @@ pub(super) fn figure(of: &Wall, parameters: &Parameters) -> String {
     // without an overburden nothing stands above the wall
     let from = if body.overburden > 0.0 { 0.0 } else { drawing.top() - 20.0 };
     let height = height - from;
-    let mut said = String::from("The wall to scale.");
-    if of.sides().any(|sign| sign > 0.0) {
-        said += " ● Hinges for u &gt; 0.";
-    }
-    if of.sides().any(|sign| sign < 0.0) {
-        said += " ○ Hinges for u &lt; 0.";
-    }
-    if of.free_side().is_some() {
-        said += " Grey beside the wall: transverse walls.";
-    }
-    if parameters.eccentricity_mode == EccentricityMode::FollowsPivot
-        && parameters.overburden_eccentricity != 0.0
-    {
-        said += " The overburden follows the hinge: it is drawn for u &gt; 0.";
-    }
-    if parameters.a3 < 1.0 && parameters.multilinear.is_none() {
-        let _ = write!(
-            said,
-            " Hinges are set back from the edges: {} = {}.",
-            formula("a3"),
-            stated(parameters.a3)
-        );
-    }
+    let said: Vec<_> = marks(of, parameters).iter().map(|said| said.markup(language)).collect();
+    let said = said.join(" ");
+    let label = say!("the wall to scale", "la parete in scala");
+    let label = label.of(language);
     format!(
         "<figure><figcaption>{said}</figcaption><svg class=\"wall\" \
-         viewBox=\"0 {from:.0} {width} {height:.0}\" role=\"img\" aria-label=\"the wall to scale\" \
+         viewBox=\"0 {from:.0} {width} {height:.0}\" role=\"img\" aria-label=\"{label}\" \
          font-size=\"14\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
         drawing.svg
     )
 }
 
+/// What the marks of a drawing mean.
+fn marks(of: &Wall, parameters: &Parameters) -> Vec<Sentence> {
+    let follows = parameters.eccentricity_mode == EccentricityMode::FollowsPivot;
+    let is_set_back = parameters.a3 < 1.0 && parameters.multilinear.is_none();
+    let all = [
+        (true, say!("The wall to scale.", "La parete in scala.")),
+        (of.sides().any(|sign| sign > 0.0), say!("● Hinges for u > 0.", "● Cerniere per u > 0.")),
+        (of.sides().any(|sign| sign < 0.0), say!("○ Hinges for u < 0.", "○ Cerniere per u < 0.")),
+        (
+            of.free_side().is_some(),
+            say! {
+                "Grey beside the wall: transverse walls.",
+                "In grigio accanto alla parete: pareti trasversali."
+            },
+        ),
+        (
+            follows && parameters.overburden_eccentricity != 0.0,
+            say! {
+                "The overburden follows the hinge: it is drawn for u > 0.",
+                "Il carico segue la cerniera: è disegnato per u > 0."
+            },
+        ),
+        (
+            is_set_back,
+            say! {
+                "Hinges are set back from the edges: `a3` = {a3}.",
+                "Le cerniere sono arretrate dagli spigoli: `a3` = {a3}.", a3 = at_most(parameters.a3, 6)
+            },
+        ),
+    ];
+    all.into_iter().filter_map(|(is_there, said)| is_there.then_some(said)).collect()
+}
+
 impl Drawing<'_> {
+    /// A number and its unit in the language of the drawing.
+    fn said(&self, text: &str) -> String {
+        self.language.decimal(text)
+    }
+
     /// Half the thickness \[px\].
     fn half(&self) -> f64 {
         0.5 * self.scale * self.parameters.thickness
@@ -178,7 +198,7 @@ impl Drawing<'_> {
             let _ = writeln!(self.svg, "<circle cx=\"{AXIS}\" cy=\"{y:.1}\" r=\"3\" fill=\"#c8440f\"/>");
             self.weight([AXIS, y + 34.0], 34.0);
             let force = 1e-3 * weight * (to - from) / height;
-            let text = format!("{name} = {} kN", ::report::number(force, 4));
+            let text = self.said(&format!("{name} = {} kN", ::report::number(force, 4)));
             self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
         }
         if overburden > 0.0 {
@@ -188,9 +208,9 @@ impl Drawing<'_> {
             self.weight([x, top], 36.0);
             let mut text = format!("O = {} kN", ::report::number(1e-3 * overburden, 4));
             if c != 0.0 {
-                let _ = write!(text, ", c = {} m", stated(c));
+                let _ = write!(text, ", c = {} m", ::report::number(c, 6));
             }
-            self.text([x + 10.0, top - 20.0], "start", &text);
+            self.text([x + 10.0, top - 20.0], "start", &self.said(&text));
         }
     }
 
@@ -209,16 +229,16 @@ impl Drawing<'_> {
                 self.line([plate, y - 9.0], [plate, y + 9.0], look);
             }
         }
-        let mut texts = vec![format!("K = {} kN/m", kilonewtons(tie.stiffness))];
-        texts.extend(tie.strength.map(|strength| format!("N_y = {} kN", kilonewtons(strength))));
+        let mut texts = vec![format!("K = {} kN/m", shown(1e-3 * tie.stiffness))];
+        texts.extend(tie.strength.map(|strength| format!("N_y = {} kN", shown(1e-3 * strength))));
         if tie.slack > 0.0 {
-            texts.push(format!("g₀ = {} mm", millimetres(tie.slack)));
+            texts.push(format!("g₀ = {} mm", shown(1e3 * tie.slack)));
         }
         // clear of the wall and of what stands beside it
         let (x, anchor) =
             if tie.holds(1.0) { (AXIS - SUPPORT - 10.0, "end") } else { (AXIS + half + 8.0, "start") };
         for (index, text) in texts.iter().enumerate() {
-            let text = ::report::label(text);
+            let text = ::report::label(&self.said(text));
             // one line above the tie, the others below it
             let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
             self.text([x + 4.0, y], anchor, &text);
@@ -239,7 +259,7 @@ impl Drawing<'_> {
         let y = self.y(height);
         self.dimension([x, FOOT], [x, y]);
         // one that is searched has all its digits
-        let text = format!("{name} = {} m", shown(height));
+        let text = self.said(&format!("{name} = {} m", shown(height)));
         self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
     }
 
@@ -254,19 +274,24 @@ impl Drawing<'_> {
         }
         let (half, y) = (self.half(), FOOT + 24.0);
         self.dimension([AXIS - half, y], [AXIS + half, y]);
-        let text = format!("b = {} m", stated(self.parameters.thickness));
+        let text = format!("b = {} m", self.language.stated(self.parameters.thickness));
         self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
         let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);
         let y = SIZE[1] - 12.0;
         self.rect([12.0, 12.0 + self.scale * bar], [y - 5.0, y], "fill=\"#555\"");
-        self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", stated(bar)));
+        self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", self.language.stated(bar)));
         let y = y - 3.0;
         self.line([AXIS, y], [AXIS + 44.0, y], "stroke=\"#1f5fa8\" stroke-width=\"2\"");
         let _ = writeln!(self.svg, "<path d=\"M{:.1} {y:.1}l-9 -4.5v9z\" fill=\"#1f5fa8\"/>", AXIS + 50.0);
-        self.text([AXIS + 58.0, y + 5.0], "start", "u &gt; 0: outwards");
+        self.text(
+            [AXIS + 58.0, y + 5.0],
+            "start",
+            say!("u &gt; 0: outwards", "u &gt; 0: verso l'esterno").of(self.language),
+        );
         // the sides of the wall, below its foot
-        for (x, side) in [(AXIS - SUPPORT, "inside"), (AXIS + SUPPORT, "outside")] {
-            self.text([x, FOOT + 44.0], "middle", side);
+        let sides = [say!("inside", "interno"), say!("outside", "esterno")];
+        for (x, side) in [AXIS - SUPPORT, AXIS + SUPPORT].into_iter().zip(sides) {
+            self.text([x, FOOT + 44.0], "middle", side.of(self.language));
         }
     }
 }

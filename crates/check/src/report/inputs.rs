@@ -2,11 +2,14 @@
 
 use ::report::escaped;
 use rocking_wall::scene::{GROUPS, parameter_text, variable};
-use rocking_wall::variables::{Mechanism, TieSide};
+use rocking_wall::variables::TieSide;
 use rocking_wall::wall::{Bar, BarNumber, Damping, Parameters, Wall, is_computable, usage};
 
-use super::markup::{formula, kilonewtons, shown, stated, table};
+use super::markup::{heads, table};
 use super::{Origin, drawing};
+use crate::ledger::Unit;
+use crate::others::{choice, described, mechanism};
+use crate::words::{Language, Sentence, formula, say};
 
 /// Lengths that are read in mm.
 const SMALL: [&str; 2] = ["tie_slack", "tie_ultimate"];
@@ -15,22 +18,24 @@ const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 
 impl Origin<'_> {
     /// Returns where a number of the bar of the tie comes from.
-    fn of_bar(&self, number: &BarNumber) -> &'static str {
+    fn of_bar(&self, number: &BarNumber) -> Sentence {
         if self.file.states(&["check", "tie", "bar", number.key()]) {
-            "[check] tie"
+            Sentence::same("[check] tie")
         } else {
             self.of_parameter(&["tie", "bar", number.key()], number.usual.name)
         }
     }
 
     /// Returns where a parameter comes from, by its keys in a scene.
-    fn of_parameter(&self, keys: &[&str], name: &str) -> &'static str {
+    fn of_parameter(&self, keys: &[&str], name: &str) -> Sentence {
         let is_set = |set: &String| set.split('=').next().map(str::trim) == Some(name);
         match self.wall {
-            Some(wall) if wall.stated.as_ref().is_none_or(|stated| stated.contains(&name)) => "file",
-            None if self.set.iter().any(is_set) => "--set",
-            None if self.file.states(keys) => "scene",
-            _ => "default",
+            Some(wall) if wall.stated.as_ref().is_none_or(|stated| stated.contains(&name)) => {
+                say!("file", "file dei dati")
+            }
+            None if self.set.iter().any(is_set) => Sentence::same("--set"),
+            None if self.file.states(keys) => say!("scene", "file dei dati"),
+            _ => say!("default", "valore predefinito"),
         }
     }
 }
@@ -52,62 +57,73 @@ pub(crate) fn the_wall(
             }
         }
     }
+    let language = origin.report.language;
     if let Some(points) = &parameters.multilinear {
-        let points: Vec<_> =
-            points.iter().map(|[u, f]| format!("({}, {})", stated(*u), stated(*f))).collect();
-        let name = format!("Corners of the force law, {}", formula("u/u_ins, F/F0"));
+        let between = if language == Language::It { "; " } else { ", " };
+        let points = points.iter().map(|point| point.map(|end| language.stated(end)).join(between));
+        let points: Vec<_> = points.map(|point| format!("({point})")).collect();
+        let name = say!("Corners of the force law, `u/u_ins, F/F0`", "Vertici della legge, `u/u_ins, F/F0`");
         let from = origin.of_parameter(&["force_law", "force_law"], "force_law");
-        rows.push([name, points.join(" "), from.into()]);
+        rows.push([name.markup(language), points.join(" "), from.markup(language)]);
     }
     rows.extend(bar(parameters, origin));
-    let rows = table(&["parameter", "value", "from"], &rows);
-    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters))
+    let parts = [say!("parameter", "parametro"), say!("value", "valore"), say!("from", "provenienza")];
+    let rows = table(&heads(parts, language), &rows);
+    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters, language))
 }
 
 /// The numbers of the bar and anchor that make the tie.
 fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
     let Some(bar) = parameters.bar.filter(|_| parameters.weaker_part().is_some()) else { return Vec::new() };
     let numbers = Bar::NUMBERS.iter().enumerate();
+    let language = origin.report.language;
     let row = |(index, number): (usize, &BarNumber)| {
         let given = bar.get(index)?;
-        let unit = if number.key() == "diameter" { ("mm", 1e3) } else { unit_for_people(number.usual.unit) };
-        let name = described(number.text, number.usual.name);
-        Some([name, value_in(given, unit), origin.of_bar(number).to_owned()])
+        let of_number = unit_for_people(number.usual.unit);
+        let unit = if number.key() == "diameter" { Unit::MILLIMETRES } else { of_number };
+        let name = named(number.text, number.usual.name, language);
+        Some([name, value_in(given, unit, language), origin.of_bar(number).markup(language)])
     };
     numbers.filter_map(row).collect()
 }
 
-/// A parameter with its name. Its description says first what it is; behind a semicolon, for who states it,
-/// what follows from some values.
-fn described(description: &str, name: &str) -> String {
-    let what = description.split("; ").next().unwrap_or_default();
-    format!("{} <small translate=\"no\">{name}</small>", escaped(what))
+/// What a parameter is, with its name.
+fn named(description: &str, name: &str, language: Language) -> String {
+    let what = described(description, name);
+    format!("{} <small translate=\"no\">{name}</small>", what.markup(language))
 }
 
 /// The unit in which people read a number in an SI unit, and the factor to it.
-fn unit_for_people(unit: &str) -> (&str, f64) {
+fn unit_for_people(unit: &'static str) -> Unit {
     match unit {
-        "N" => ("kN", 1e-3),
-        "N/m" => ("kN/m", 1e-3),
-        "Pa" => ("MPa", 1e-6),
-        "m/s2" => ("m/s²", 1.0),
-        "kg/m3" => ("kg/m³", 1.0),
-        "1" => ("", 1.0),
-        unit => (unit, 1.0),
+        "N" => Unit::KILONEWTONS,
+        "N/m" => Unit::KILONEWTONS_PER_METRE,
+        "Pa" => Unit::MEGAPASCALS,
+        "m/s2" => Unit::ACCELERATION,
+        "kg/m3" => Unit { name: "kg/m³", factor: 1.0 },
+        "1" => Unit::NONE,
+        name => Unit { name, factor: 1.0 },
     }
 }
 
-fn value_in(value: f64, (unit, factor): (&str, f64)) -> String {
-    format!("<span class=\"value\">{} {unit}</span>", stated(factor * value))
+fn value_in(value: f64, unit: Unit, language: Language) -> String {
+    value_of(&language.stated(unit.factor * value), unit.name)
+}
+
+fn value_of(text: &str, unit: &str) -> String {
+    format!("<span class=\"value\">{}</span>", format!("{text} {unit}").trim_end())
 }
 
 /// Mechanism, h, b and O in a table of walls.
-pub(crate) fn overview(wall: &Wall, parameters: &Parameters) -> Vec<(String, String)> {
+pub(crate) fn overview(wall: &Wall, parameters: &Parameters, language: Language) -> Vec<(String, String)> {
     vec![
-        ("mechanism".into(), mechanism(parameters.mechanism).into()),
-        (formula("h") + " [m]", stated(parameters.height)),
-        (formula("b") + " [m]", stated(parameters.thickness)),
-        (formula("O") + " [kN]", kilonewtons(wall.body().overburden)),
+        (
+            say!("mechanism", "cinematismo").markup(language),
+            mechanism(parameters.mechanism).of(language).to_owned(),
+        ),
+        (formula("h") + " [m]", language.stated(parameters.height)),
+        (formula("b") + " [m]", language.stated(parameters.thickness)),
+        (formula("O") + " [kN]", language.shown(1e-3 * wall.body().overburden)),
     ]
 }
 
@@ -123,78 +139,41 @@ fn parameter(
     let number: Option<f64> = text.parse().ok();
     let unit = match unit_for_people(variable.unit.unwrap_or_default()) {
         // slack and elongation of a tie
-        ("m", _) if SMALL.contains(&name) && number >= Some(0.0) => ("mm", 1e3),
+        unit if unit == Unit::METRES && SMALL.contains(&name) && number >= Some(0.0) => Unit::MILLIMETRES,
         unit => unit,
     };
     let is_of_bar = parameters.weaker_part().is_some() && OF_BAR.contains(&name);
+    let language = origin.report.language;
+    let computed = say!("computed", "calcolato");
+    let stated = || origin.of_parameter(&[group, name], name);
     let (value, from) = match number {
         _ if is_computable(name) && text == "-1.0" => {
-            let value = computed_value(wall, name);
-            (format!("<span class=\"value\">{value} {}</span>", unit.0), "computed")
+            (value_of(&computed_value(wall, name, language), unit.name), computed)
         }
-        Some(number) if is_of_bar => {
-            (format!("<span class=\"value\">{} {}</span>", shown(unit.1 * number), unit.0), "computed")
-        }
-        Some(number) => (value_in(number, unit), origin.of_parameter(&[group, name], name)),
+        Some(number) if is_of_bar => (value_of(&language.shown(unit.factor * number), unit.name), computed),
+        Some(number) => (value_in(number, unit, language), stated()),
         None => {
-            let value = if name == "mechanism" {
-                mechanism(parameters.mechanism).to_owned()
-            } else if name == "tie_side" {
-                let said = match parameters.tie_side {
-                    TieSide::Positive => "to the outside (u &gt; 0)",
-                    TieSide::Negative => "to the inside (u &lt; 0)",
-                    TieSide::Both => "both",
-                };
-                said.to_owned()
-            } else {
-                text.trim_matches('"').replace('_', " ")
+            let said = match name {
+                "mechanism" => mechanism(parameters.mechanism),
+                "tie_side" => match parameters.tie_side {
+                    TieSide::Positive => say!("to the outside (u > 0)", "verso l'esterno (u > 0)"),
+                    TieSide::Negative => say!("to the inside (u < 0)", "verso l'interno (u < 0)"),
+                    TieSide::Both => say!("both", "entrambi"),
+                },
+                _ => choice(text.trim_matches('"')),
             };
-            (format!("<span class=\"value\">{value}</span>"), origin.of_parameter(&[group, name], name))
+            (value_of(&escaped(said.of(language)), ""), stated())
         }
     };
-    Some([described(variable.description, name), value, from.to_owned()])
-}
-
-/// The mechanism, as codes name it.
-fn mechanism(mechanism: Mechanism) -> &'static str {
-    match mechanism {
-        Mechanism::Parapet => "simple overturning",
-        Mechanism::VerticalSpanning => "vertical bending (strip)",
-    }
+    Some([named(variable.description, name, language), value, from.markup(language)])
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.
-fn computed_value(wall: &Wall, name: &str) -> String {
+fn computed_value(wall: &Wall, name: &str, language: Language) -> String {
     if name == "restitution" {
-        return stated(wall.restitution());
+        return language.stated(wall.restitution());
     }
     let Damping { model, ratio } = wall.damping();
-    ratio.filter(|_| model.ratio_name() == Some(name)).map_or("–".to_owned(), stated)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::language::{Language, translated};
-    use rocking_wall::variables::DampingModel;
-
-    /// A description that is worded anew, so that other words stand before its semicolon, is translated anew.
-    #[test]
-    fn what_each_parameter_is_stands_in_the_terms() {
-        let names = GROUPS.into_iter().flat_map(|(_, names)| names.iter().copied());
-        let of_bar = Bar::NUMBERS.map(|number| (number.text, number.usual.name));
-        let of_wall = names.filter_map(|name| Some((variable(name)?.description, name)));
-        let missing = of_wall.chain(of_bar).filter(|(description, name)| {
-            let english = described(description, name);
-            translated(english.clone(), Language::It) == english
-        });
-        assert_eq!(missing.collect::<Vec<_>>(), []);
-    }
-    #[test]
-    fn damping_models_stand_in_the_terms() {
-        for model in DampingModel::ALL {
-            let english = model.name().replace('_', " ");
-            assert_ne!(translated(english.clone(), Language::It), english, "add {english} to terms.tsv");
-        }
-    }
+    let ratio = ratio.filter(|_| model.ratio_name() == Some(name));
+    ratio.map_or("–".to_owned(), |ratio| language.stated(ratio))
 }

@@ -1,11 +1,13 @@
 //! Where the wall of a report comes from, and a picture of it.
 
-use ::report::plot::Plot;
+use ::report::plot::{Locale, Plot};
 use run::walls::NamedWall;
 
-use super::project::{ReportTable, as_written};
+use super::markup::as_written;
+use super::project::ReportTable;
 use crate::file::CheckFile;
 use crate::site::Records;
+use crate::words::{Language, markup};
 
 /// Width of a figure on a phone \[px\].
 const NARROW: f64 = 390.0;
@@ -37,16 +39,25 @@ pub struct Figure {
 
 impl Figure {
     /// The figure as markup with its legend, and with a form for phones.
-    pub fn html(&self) -> String {
+    pub fn html(&self, language: Language) -> String {
         let Self { caption, plot } = self;
+        let plot = &Plot { locale: locale(language), ..plot.clone() };
         let narrow = Plot { size: [NARROW, 300.0], ..plot.clone() };
         format!(
             "<figure><figcaption>{caption} <span class=\"key\">{}</span></figcaption><div class=\"plot \
              wide\">{}</div><div class=\"plot narrow\">{}</div></figure>\n",
-            plot.key(false),
+            plot.key(false, markup),
             plot.svg(),
             narrow.svg()
         )
+    }
+}
+
+/// How pictures write numbers in a language.
+fn locale(language: Language) -> Locale {
+    match language {
+        Language::En => Locale::default(),
+        Language::It => Locale { over: "in funzione di", comma: true },
     }
 }
 

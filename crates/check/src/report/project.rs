@@ -1,14 +1,14 @@
 //! What a report says of the project: the table `[report]`.
 
-use ::report::escaped;
+use ::report::number;
 use rocking_wall::scene::{Described, Schema};
 use rocking_wall::{choices, tables};
 use serde::Deserialize;
 
-use super::language::Language;
-use super::markup::{number, table};
+use super::markup::{as_written, table};
 use crate::names::LimitState;
 use crate::site::{no_place, return_period};
+use crate::words::{Language, Sentence, Written, at_most, fixed, say};
 
 tables! {
     /// What the report of a check says of the project. What is left out is left out of the report.
@@ -63,11 +63,6 @@ pub fn report_schema() -> Schema {
     }
 }
 
-/// What the user writes stands as it is in every language.
-pub(crate) fn as_written(text: &str) -> String {
-    format!("<span translate=\"no\">{}</span>", escaped(text))
-}
-
 /// What the site on a grid of the hazard, `[check.site]`, has of the project, too.
 #[derive(Debug, Default, Deserialize)]
 pub(crate) struct SiteOfProject {
@@ -98,39 +93,52 @@ impl ReportTable {
 
     /// The data of the project as a table, without those that are not given; empty without any.
     pub(crate) fn project_data(&self) -> String {
+        let language = self.language;
         let texts = [
-            ("Project", &self.project),
-            ("Client", &self.client),
-            ("Owner", &self.owner),
-            ("Designer", &self.designer),
-            ("Place", &self.place),
-            ("Municipality", &self.municipality),
-            ("Land register", &self.cadastral),
-            ("Revision", &self.revision),
-            ("Source of the hazard", &self.hazard_source),
-            ("Notes", &self.notes),
+            (say!("Project", "Commessa"), &self.project),
+            (say!("Client", "Committente"), &self.client),
+            (say!("Owner", "Proprietà"), &self.owner),
+            (say!("Designer", "Progettista"), &self.designer),
+            (say!("Place", "Ubicazione"), &self.place),
+            (say!("Municipality", "Comune"), &self.municipality),
+            (say!("Land register", "Dati catastali"), &self.cadastral),
+            (say!("Revision", "Revisione"), &self.revision),
+            (say!("Source of the hazard", "Fonte dei dati di pericolosità"), &self.hazard_source),
+            (say!("Notes", "Note"), &self.notes),
         ];
-        let of = |(name, text): (&str, &Option<String>)| Some([name.to_owned(), as_written(text.as_ref()?)]);
-        let mut rows: Vec<_> = texts.into_iter().filter_map(of).collect();
+        let texts = texts.into_iter().filter_map(|(name, text)| Some((name, as_written(text.as_ref()?))));
+        let mut rows: Vec<(Sentence, String)> = texts.collect();
         if let Some([latitude, longitude]) = self.coordinates {
-            let place = format!("{}°, {}°", number(latitude, 8), number(longitude, 8));
-            rows.push(["Coordinates (latitude, longitude)".into(), place]);
+            let name =
+                say!("Coordinates (latitude, longitude)", "Coordinate geografiche (latitudine, longitudine)");
+            let [latitude, longitude] = [latitude, longitude].map(|angle| at_most(angle, 8));
+            let place = say!("{latitude}°, {longitude}°", "{latitude}°; {longitude}°", latitude, longitude);
+            rows.push((name, place.of(language).to_owned()));
         }
-        let years = |value: f64| format!("{} years", number(value, 4));
-        rows.extend(self.nominal_life.map(|life| ["Nominal life V_N".into(), years(life)]));
-        rows.extend(self.use_coefficient.map(|factor| ["Use coefficient C_U".into(), decimal(factor)]));
+        let years = |value: Written| say!("{value} years", "{value} anni", value).of(language).to_owned();
+        rows.extend(
+            self.nominal_life
+                .map(|life| (say!("Nominal life V_N", "Vita nominale V_N"), years(at_most(life, 4)))),
+        );
+        rows.extend(self.use_coefficient.map(|factor| {
+            let name = say!("Use coefficient C_U", "Coefficiente d'uso C_U");
+            (name, language.decimal(&decimal(factor)))
+        }));
         if let (Some(life), Some(factor)) = (self.nominal_life, self.use_coefficient) {
             let reference = life * factor;
-            rows.push(["Reference period V_R = V_N C_U".into(), years(reference)]);
+            let name = say!("Reference period V_R = V_N C_U", "Periodo di riferimento V_R = V_N C_U");
+            rows.push((name, years(at_most(reference, 4))));
             rows.extend(LimitState::ALL.map(|state| {
-                let exceeded = state.exceeded();
-                let name = format!("Return period T_R of {state} (probability of exceedance {} %)", {
-                    number(100.0 * exceeded, 3)
-                });
+                let name = say! {
+                    "Return period T_R of {state} (probability of exceedance {share} %)",
+                    "Periodo di ritorno T_R dello {state} (probabilità di superamento {share} %)",
+                    share = at_most(100.0 * state.exceeded(), 3), state
+                };
                 // the code prints 50, 475 and 975
-                [name, format!("{:.0} years", return_period(reference, exceeded))]
+                (name, years(fixed(return_period(reference, state.exceeded()), 0)))
             }));
         }
+        let rows: Vec<_> = rows.into_iter().map(|(name, text)| [name.markup(language), text]).collect();
         if rows.is_empty() { String::new() } else { table(&[], &rows) }
     }
 }

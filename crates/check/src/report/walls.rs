@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use run::walls::NamedWall;
 
-use super::markup::table;
-use super::project::as_written;
+use super::markup::{as_written, table};
 use super::{Origin, begun, end, finished, footer, head, sections, sheet_head};
 use crate::error::CheckError;
-use crate::verdict::Verdict;
+use crate::verdict::{Section, Verdict};
 use crate::walls::{WallCodes, WallVerdicts};
+use crate::words::{Language, Sentence, say};
 
 /// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover
 /// with the reason, and have no sheet.
@@ -18,7 +18,8 @@ use crate::walls::{WallCodes, WallVerdicts};
 /// [`CheckError`] of a demand, of a file that cannot be read again, or where no wall could be checked.
 pub fn page_of_walls(
     verdicts: &WallVerdicts<'_>,
-    (walls, codes): (&[NamedWall], &WallCodes),
+    walls: &[NamedWall],
+    codes: &WallCodes,
     origin: &Origin<'_>,
 ) -> Result<String, CheckError> {
     let checked =
@@ -28,29 +29,37 @@ pub fn page_of_walls(
         let reason = reason.map_or_else(String::new, |(name, error)| format!("; wall {name:?}: {error}"));
         return Err(CheckError::wall(format!("no wall could be checked{reason}")));
     };
+    let language = origin.report.language;
     let all = verdicts.walls.len();
     let passed = checked().filter(|(_, verdict)| verdict.passed).count();
-    let mut cover = format!("<p class=\"verdict\">{passed} of {all} walls pass</p>\n");
+    let of = |said: Sentence| said.markup(language);
+    let said = of(say! {
+        "{passed} of {all} walls pass", "Pareti che soddisfano la verifica: {passed} su {all}", passed, all
+    });
+    let mut cover = format!("<p class=\"verdict\">{said}</p>\n");
     let refused = verdicts.refused();
     if refused > 0 {
+        let said = of(say! {
+            "{refused} of {all} walls could not be checked",
+            "Pareti non verificabili: {refused} su {all}", refused, all
+        });
         // writing to a String cannot fail
-        let _ = write!(cover, "<p class=\"fails\">{refused} of {all} walls could not be checked</p>");
+        let _ = write!(cover, "<p class=\"fails\">{said}</p>");
     }
-    let rows = verdicts.table().html_with(|index| match &verdicts.walls[index].1 {
-        Ok(verdict) if verdict.passed => "",
-        _ => "fails",
-    });
     let _ = write!(
         cover,
-        "<p>Governing wall: {}</p>{}<p>The walls stand in rising order of zeta_E.</p>\
-         <div class=\"checks walls\">{rows}</div>{}",
+        "<p>{}: {}</p>{}<p>{}</p><div class=\"checks walls\">{}</div>{}",
+        of(say!("Governing wall", "Parete determinante")),
         as_written(governing),
-        head(worst, Some(governing)),
-        data(checked())
+        head(worst, Some(governing), language),
+        of(say!("The walls stand in rising order of zeta_E.", "Le pareti sono in ordine di ζ_E crescente.")),
+        verdicts.markup(language),
+        data(checked(), language)
     );
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
-    let page = begun(title, worst, "", origin).section("Summary of the walls", &cover);
-    let mut page = sections(page, worst.details.site()?);
+    let summary = Section::new(say!("Summary of the walls", "Riepilogo delle pareti"), cover);
+    let page = sections(begun(title, worst, "", origin), vec![summary], language);
+    let mut page = sections(page, worst.details.site(language)?, language);
     for (index, (name, verdict)) in checked().enumerate() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
         let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
@@ -61,31 +70,31 @@ pub fn page_of_walls(
         page = page.text(&format!(
             "<div class=\"sheet\" style=\"page: {foot}\"><h1>{}</h1>{}",
             as_written(name),
-            head(verdict, None)
+            head(verdict, None, language)
         ));
-        page = sections(sheet_head(page, verdict, &own), verdict.details.sections(&own)?).text("</div>");
+        page = sections(sheet_head(page, verdict, &own), verdict.details.sections(&own)?, language)
+            .text("</div>");
     }
-    let mut readings: Vec<String> = Vec::new();
+    let mut readings: Vec<Sentence> = Vec::new();
     for reading in checked().flat_map(|(_, verdict)| verdict.details.readings()) {
         if !readings.contains(&reading) {
             readings.push(reading);
         }
     }
-    let page = end(page, &worst.details.symbols(), &readings, origin)?;
+    let page = end(page, &worst.details.symbols(language), &readings, origin)?;
     Ok(finished(&page, title, origin))
 }
 
 /// The data of the walls and the numbers of their governing sides: a row a wall.
-fn data<'a>(walls: impl Iterator<Item = (&'a str, &'a Verdict<'a>)>) -> String {
-    let mut heads = vec!["wall".to_owned()];
+fn data<'a>(walls: impl Iterator<Item = (&'a str, &'a Verdict<'a>)>, language: Language) -> String {
+    let mut heads = vec![say!("wall", "parete").markup(language)];
     let mut rows = Vec::new();
     for (name, verdict) in walls {
-        let (own, cells): (Vec<_>, Vec<_>) = verdict.details.overview().into_iter().unzip();
+        let (own, cells): (Vec<_>, Vec<_>) = verdict.details.overview(language).into_iter().unzip();
         if rows.is_empty() {
             heads.extend(own);
         }
         rows.push([as_written(name), cells.join("</td><td>")]);
     }
-    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     format!("<div class=\"data\">{}</div>", table(&heads, &rows))
 }

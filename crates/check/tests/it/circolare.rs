@@ -34,6 +34,14 @@ pub(crate) fn checked(text: &str) -> Result<Outcome, String> {
     outcome().map_err(|error: CheckError| file.located(error).to_string())
 }
 
+/// The numbers of the sides of a wall, as JSON has them.
+pub(crate) fn sides_in_json(text: &str) -> serde_json::Value {
+    let scene = Scene::parse("scene.toml", text, Path::new(".")).unwrap();
+    let code = check::read(&CheckFile::parse("scene.toml", text).unwrap()).unwrap();
+    let verdict = code.check((&scene).into()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    verdict.json()["sides"].take()
+}
+
 /// Checks that a scene is refused with a message, which is returned whole.
 pub(crate) fn refuses(text: &str, message: &str) -> String {
     let error = checked(text).expect_err(message);

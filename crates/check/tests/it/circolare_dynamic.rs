@@ -137,7 +137,8 @@ fn records_are_scaled_to_the_spectrum() {
     assert!(found.largest < 1.3 && found.compatible == (found.least >= 0.9), "{found:?}");
     let weak = under_records(3, "record_scale = \"spectrum\"").warnings;
     let strong = under_records(3, "record_scale = \"spectrum\"\nrecord_range = [0.05, 4.0]").warnings;
-    let has = |warnings: &[String]| warnings.iter().any(|warning| warning.contains("not compatible"));
+    let has =
+        |warnings: &[check::Sentence]| warnings.iter().any(|warning| warning.contains("not compatible"));
     assert!(!has(&weak) && has(&strong), "{weak:?} {strong:?}");
 }
 

@@ -179,8 +179,8 @@ fn a_pass_by_the_raise_says_so() {
     for said in [
         "hinge as given; ",
         "sensitivity: with a1 = 0.015 zeta_E = ",
-        "alpha0 (without FC)",
-        "SLV a (with FC)",
+        "Multiplier of activation, without FC",
+        "The curve there, with FC",
     ] {
         assert!(text.contains(said), "{text}");
     }
@@ -194,7 +194,7 @@ fn the_ground_bounds_a_height() {
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
     let verdict = code.check((&scene).into()).unwrap();
     // at the roof of SLD a_Z is above it
-    let notes = verdict.notes.join(" ");
+    let notes: String = verdict.notes.iter().map(|note| format!("{note} ")).collect();
     assert!(!notes.contains("SLD: a_g S = "), "{notes}");
     let note = "SLV: a_g S = 2.953 m/s² of the ground governs at the height, above a_Z = 2.765 m/s²";
     assert!(verdict.notes.iter().any(|found| found.contains(note)), "{:?}", verdict.notes);

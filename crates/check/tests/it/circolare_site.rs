@@ -39,7 +39,7 @@ fn checked_in(folder: &Path, more: &str) -> Result<(f64, Vec<String>), String> {
     let subject = Subject { assumed: &assumed, ..(&scene).into() };
     let code = read(&file).map_err(|error| file.located(error).to_string())?;
     let verdict = code.check(subject).map_err(|error| file.located(error).to_string())?;
-    Ok((verdict.zeta, verdict.notes.clone()))
+    Ok((verdict.zeta, verdict.notes.iter().map(ToString::to_string).collect()))
 }
 
 /// By hand: T_R = −50/ln 0.9 = 474.561 years is 0.599585 of the way from 30 to 3000 by logarithms; a_g =

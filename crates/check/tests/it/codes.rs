@@ -96,12 +96,3 @@ fn every_code_gives_all_of_a_verdict() {
         assert_eq!(shown, code.checks.len(), "{name}");
     }
 }
-
-/// The glossary of the manual has the terms of reports, all of them and no others.
-#[test]
-fn the_glossary_is_the_table_of_terms() {
-    let rows: Vec<_> =
-        check::terms().map(|(english, italian)| format!("| {english} | {italian} |\n")).collect();
-    let rows = rows.concat();
-    assert!(source("../../docs/glossary.md").ends_with(&format!("| English | Italian |\n|---|---|\n{rows}")));
-}

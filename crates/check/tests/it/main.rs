@@ -18,5 +18,6 @@ mod circolare_second_ties;
 mod circolare_site;
 mod circolare_warnings;
 mod codes;
+mod formulas;
 mod messages;
 mod report;

@@ -211,13 +211,18 @@ impl Table {
 
     /// Returns the table as markup, with a class for each row; empty for none.
     pub fn html_with(&self, class: impl Fn(usize) -> &'static str) -> String {
+        self.html_by(class, escaped)
+    }
+
+    /// Returns the same markup with headings and words as `markup` makes them, such as with formulas.
+    pub fn html_by(&self, class: impl Fn(usize) -> &'static str, markup: impl Fn(&str) -> String) -> String {
         let class_of = |column: &Column| if column.is_text { "" } else { " class=\"number\"" };
         let mut text = [SCROLLS, "<table>\n<thead><tr>"].concat();
         for (_, column) in self.shown() {
             // where a table is too wide, a heading of numbers breaks between its lines only
             let space = if column.is_text { " " } else { "\u{a0}" };
             let heading = column.heading.replace(' ', space).replace('\n', " ");
-            let _ = write!(text, "<th{}>{}</th>", class_of(column), escaped(&heading));
+            let _ = write!(text, "<th{}>{}</th>", class_of(column), markup(&heading));
         }
         text += "</tr></thead>\n<tbody>\n";
         for (index, row) in self.rows.iter().enumerate() {
@@ -225,10 +230,12 @@ impl Table {
             let _ =
                 if class.is_empty() { write!(text, "<tr>") } else { write!(text, "<tr class=\"{class}\">") };
             for (k, column) in self.shown() {
-                let mut words = escaped(&column.words(&row[k]));
-                if column.is_of_user {
-                    words = format!("<span translate=\"no\">{words}</span>");
-                }
+                let words = column.words(&row[k]);
+                let words = if column.is_of_user {
+                    format!("<span translate=\"no\">{}</span>", escaped(&words))
+                } else {
+                    markup(&words)
+                };
                 let _ = write!(text, "<td{}>{words}</td>", class_of(column));
             }
             text += "</tr>\n";

@@ -140,7 +140,7 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
         let title = Path::new(file.name()).file_stem().unwrap_or_default().to_string_lossy();
         let (set, records) = (&arguments.scene.set, code.records());
         let origin = Origin { title: &title, wall: None, file, set, records, report: &report };
-        console.write(path, page_of_walls(&verdicts, (&walls, &codes), &origin)?.as_bytes())?;
+        console.write(path, page_of_walls(&verdicts, &walls, &codes, &origin)?.as_bytes())?;
     }
     console.warn(warnings.iter().chain(&code.records().warnings));
     if arguments.json {

@@ -364,7 +364,7 @@ fn hinges_have_their_own_section() {
         &[
             "least_alpha00.659",
             "worst0.80440.8003yes",
-            "min α0 = 1.465",
+            "α0,min = 1.465",
             "SLV with q0.63182.202",
             "SLV0.62740.8159",
         ],

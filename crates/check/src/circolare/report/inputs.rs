@@ -1,187 +1,294 @@
 //! The statements of the engineer, with where they come from.
 
-use crate::circolare::{Activation, Checked, LARGEST_CONFIDENCE_FACTOR, Source, Statement};
-use crate::names::LimitState;
-use crate::report::Origin;
-use ::report::escaped;
 use rocking_wall::variables::Mechanism;
 
-use crate::circolare::table::{Hinge, STRESS_BLOCK};
+use crate::circolare::outcome::Checked;
+use crate::circolare::statement::Statement;
+use crate::circolare::states::Source;
+use crate::circolare::table::{
+    Activation, AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, RecordScale, Rocks, STRESS_BLOCK,
+};
+use crate::names::LimitState;
+use crate::report::Origin;
+use crate::report::markup::{heads, table};
+use crate::words::{Sentence, at_most, say};
 
-use crate::report::markup::{formula, stated, table};
+/// What is stated, and where.
+type Stated = (Sentence, Sentence);
 
 /// Describes the statements of the engineer, and where each comes from.
 pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     let statement = case.statement;
-    let mut rows = Vec::new();
-    let mut state = |said: String, keys: &[&str]| {
+    let mut rows: Vec<Stated> = Vec::new();
+    let from = |keys: &[&str]| {
         let stated = keys.iter().find(|key| origin.file.states(&["check", key]));
-        rows.push([said, stated.map_or_else(|| "default".to_owned(), |key| format!("[check] {key}"))]);
+        let default = say!("default", "valore predefinito");
+        stated.map_or(default, |key| Sentence::same(format!("[check] {key}")))
     };
-    state(activation(case), &["before_activation"]);
+    let mut state = |said: Sentence, keys: &[&str]| rows.push((said, from(keys)));
+    state(activation(statement), &["before_activation"]);
     if case.parameters.overburden > 0.0 {
         state(overburden(case), &["overburden_mass"]);
     }
     let is_dynamic = case.outcome.dynamic.is_some();
     if let Some(rocks) = statement.table.rocking {
-        let sides = ["both sides.", "the side u > 0 only: outwards.", "the side u < 0 only: inwards."];
-        // the runs rock as the scene does
-        let wall = if is_dynamic { "In the static checks the wall" } else { "The wall" };
-        state(escaped(&format!("{wall} rocks to {}", sides[rocks as usize])), &["rocking"]);
+        state(rocking(rocks, is_dynamic), &["rocking"]);
     }
     if case.wall.tie().is_some() {
-        let said = [
-            "The tie does not count at the activation (SLD, SLV with q).",
-            "The tie pulls with its strength at the activation.",
-        ];
-        state(said[statement.at_activation() as usize].to_owned(), &["tie"]);
+        state(tie(statement.at_activation()), &["tie"]);
     }
-    state(confidence(case), &["confidence_factor", "knowledge_level"]);
+    state(confidence(statement), &["confidence_factor", "knowledge_level"]);
     state(compression(statement), &["compression_considered", "masonry_strength"]);
     if let Some(rule) = case.rule {
         state(hinge(rule, statement.hinge_range), &["hinge"]);
     }
+    let q = at_most(statement.behaviour_factor, 6);
     state(
-        format!("Behaviour factor {} = {}.", formula("q"), stated(statement.behaviour_factor)),
+        say!("Behaviour factor `q` = {q}.", "Fattore di comportamento `q` = {q}.", q),
         &["behaviour_factor"],
     );
     if let Some(class) = statement.table.use_class {
-        state(format!("Use class {class:?}."), &["use_class"]);
+        let class = format!("{class:?}");
+        state(say!("Use class {class}.", "Classe d'uso {class}.", class), &["use_class"]);
     }
-    let [method, decides, clause] = statement.by_method();
-    state(format!("{method} {decides} ({clause})."), &["method"]);
+    let (decides, clause) = statement.by_method();
+    state(say!("{decides} ({clause}).", "{decides} ({clause}).", decides, clause), &["method"]);
     if is_dynamic {
-        let peak = format!("The peak of each record is brought to {}.", formula("a_g S"));
-        let said = [
-            &*peak,
-            "The records are taken as they are.",
-            "The records are scaled to the spectrum of the ground (NTC 3.2.3.6).",
-        ];
-        state(said[statement.table.record_scale as usize].to_owned(), &["record_scale"]);
+        state(scale(statement.table.record_scale), &["record_scale"]);
     }
-    of_building(statement, &mut state);
-    if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
-        let said =
-            format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), stated(u));
-        rows.push([said, "[check] SLC displacement".to_owned()]);
-    }
-    let missing = LimitState::ALL.into_iter().filter(|state| statement.state(*state).is_none());
-    let taken = |said: String| [said, "method of the check".to_owned()];
-    let missing: Vec<_> = missing.map(|state| state.to_string()).collect();
-    let one_body = "There is one resultant of the forces on each body (C8.7.1.1), so that e* = 1.".to_owned();
-    rows.push(taken(one_body.replace("e*", &formula("e*"))));
-    if statement.states.iter().flatten().any(|state| matches!(state.source, Source::Code(_))) {
-        rows.push(taken(format!(
-            "The shape of each spectrum ({}) is held at that of the site while a_g varies.",
-            formula("F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k")
-        )));
-    }
-    if !missing.is_empty() {
-        rows.push([
-            format!("Not checked, no hazard is given: {} (NTC 8.3, 7.3.6).", missing.join(", ")),
-            "[check]".to_owned(),
-        ]);
-    }
-    format!("<div class=\"from\">{}</div>", table(&["statement", "from"], &rows))
-}
-
-/// States what the building is.
-fn of_building(statement: &Statement, state: &mut impl FnMut(String, &[&str])) {
     if statement.table.building.is_some() {
-        state("T_1 of the building is stated by the engineer.".to_owned(), &["building"]);
+        let said = say! {
+            "T_1 of the building is stated by the engineer.",
+            "T_1 dell'edificio è dichiarato dal progettista."
+        };
+        state(said, &["building"]);
     }
-    for (given, xi) in
-        statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
-    {
-        let said = format!("The building has the damping ξ_k = {} in {}.", stated(xi), given.state);
+    for given in statement.states.iter().flatten() {
+        let Some(xi) = given.building_damping else { continue };
+        let said = say! {
+            "The building has the damping ξ_k = {xi} in {name}.",
+            "L'edificio ha lo smorzamento ξ_k = {xi} allo {name}.",
+            xi = at_most(xi, 6), name = given.state
+        };
         state(said, &[given.state.key(), "building_damping"]);
     }
+    rows.extend(of_states(statement));
+    let language = origin.report.language;
+    let rows: Vec<_> =
+        rows.iter().map(|(said, from)| [said.markup(language), from.markup(language)]).collect();
+    let parts = [say!("statement", "dichiarazione"), say!("from", "provenienza")];
+    format!("<div class=\"from\">{}</div>", table(&heads(parts, language), &rows))
 }
 
-fn compression(statement: &Statement) -> String {
+/// What holds for limit states, and what the method of the check takes.
+fn of_states(statement: &Statement) -> Vec<Stated> {
+    let mut rows = Vec::new();
+    if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
+        let u = at_most(u, 6);
+        let said = say! {
+            "Something else becomes unstable at `u` = {u} m and limits SLC.",
+            "Un'altra instabilità locale a `u` = {u} m limita lo SLC.", u
+        };
+        rows.push((said, Sentence::same("[check] SLC displacement")));
+    }
+    let by_method = || say!("method of the check", "metodo della verifica");
+    let said = say! {
+        "There is one resultant of the forces on each body (C8.7.1.1), so that `e*` = 1.",
+        "Su ogni corpo agisce una sola risultante delle forze (C8.7.1.1), per cui `e*` = 1."
+    };
+    rows.push((said, by_method()));
+    if statement.states.iter().flatten().any(|state| matches!(state.source, Source::Code(_))) {
+        let said = say! {
+            "The shape of each spectrum (`F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k`) is held at that of the site \
+             while a_g varies.",
+            "La forma di ogni spettro (`F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k`) resta quella del sito al \
+             variare di a_g."
+        };
+        rows.push((said, by_method()));
+    }
+    let missing = LimitState::ALL.into_iter().filter(|state| statement.state(*state).is_none());
+    let missing: Vec<_> = missing.map(LimitState::key).collect();
+    if !missing.is_empty() {
+        let said = say! {
+            "Not checked, no hazard is given: {missing} (NTC 8.3, 7.3.6).",
+            "Non verificati: dati sismici non forniti per {missing} (NTC 8.3, 7.3.6).",
+            missing = missing.join(", ")
+        };
+        rows.push((said, Sentence::same("[check]")));
+    }
+    rows
+}
+
+fn rocking(rocks: Rocks, is_dynamic: bool) -> Sentence {
+    let sides = match rocks {
+        Rocks::TwoSided => say!("rocks to both sides.", "oscilla nei due versi."),
+        Rocks::OneSidedPositive => {
+            say!("rocks to the side u > 0 only: outwards.", "oscilla solo verso u > 0, verso l'esterno.")
+        }
+        Rocks::OneSidedNegative => {
+            say!("rocks to the side u < 0 only: inwards.", "oscilla solo verso u < 0, verso l'interno.")
+        }
+    };
+    // the runs rock as the scene does
+    if is_dynamic {
+        return say! {
+            "In the static checks the wall {sides}", "Nelle verifiche statiche la parete {sides}", sides
+        };
+    }
+    say!("The wall {sides}", "La parete {sides}", sides)
+}
+
+fn tie(at_activation: AtActivation) -> Sentence {
+    match at_activation {
+        AtActivation::None => say! {
+            "The tie does not count at the activation (SLD, SLV with q).",
+            "All'attivazione la catena non è considerata (SLD, SLV con q)."
+        },
+        AtActivation::Yield => say! {
+            "The tie pulls with its strength at the activation.",
+            "All'attivazione la catena è in tensione e agisce con la propria resistenza."
+        },
+    }
+}
+
+fn scale(scale: RecordScale) -> Sentence {
+    match scale {
+        RecordScale::Ag => say! {
+            "The peak of each record is brought to `a_g S`.",
+            "Il picco di ogni accelerogramma è portato a `a_g S`."
+        },
+        RecordScale::None => {
+            say!("The records are taken as they are.", "Gli accelerogrammi sono usati senza scalarli.")
+        }
+        RecordScale::Spectrum => say! {
+            "The records are scaled to the spectrum of the ground (NTC 3.2.3.6).",
+            "Gli accelerogrammi sono scalati allo spettro del suolo (NTC 3.2.3.6)."
+        },
+    }
+}
+
+fn compression(statement: &Statement) -> Sentence {
     let table = &statement.table;
     if let Some(strength) = table.masonry_strength.filter(|_| statement.masonry.is_some()) {
         let (gamma, block) = (table.masonry_gamma.unwrap_or(1.0), table.stress_block.unwrap_or(STRESS_BLOCK));
         // C8.7.1 asks for 2 with design values
-        let instead = if gamma == 2.0 { "" } else { " in place of 2 (C8.7.1)" };
-        let [f_m, g, k] = ["f_m", "γ", "κ"].map(formula);
-        format!(
-            "The hinges are set back for the compressive strength of the masonry: {f_m} = {} MPa, {g} = \
-             {}{instead}, {k} = {}.",
-            stated(1e-6 * strength),
-            stated(gamma),
-            stated(block)
-        )
+        let instead = if gamma == 2.0 {
+            Sentence::default()
+        } else {
+            say!(" in place of 2 (C8.7.1)", " anziché 2 (C8.7.1)")
+        };
+        say! {
+            "The hinges are set back for the compressive strength of the masonry: f_m = {strength} MPa, `γ` \
+             = {gamma}{instead}, `κ` = {block}.",
+            "Le cerniere sono arretrate per la resistenza a compressione della muratura: f_m = {strength} \
+             MPa, `γ` = {gamma}{instead}, `κ` = {block}.",
+            strength = at_most(1e-6 * strength, 6), gamma, instead, block
+        }
     } else if table.compression_considered {
-        "The hinges are set back for the compressive strength of the masonry.".into()
+        say! {
+            "The hinges are set back for the compressive strength of the masonry.",
+            "Le cerniere sono arretrate per la resistenza a compressione della muratura."
+        }
     } else {
-        "The limited compressive strength of the masonry is neglected: hinges are at the edges.".into()
+        say! {
+            "The limited compressive strength of the masonry is neglected: hinges are at the edges.",
+            "La limitata resistenza a compressione della muratura è trascurata: le cerniere sono agli \
+             spigoli."
+        }
     }
 }
 
 /// The rule on the hinge of a strip.
-fn hinge(rule: Hinge, [from, to]: [f64; 2]) -> String {
+fn hinge(rule: Hinge, range: [f64; 2]) -> Sentence {
+    let [from, to] = range.map(|end| at_most(end, 6));
     match rule {
-        Hinge::Worst => format!(
-            "Intermediate hinge: the least favourable from {} h to {} h, of each check.",
-            stated(from),
-            stated(to)
-        ),
-        Hinge::LeastAlpha0 => "Intermediate hinge: that of the least multiplier (C8.7.1.2.1.1).".into(),
-        Hinge::Given => "Intermediate hinge: as given.".into(),
+        Hinge::Worst => say! {
+            "Intermediate hinge: the least favourable from {from} h to {to} h, of each check.",
+            "Cerniera intermedia: la più sfavorevole tra {from} h e {to} h, per ogni verifica.", from, to
+        },
+        Hinge::LeastAlpha0 => say! {
+            "Intermediate hinge: that of the least multiplier (C8.7.1.2.1.1).",
+            "Cerniera intermedia: quella del moltiplicatore minimo (C8.7.1.2.1.1)."
+        },
+        Hinge::Given => say!("Intermediate hinge: as given.", "Cerniera intermedia: come fornita."),
     }
 }
 
-fn activation(case: &Checked<'_>) -> String {
-    let statement = case.statement;
+fn activation(statement: &Statement) -> Sentence {
     match statement.table.before_activation {
-        Some(Activation::Law) => {
-            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is elastic as its force law."
-                .into()
-        }
-        Some(Activation::Beam) => format!(
-            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is a uniform beam with {} = {} \
-             MPa.",
-            formula("E"),
-            stated(1e-6 * statement.table.young_modulus.unwrap_or(f64::NAN))
-        ),
-        Some(Activation::Rigid) => {
-            "The wall is held by transverse walls before it rocks (C8.7.1.2.1.5): it is rigid.".into()
-        }
-        None => "The wall rocks to one side, against transverse walls that hold it before: it is rigid \
-                 (C8.7.1.2.1.5)."
-            .into(),
+        Some(Activation::Law) => say! {
+            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is elastic as its force law.",
+            "La parete è un elemento libero di vibrare (C8.7.1.2.1.5), con il ramo elastico iniziale della \
+             sua legge."
+        },
+        Some(Activation::Beam) => say! {
+            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is a uniform beam with `E` = \
+             {modulus} MPa.",
+            "La parete è un elemento libero di vibrare (C8.7.1.2.1.5); prima dell'oscillazione è una trave \
+             uniforme con `E` = {modulus} MPa.",
+            modulus = at_most(1e-6 * statement.table.young_modulus.unwrap_or(f64::NAN), 6)
+        },
+        Some(Activation::Rigid) => say! {
+            "The wall is held by transverse walls before it rocks (C8.7.1.2.1.5): it is rigid.",
+            "La parete è vincolata alle pareti trasversali (C8.7.1.2.1.5): è infinitamente rigida fino \
+             all'attivazione."
+        },
+        None => say! {
+            "The wall rocks to one side, against transverse walls that hold it before: it is rigid \
+             (C8.7.1.2.1.5).",
+            "La parete oscilla da un solo lato, contro pareti trasversali che prima la vincolano: è \
+             infinitamente rigida (C8.7.1.2.1.5)."
+        },
     }
 }
 
-fn overburden(case: &Checked<'_>) -> String {
+fn overburden(case: &Checked<'_>) -> Sentence {
     if case.parameters.mechanism == Mechanism::VerticalSpanning {
-        return "The top is held: the mass of the overburden does not move with the wall.".into();
+        return say! {
+            "The top is held: the mass of the overburden does not move with the wall.",
+            "La sommità è trattenuta: la massa del carico non si muove con la parete."
+        };
     }
     let r = case.statement.table.overburden_mass.unwrap_or(0.0);
-    let meaning = if r == 0.0 { ": its inertia goes elsewhere" } else { "" };
-    format!(
-        "The share {} = {} of the overburden's mass moves with the wall{meaning}.",
-        formula("r"),
-        stated(r)
-    )
+    let meaning = if r == 0.0 {
+        say!(": its inertia goes elsewhere", ": la sua inerzia va altrove")
+    } else {
+        Sentence::default()
+    };
+    say! {
+        "The share `r` = {r} of the overburden's mass moves with the wall{meaning}.",
+        "La frazione `r` = {r} della massa del carico in sommità si muove con la parete{meaning}.",
+        r = at_most(r, 6), meaning
+    }
 }
 
-fn confidence(case: &Checked<'_>) -> String {
-    let statement = case.statement;
+fn confidence(statement: &Statement) -> Sentence {
     let factor = statement.confidence_factor;
-    let level = statement.table.knowledge_level;
-    let level = level.map_or_else(String::new, |level| format!(" (level of knowledge {level:?})"));
+    let level = statement.table.knowledge_level.map(|level| {
+        let level = format!("{level:?}");
+        say!(" (level of knowledge {level})", " (livello di conoscenza {level})", level)
+    });
+    let level = level.unwrap_or_default();
     let why = if statement.masonry.is_some() {
-        let applied =
-            if statement.table.masonry_over_fc == Some(false) { "a, not to f_m" } else { "a and f_m" };
-        return format!("FC = {}{level}, applied to {applied}.", stated(factor));
+        if statement.table.masonry_over_fc == Some(false) {
+            say!(", applied to a, not to f_m", ", applicato ad a e non a f_m")
+        } else {
+            say!(", applied to a and f_m", ", applicato ad a e a f_m")
+        }
     } else if statement.table.compression_considered {
-        "hinges are set back for compression, so that the level of knowledge reached counts (C8.5.4)"
+        say! {
+            ": hinges are set back for compression, so that the level of knowledge reached counts (C8.5.4)",
+            ": le cerniere sono arretrate per la compressione, per cui vale il livello di conoscenza \
+             raggiunto (C8.5.4)"
+        }
     } else if factor > LARGEST_CONFIDENCE_FACTOR {
-        "more than that of LC1"
+        say!(": more than that of LC1", ": superiore a quello di LC1")
     } else {
-        "that of LC1, which applies where the compressive strength is neglected (C8.7.1.2.1.3)"
+        say! {
+            ": that of LC1, which applies where the compressive strength is neglected (C8.7.1.2.1.3)",
+            ": quello di LC1, che vale se la resistenza a compressione è trascurata (C8.7.1.2.1.3)"
+        }
     };
-    format!("FC = {}{level}: {why}.", stated(factor))
+    let factor = at_most(factor, 6);
+    say!("FC = {factor}{level}{why}.", "FC = {factor}{level}{why}.", factor, level, why)
 }

@@ -1,15 +1,20 @@
 //! The site, what acts at the wall, and their spectra.
 
+use crate::circolare::checks::DisplacementCheck;
+use crate::circolare::demand::{Demand, MEAN_COUNTS_FROM};
 use crate::circolare::figure::{Drawn, spectra};
-use crate::circolare::{
-    BuildingTable, CheckTable, Checked, Demand, DisplacementCheck, FloorSpectrum, GroundSpectrum,
-    MEAN_COUNTS_FROM, Mode, Source, StateStatement, Topography,
-};
+use crate::circolare::floor::{FloorSpectrum, Mode};
+use crate::circolare::ground::{GroundSpectrum, Topography};
+use crate::circolare::outcome::Checked;
+use crate::circolare::states::{Source, StateStatement};
+use crate::circolare::table::{BuildingTable, CheckTable};
 use crate::error::CheckError;
 use crate::names::LimitState;
+use crate::others::storeys;
 use crate::report::Figure;
-
-use crate::report::markup::{formula, or_dash, shown, table};
+use crate::report::markup::{paragraph, table};
+use crate::verdict::Section;
+use crate::words::{Language, Sentence, Written, formula, joined, say, shown};
 
 /// A symbol with its source, its unit, and its number on the ground.
 type OfGround = (&'static str, &'static str, &'static str, fn(&GroundSpectrum) -> f64);
@@ -33,12 +38,14 @@ type Stated<'a> = (&'a StateStatement, &'a Demand);
 /// Rows of numbers, one column a limit state.
 struct Rows<'a> {
     states: Vec<Stated<'a>>,
+    language: Language,
     rows: Vec<[String; 2]>,
 }
 
 impl<'a> Rows<'a> {
-    fn new(case: &'a Checked<'_>) -> Self {
-        Self { states: case.statement.demanded(&case.demands).collect(), rows: Vec::new() }
+    fn new(case: &'a Checked<'_>, language: Language) -> Self {
+        let states = case.statement.demanded(&case.demands).collect();
+        Self { states, language, rows: Vec::new() }
     }
 
     /// Adds a row: symbol, source, unit and values, unless no limit state has one.
@@ -46,45 +53,47 @@ impl<'a> Rows<'a> {
         let values: Vec<_> = self.states.iter().map(value).collect();
         if values.iter().any(|value| value != "–") {
             let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
-            let name = format!("{}{unit} <small>{source}</small>", formula(name));
+            let name = format!("{}{unit} <small>{source}</small>", formula(&self.language.decimal(name)));
             self.rows.push([name, values.join("</td><td>")]);
         }
     }
 
     fn table(self) -> String {
-        let heads: Vec<_> = self.states.iter().map(|(given, _)| given.state.to_string()).collect();
-        let heads: Vec<&str> = std::iter::once("").chain(heads.iter().map(String::as_str)).collect();
+        let heads = self.states.iter().map(|(given, _)| given.state.to_string());
+        let heads: Vec<_> = std::iter::once(String::new()).chain(heads).collect();
         table(&heads, &self.rows)
     }
 }
 
-fn some(value: Option<f64>) -> String {
-    or_dash(value, shown)
-}
-
-fn each(values: impl Iterator<Item = f64>) -> String {
-    values.map(shown).collect::<Vec<_>>().join("; ")
+fn each(values: impl Iterator<Item = f64>, language: Language) -> String {
+    values.map(|value| language.shown(value)).collect::<Vec<_>>().join("; ")
 }
 
 /// The section of the site: its numbers, and the spectra of its ground.
-pub(in crate::circolare) fn section(case: &Checked<'_>) -> Result<Vec<(String, String)>, CheckError> {
-    let mut rows = Rows::new(case);
-    rows.row(["a_g", "[check]", "g"], |(given, _)| shown(given.ag));
+pub(in crate::circolare) fn section(
+    case: &Checked<'_>,
+    language: Language,
+) -> Result<Vec<Section>, CheckError> {
+    let mut rows = Rows::new(case, language);
+    let some = |value: Option<f64>| language.or_dash(value);
+    rows.row(["a_g", "[check]", "g"], |(given, _)| language.shown(given.ag));
     for (name, source, unit, value) in GROUND {
         rows.row([name, source, unit], |(_, demand)| some(demand.ground().map(value)));
     }
     rows.row(["a_g S", "[3.2.2]", "m/s²"], |(_, demand)| {
         some(demand.ground().map(|ground| ground.acceleration(0.0, 0.05)))
     });
-    Ok(vec![("Site hazard".to_owned(), ground_of(case) + &rows.table() + &of_ground(case)?)])
+    let markup = ground_of(case, language) + &rows.table() + &of_ground(case, language)?;
+    Ok(vec![Section::new(say!("Site hazard", "Pericolosità sismica del sito"), markup)])
 }
 
 /// What acts at the place of the wall: its numbers, and its spectra.
-pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
-    let mut rows = Rows::new(case);
-    rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| shown(given.damping));
+pub(super) fn at_wall(case: &Checked<'_>, language: Language) -> Result<String, CheckError> {
+    let mut rows = Rows::new(case, language);
+    let some = |value: Option<f64>| language.or_dash(value);
+    rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| language.shown(given.damping));
     let modes = |demand: &Demand, value: fn(&FloorSpectrum, &Mode) -> f64| {
-        let of = |floor: &FloorSpectrum| each(floor.modes().iter().map(|mode| value(floor, mode)));
+        let of = |floor: &FloorSpectrum| each(floor.modes().iter().map(|mode| value(floor, mode)), language);
         demand.floor().map_or_else(|| "–".to_owned(), of)
     };
     rows.row(["T_k", "C7.2.3", "s"], |(_, demand)| modes(demand, |_, mode| mode.period));
@@ -95,7 +104,7 @@ pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     });
     rows.row(["a_Z,k = S_e(T_k, ξ_k) γ_k ψ_k √(1 + 4 ξ_k²)", "[C7.2.7]", "m/s²"], |(_, demand)| {
         let accelerations = demand.floor().map(|floor| floor.mode_accelerations().iter().copied());
-        accelerations.map_or_else(|| "–".to_owned(), each)
+        accelerations.map_or_else(|| "–".to_owned(), |values| each(values, language))
     });
     rows.row(["a_Z = √(Σ a_Z,k²)", "[C7.2.8]", "m/s²"], |(_, demand)| {
         some(demand.floor().map(FloorSpectrum::printed_peak))
@@ -103,22 +112,28 @@ pub(super) fn at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     rows.row(["A = 1.1 ξ_k^−0.5 η(ξ)", "[C7.2.9]", ""], |(given, demand)| {
         some(demand.floor().map(|floor| floor.amplification(given.damping)))
     });
-    Ok(place(case) + &rows.table() + &spectra_at_wall(case)?)
+    let place = place(case).map_or_else(String::new, |place| paragraph(&place, language));
+    Ok(place + &rows.table() + &spectra_at_wall(case, language)?)
 }
 
 /// Soil and topography.
-fn ground_of(case: &Checked<'_>) -> String {
+fn ground_of(case: &Checked<'_>, language: Language) -> String {
     let CheckTable { soil: Some(soil), topography, .. } = &case.statement.table else { return String::new() };
     let topography = match topography {
-        None => "T1 (default)".to_owned(),
-        Some(Topography::Category(category)) => format!("{category:?}"),
-        Some(Topography::Factor(factor)) => shown(*factor),
+        None => say!("T1 (default)", "T1 (valore predefinito)"),
+        Some(Topography::Category(category)) => Sentence::same(format!("{category:?}")),
+        Some(Topography::Factor(factor)) => say!("{factor}", "{factor}", factor = Written(shown(*factor))),
     };
-    format!("<p>Soil {soil:?}, topography {topography}.</p>\n")
+    let soil = format!("{soil:?}");
+    let said = say! {
+        "Soil {soil}, topography {topography}.",
+        "Sottosuolo {soil}, topografia {topography}.", soil, topography
+    };
+    paragraph(&said, language)
 }
 
-/// Describes where the wall stands.
-fn place(case: &Checked<'_>) -> String {
+/// Describes where the wall stands; `None` where nothing is to be said.
+fn place(case: &Checked<'_>) -> Option<Sentence> {
     let mut said = Vec::new();
     let building = &case.statement.table.building;
     if let Some(BuildingTable {
@@ -128,42 +143,47 @@ fn place(case: &Checked<'_>) -> String {
         ..
     }) = building
     {
-        let [period, ratio] = [*period, *ratio].map(shown);
-        said.push(format!(
+        said.push(say! {
             "Building of {storeys} storeys with T_1 = {period} s, linear shape of its first mode, wall at \
-             {} = {ratio}: {}, {} ([check] building, [C7.2.10]); {} and {} in [C7.2.6]",
-            formula("z/H"),
-            formula("γ_1 = 3n/(2n + 1)"),
-            formula("ψ_1 = z/H"),
-            formula("a = 0.8"),
-            formula("b = 1.1")
-        ));
+             `z/H` = {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([check] building, [C7.2.10]); `a = 0.8` and \
+             `b = 1.1` in [C7.2.6]",
+            "Edificio di {storeys} piani con T_1 = {period} s, prima forma modale lineare, parete a `z/H` = \
+             {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([check] building, [C7.2.10]); `a = 0,8` e `b = 1,1` \
+             nella [C7.2.6]",
+            storeys = storeys.to_string(), period = Written(shown(*period)), ratio = Written(shown(*ratio))
+        });
     } else if building.is_some() {
-        said.push("Modes of the building as given in [check.building]".into());
+        said.push(say! {
+            "Modes of the building as given in [check.building]",
+            "Modi dell'edificio come forniti in [check.building]"
+        });
     } else if let Some(floors) = case.floors {
-        said.push(format!("The motion of the ground is {}", ::report::escaped(&floors.note())));
+        let of = storeys(floors);
+        said.push(say!("The motion of the ground is {of}", "Il moto del suolo è {of}", of));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {
-        said.push("The wall stands on the ground".into());
+        said.push(say!("The wall stands on the ground", "La parete poggia al suolo"));
     }
+    let enough = case.statement.records.named.len() >= MEAN_COUNTS_FROM;
     for given in case.statement.states.iter().flatten() {
         let state = given.state;
-        match &given.source {
-            Source::Code(_) => {}
-            Source::Points(points, xi) => said.push(format!(
-                "{state}: spectrum at the wall's place, given by {} points at {} % damping",
-                points.len(),
-                shown(100.0 * xi)
-            )),
-            Source::Records => said.push(format!("{state}: {} of the records", combined(case))),
-        }
+        said.extend(match &given.source {
+            Source::Code(_) => None,
+            Source::Points(points, xi) => Some(say! {
+                "{state}: spectrum at the wall's place, given by {count} points at {percent} % damping",
+                "{state}: spettro alla quota della parete, fornito per {count} punti con smorzamento del \
+                 {percent} %", state, count = points.len(), percent = Written(shown(100.0 * xi))
+            }),
+            Source::Records if enough => Some(say! {
+                "{state}: mean spectrum of the records", "{state}: spettro medio degli accelerogrammi", state
+            }),
+            Source::Records => Some(say! {
+                "{state}: envelope of the spectra of the records",
+                "{state}: inviluppo degli spettri degli accelerogrammi", state
+            }),
+        });
     }
-    if said.is_empty() { String::new() } else { format!("<p>{}.</p>\n", said.join("; ")) }
-}
-
-/// Describes how the spectra of the records are combined.
-fn combined(case: &Checked<'_>) -> &'static str {
-    let enough = case.statement.records.named.len() >= MEAN_COUNTS_FROM;
-    if enough { "mean spectrum" } else { "envelope of the spectra" }
+    let all = joined(&said, "; ");
+    (!said.is_empty()).then(|| say!("{all}.", "{all}.", all))
 }
 
 /// The period of the governing side in each limit state; 0 for a rigid wall, `None` without a check \[s\].
@@ -179,7 +199,7 @@ fn last_period(case: &Checked<'_>) -> f64 {
 }
 
 /// The spectra of the ground; empty where none is by the code.
-fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
+fn of_ground(case: &Checked<'_>, language: Language) -> Result<String, CheckError> {
     let grounds: Vec<_> = case
         .statement
         .demanded(&case.demands)
@@ -191,12 +211,14 @@ fn of_ground(case: &Checked<'_>) -> Result<String, CheckError> {
     if drawn.is_empty() {
         return Ok(String::new());
     }
-    let caption = format!("Site: {} at 5 % damping [3.2.2].", formula("S_e(T)"));
-    Ok(Figure { caption, plot: spectra(&drawn, "S_e (m/s²)", last_period(case))? }.html())
+    let caption =
+        say!("Site: `S_e(T)` at 5 % damping [3.2.2].", "Sito: `S_e(T)` con smorzamento del 5 % [3.2.2].");
+    let plot = spectra(&drawn, "S_e (m/s²)", last_period(case), language)?;
+    Ok(Figure { caption: caption.markup(language), plot }.html(language))
 }
 
 /// The spectra at the wall's place with the periods of the governing side.
-fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
+fn spectra_at_wall(case: &Checked<'_>, language: Language) -> Result<String, CheckError> {
     let periods = periods(case);
     // points of another damping have no value for a check that is not made
     let drawn = case.statement.demanded(&case.demands).filter_map(|(given, demand)| {
@@ -210,12 +232,13 @@ fn spectra_at_wall(case: &Checked<'_>) -> Result<String, CheckError> {
     let is_of_code = case.statement.demanded(&case.demands).any(|(_, demand)| demand.ground().is_some());
     let at_height = drawn.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
     let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
-    let source = if is_of_code { source } else { "as given" };
-    let caption = format!(
-        "At the wall: {} {source} at the damping of the mechanism; ▲ {} of the governing side.",
-        formula(&format!("{symbol}(T, ξ)")),
-        formula("T0, T_SLV, T_SLC")
-    );
-    let plot = spectra(&drawn, &format!("{symbol} (m/s²)"), last_period(case))?;
-    Ok(Figure { caption, plot }.html())
+    let source = if is_of_code { Sentence::same(source) } else { say!("as given", "come fornito") };
+    let caption = say! {
+        "At the wall: `{symbol}(T, ξ)` {source} at the damping of the mechanism; ▲ `T0`, T_SLV, T_SLC of the \
+         governing side.",
+        "Alla parete: `{symbol}(T, ξ)` {source} con lo smorzamento del meccanismo; ▲ `T0`, T_SLV, T_SLC del \
+         verso determinante.", symbol, source
+    };
+    let plot = spectra(&drawn, &format!("{symbol} (m/s²)"), last_period(case), language)?;
+    Ok(Figure { caption: caption.markup(language), plot }.html(language))
 }

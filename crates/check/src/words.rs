@@ -1,0 +1,399 @@
+//! What is told to people: English and Italian, side by side where their author writes them.
+//!
+//! ```
+//! use check::{Language, Sentence};
+//!
+//! let said = Sentence::new("It holds.", "La parete regge.");
+//! assert_eq!((&*said, said.of(Language::It)), ("It holds.", "La parete regge."));
+//! ```
+
+use std::fmt;
+use std::ops::Deref;
+
+use ::report::table::{Cell, Table, significant};
+use ::report::{escaped, number};
+use serde::{Deserialize, Serialize, Serializer};
+
+use crate::names::{Deciding, LimitState};
+
+/// Makes a [`Sentence`]: English, Italian, and the values of the gaps of both, as
+/// `say!("{d} mm", "{d} mm", d = at_most(d, 4))`. A gap that one of both lacks is an unused variable.
+macro_rules! say {
+    (@of $name:ident) => { &$name };
+    (@of $name:ident $value:expr) => { &$value };
+    ($en:literal, $it:literal $(, $name:ident $(= $value:expr)?)* $(,)?) => {{
+        $(let $name = $crate::words::InWords::in_words($crate::words::say!(@of $name $($value)?));)*
+        #[allow(clippy::useless_format, reason = "a text without gaps is one, too")]
+        let both = [
+            { $(let $name = $name.of($crate::words::Language::En);)* format!($en) },
+            { $(let $name = $name.of($crate::words::Language::It);)* format!($it) },
+        ];
+        let [en, it] = both;
+        $crate::words::Sentence::new(en, it)
+    }};
+}
+pub(crate) use say;
+
+/// The language of a report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    /// English.
+    #[default]
+    En,
+    /// Italian.
+    It,
+}
+
+impl Language {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::En, Self::It];
+
+    /// Returns the value of the key `language`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::En => "en",
+            Self::It => "it",
+        }
+    }
+
+    /// A text with numbers, none of which is a clause: Italian has decimal commas.
+    pub(crate) fn decimal(self, text: &str) -> String {
+        let is_digit = |letter: Option<char>| letter.is_some_and(|letter| letter.is_ascii_digit());
+        if self == Self::En {
+            return text.to_owned();
+        }
+        let mut written = String::with_capacity(text.len());
+        let mut rest = text.chars().peekable();
+        while let Some(letter) = rest.next() {
+            let is_point =
+                letter == '.' && is_digit(written.chars().last()) && is_digit(rest.peek().copied());
+            written.push(if is_point { ',' } else { letter });
+        }
+        written
+    }
+
+    /// A number that is computed, as a report has it.
+    pub(crate) fn shown(self, value: f64) -> String {
+        self.decimal(&shown(value))
+    }
+
+    /// A number that the engineer states, as it was written.
+    pub(crate) fn stated(self, value: f64) -> String {
+        self.decimal(&number(value, 6))
+    }
+
+    /// The text of a number; a dash without one.
+    pub(crate) fn or_dash(self, value: Option<f64>) -> String {
+        value.map_or_else(|| "–".to_owned(), |value| self.shown(value))
+    }
+
+    /// The same table with the numbers of people in this language.
+    pub(crate) fn table(self, mut table: Table) -> Table {
+        for row in &mut table.rows {
+            for (cell, column) in row.iter_mut().zip(&table.columns) {
+                if self == Self::It && !matches!(cell, Cell::Text(_)) {
+                    *cell = match &*cell {
+                        Cell::Flag(flag) => said(*flag).of(self).to_owned().into(),
+                        other => self.decimal(&column.words(other)).into(),
+                    };
+                }
+            }
+        }
+        table
+    }
+}
+
+/// A text in both languages. As a value, and in JSON, it is the English one.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Sentence {
+    en: String,
+    it: String,
+}
+
+impl Sentence {
+    /// Makes a text of its two forms.
+    pub fn new(en: impl Into<String>, it: impl Into<String>) -> Self {
+        Self { en: en.into(), it: it.into() }
+    }
+
+    /// Makes a text that is the same in both languages: a symbol, or what the user writes.
+    pub fn same(text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self { it: text.clone(), en: text }
+    }
+
+    /// The text in a language.
+    pub fn of(&self, language: Language) -> &str {
+        match language {
+            Language::En => &self.en,
+            Language::It => &self.it,
+        }
+    }
+
+    /// The text in a language as markup, with its symbols as formulas.
+    pub(crate) fn markup(&self, language: Language) -> String {
+        markup(self.of(language))
+    }
+
+    /// The same as markup in both languages.
+    pub(crate) fn as_markup(&self) -> Self {
+        Self { en: markup(&self.en), it: markup(&self.it) }
+    }
+}
+
+impl From<&str> for Sentence {
+    fn from(text: &str) -> Self {
+        Self::same(text)
+    }
+}
+
+impl Deref for Sentence {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.en
+    }
+}
+
+impl fmt::Display for Sentence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.en)
+    }
+}
+
+impl Serialize for Sentence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.en)
+    }
+}
+
+/// What fills a gap of a sentence.
+pub(crate) trait InWords {
+    /// Its text in both languages.
+    fn in_words(&self) -> Sentence;
+}
+
+/// A number as it is written in English; Italian has a decimal comma.
+#[derive(Clone, Debug)]
+pub(crate) struct Written(pub(crate) String);
+
+/// A number with at most so many digits.
+pub(crate) fn at_most(value: f64, digits: usize) -> Written {
+    Written(number(value, digits))
+}
+
+/// A number with so many decimals.
+pub(crate) fn fixed(value: f64, decimals: usize) -> Written {
+    Written(format!("{value:.decimals$}"))
+}
+
+/// Two numbers that are compared, with at most so many digits, or as many more as tell them apart.
+pub(crate) fn apart(values: [f64; 2], digits: usize) -> [Written; 2] {
+    ::report::apart(values, digits).map(Written)
+}
+
+/// A number that is computed, as a report has it: with four digits, and fewer only where they are all.
+pub(crate) fn shown(value: f64) -> String {
+    let text = number(value, 4);
+    let is_whole = text.parse().is_ok_and(|read: f64| (read - value).abs() <= 1e-9 * value.abs());
+    let is_near = (1e-3..1e6).contains(&value.abs());
+    if is_whole || !is_near { text } else { significant(value, 4) }
+}
+
+impl InWords for Written {
+    fn in_words(&self) -> Sentence {
+        Sentence::new(&*self.0, self.0.replace('.', ","))
+    }
+}
+
+impl InWords for f64 {
+    fn in_words(&self) -> Sentence {
+        Written(self.to_string()).in_words()
+    }
+}
+
+impl InWords for usize {
+    fn in_words(&self) -> Sentence {
+        Sentence::same(self.to_string())
+    }
+}
+
+impl InWords for Sentence {
+    fn in_words(&self) -> Sentence {
+        self.clone()
+    }
+}
+
+impl InWords for LimitState {
+    fn in_words(&self) -> Sentence {
+        Sentence::same(self.key())
+    }
+}
+
+impl InWords for Deciding {
+    fn in_words(&self) -> Sentence {
+        match self {
+            Self::SlvWithQ => say!("SLV with q", "SLV con q"),
+            _ => Sentence::same(self.name()),
+        }
+    }
+}
+
+impl InWords for str {
+    fn in_words(&self) -> Sentence {
+        Sentence::same(self)
+    }
+}
+
+impl InWords for String {
+    fn in_words(&self) -> Sentence {
+        Sentence::same(&**self)
+    }
+}
+
+impl<T: InWords + ?Sized> InWords for &T {
+    fn in_words(&self) -> Sentence {
+        (**self).in_words()
+    }
+}
+
+/// Sentences one after the other, with something between them.
+pub(crate) fn joined<'a>(all: impl IntoIterator<Item = &'a Sentence> + Clone, between: &str) -> Sentence {
+    let of = |language| {
+        let parts: Vec<_> = all.clone().into_iter().map(|one| one.of(language)).collect();
+        parts.join(between)
+    };
+    Sentence::new(of(Language::En), of(Language::It))
+}
+
+/// Yes or no.
+pub(crate) fn said(flag: bool) -> Sentence {
+    if flag { say!("yes", "sì") } else { say!("no", "no") }
+}
+
+/// Whether something passes.
+pub(crate) fn passed(is_passed: bool) -> Sentence {
+    if is_passed {
+        say!("passed", "verifica soddisfatta")
+    } else {
+        say!("not passed", "verifica non soddisfatta")
+    }
+}
+
+/// A side by its name, `u > 0`, `u < 0` or `both sides`.
+pub(crate) fn side(name: &str) -> Sentence {
+    if name == "both sides" { say!("both sides", "entrambi i versi") } else { Sentence::same(name) }
+}
+
+/// Symbols with an index that sentences and tables have. Names of keys, files and walls may look alike.
+const SYMBOLS: [&str; 42] = [
+    "a_0", "a_1", "a_max", "a_g", "a_g,SLD", "a_g,cap", "a_s", "a_y", "a_Z", "C_U", "d_0", "d_1", "d_s",
+    "d_SLC", "d_SLV", "d_u", "d_y", "f_d", "f_m", "N_y", "S_a", "S_d", "S_e", "S_eZ", "S_S", "S_T", "T_1",
+    "T_B", "T_C", "T_D", "T_R", "T_s", "T_SLC", "T_SLV", "u_0", "u_ins", "u_r", "u_y", "k_0", "V_N", "V_R",
+    "ξ_k",
+];
+
+/// A text as markup: what stands between grave accents, and symbols with an index, are formulas.
+pub(crate) fn markup(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    parts.map(|(index, part)| if index % 2 == 1 { formula(part) } else { with_symbols(part) }).collect()
+}
+
+/// A text as markup with its symbols as formulas: `a_g`, `zeta_E`, `alpha0`.
+fn with_symbols(text: &str) -> String {
+    let belongs = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | ',' | '.');
+    let (mut markup, mut rest) = (String::new(), text);
+    while let Some(from) = rest.find(|letter: char| letter.is_alphanumeric() || letter == '_') {
+        markup += &escaped(&rest[..from]);
+        rest = &rest[from..];
+        // the point of a file's name belongs to it
+        let word = leading(rest, belongs).trim_end_matches([',', '.']);
+        rest = &rest[word.len()..];
+        match word {
+            "zeta_E" | "ζ_E" => markup += &formula("ζ_E"),
+            "alpha0" | "α0" => markup += &formula("α0"),
+            _ if SYMBOLS.contains(&word) => markup += &formula(word),
+            _ => markup += &escaped(word),
+        }
+    }
+    markup + &escaped(rest)
+}
+
+/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices;
+/// the number behind `^` is a power.
+pub(crate) fn formula(text: &str) -> String {
+    let (mut markup, mut rest) = (String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        if !first.is_alphabetic() {
+            markup.push_str(&escaped(&first.to_string()));
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let word = leading(rest, char::is_alphabetic);
+        rest = &rest[word.len()..];
+        let is_symbol = word.chars().count() == 1 && word != "π";
+        markup += &if is_symbol { format!("<i>{word}</i>") } else { word.to_owned() };
+        let index = match rest.strip_prefix('_') {
+            Some(after) => {
+                rest = after;
+                leading(rest, |letter| letter.is_alphabetic() || letter.is_ascii_digit() || letter == ',')
+            }
+            None if is_symbol => leading(rest, |letter| letter.is_ascii_digit()),
+            None => "",
+        };
+        // a comma at the end separates
+        let index = index.trim_end_matches(',');
+        if !index.is_empty() {
+            markup += &format!("<sub>{index}</sub>");
+            rest = &rest[index.len()..];
+        }
+    }
+    raised(&markup)
+}
+
+/// Raises the powers of a formula as markup: the number behind `^`.
+pub(crate) fn raised(markup: &str) -> String {
+    let mut parts = markup.split('^');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let power = leading(part, |letter| letter.is_ascii_digit() || matches!(letter, '.' | ',' | '−'));
+        text.extend(["<sup>", power, "</sup>", &part[power.len()..]]);
+    }
+    text
+}
+
+pub(crate) fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
+    &text[..text.find(|letter| !belongs(letter)).unwrap_or(text.len())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_languages_have_the_same_numbers() {
+        let said =
+            say!("a_g = {ag} g at {state}", "{state}: a_g = {ag} g", ag = 0.15, state = LimitState::Slv);
+        assert_eq!((&*said, said.of(Language::It)), ("a_g = 0.15 g at SLV", "SLV: a_g = 0,15 g"));
+        assert_eq!(Language::It.decimal("1.1 T_1 = 0.5, 17."), "1,1 T_1 = 0,5, 17.");
+    }
+
+    #[test]
+    fn symbols_of_sentences_are_formulas() {
+        let markup = |text: &str| Sentence::same(text).markup(Language::En);
+        let written = "<i>ζ</i><sub>E</sub> of <i>a</i><sub>g,SLD</sub>, and <i>T</i><sub>C</sub>* of \
+                       <i>α</i><sub>0</sub> by tie_strength &gt; 1.";
+        assert_eq!(markup("zeta_E of a_g,SLD, and T_C* of alpha0 by tie_strength > 1."), written);
+        assert_eq!(markup("u_start of a_g.csv, `T0`."), "u_start of a_g.csv, <i>T</i><sub>0</sub>.");
+        assert_eq!(formula("κ_1 T^−0.5"), "<i>κ</i><sub>1</sub> <i>T</i><sup>−0.5</sup>");
+    }
+
+    #[test]
+    fn zeros_are_digits_of_rounded_numbers() {
+        let numbers = [(13.9979, "14.00"), (2.4, "2.4"), (1.30049, "1.300"), (-0.5, "-0.5"), (0.0, "0")];
+        for (value, text) in numbers {
+            assert_eq!(shown(value), text);
+        }
+    }
+}
