@@ -28,7 +28,8 @@ fn motions_stronger_than_any_record_are_warned_of() {
     let folder = folder("strong_motions");
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
     write("s.toml", "[motion]\nsynthetic = {}\npga = 3000\n");
-    write("top.toml", "[motion]\nrecord = \"r.csv\"\ntop = { record = \"r.csv\", scale = 1000 }\n");
+    let top = "geometry = { mechanism = \"vertical_spanning\" }\n[motion]\nrecord = \"r.csv\"\n";
+    write("top.toml", &format!("{top}top = {{ record = \"r.csv\", scale = 1000 }}\n"));
     write("pulse.toml", "[motion]\nsine_cycle = { amplitude = 3000, frequency = 1 }\n");
     write("r.csv", "t [s],a [m/s2]\n0,0\n0.1,3\n0.2,-3\n0.3,0\n");
     let walls = "[[walls]]\nname = \"a\"\ngeometry = { height = 2, thickness = 0.3 }\n";
