@@ -34,8 +34,6 @@ pub struct Progress {
     pub overturn_time: Option<f64>,
     /// When the tie of each side broke, u > 0 first \[s\].
     pub tie_breaks: [Option<f64>; 2],
-    /// A drift has been given, so that its couple acts on the supports.
-    pub drift: bool,
     /// Work so far.
     pub work: Work,
 }
@@ -103,10 +101,9 @@ impl Simulation {
         motion.wall().check_start(parameters.u_start).map_err(doubts)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
-        let drift = support.drift != 0.0;
         let broken = |sign: f64| motion.wall().tie().is_some_and(|tie| tie.is_broken(sign, &state.tie));
         let tie_breaks = [1.0, -1.0].map(|sign| broken(sign).then_some(time));
-        let progress = Progress { time, state, overturn_time, tie_breaks, drift, work: Work::default() };
+        let progress = Progress { time, state, overturn_time, tie_breaks, work: Work::default() };
         let mut simulation = Self { first: Arc::new(motion), progress, memo: Memo::default() };
         simulation.prepare(&state);
         Ok(simulation)
@@ -237,7 +234,7 @@ impl Simulation {
     fn pass_calm_steps(&mut self, end: f64, motion: &Excitation, demands: &Demands) {
         let time = self.progress.time;
         let step = motion.bottom().step();
-        if end - time < FEWEST_CALM * step || self.progress.drift {
+        if end - time < FEWEST_CALM * step {
             return;
         }
         let Some((first, accelerations)) = motion.samples_from(time) else { return };
@@ -263,11 +260,10 @@ impl Simulation {
     ) -> Result<(), SolverError> {
         let body = self.first.wall().body();
         let Progress { time, state: State { velocity: velocity_before, departed, .. }, .. } = self.progress;
-        let drift = self.progress.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
-        let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
-        let watch = demands.as_deref_mut().map(|demands| (demands, time, drift));
+        let with_couple = !departed && body.mechanism == Mechanism::VerticalSpanning;
+        let watch = demands.as_deref_mut().map(|demands| (demands, time));
         let state = &mut self.progress.state;
-        let report = self.first.advance_watched(state, segment, integral, &mut self.memo, watch)?;
+        let report = self.first.advance_watched(state, segment, with_couple, &mut self.memo, watch)?;
         step.overturned |= report.overturning.is_some();
         step.departed |= report.departure.is_some();
         step.put_to_rest |= report.put_to_rest;
@@ -277,18 +273,13 @@ impl Simulation {
             let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
             let integrate = |from: f64, to: f64| length * (from + 0.5 * (to - from) * fraction);
             let (from, to) = (segment.from, segment.to);
-            let supports = [integrate(from.bottom, to.bottom), integrate(from.top, to.top)];
-            let couple = if integral {
-                body.couple(report.displacement_integral, integrate(from.drift, to.drift))
-            } else {
-                0.0
-            };
-            let Ends { bottom, top } = body.impulses(supports, velocity - velocity_before, couple);
+            let supports = from.with(to, integrate);
+            let Ends { bottom, top } =
+                body.reactions(supports, velocity - velocity_before, report.couple_impulse);
             step.impulses.bottom += bottom;
             step.impulses.top += top;
         }
         self.progress.time += segment.duration;
-        self.progress.drift = drift;
         self.progress.work.add(report.work);
         if let (None, Some(offset)) = (self.progress.overturn_time, report.overturning) {
             self.progress.overturn_time = Some(time + offset);

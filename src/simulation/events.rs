@@ -51,14 +51,13 @@ impl Simulation {
             *of_side = of_side.or(Some(self.progress.time));
         }
         self.progress.work.add(event.work);
-        self.progress.drift |= support.drift != 0.0;
         if event.overturned && self.progress.overturn_time.is_none() {
             self.progress.overturn_time = Some(self.progress.time);
         }
         let impulses = if before.departed {
             Ends::default()
         } else {
-            body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
+            body.reactions(Support::default(), event.velocity_jump, 0.0)
         };
         let motion =
             |state: State| (state.branch, state.phase, state.displacement, state.velocity, state.tie);
@@ -67,13 +66,12 @@ impl Simulation {
     }
 
     /// Accepts the present time and motion as those of a completed step.
-    pub fn complete_step(&mut self, rising: bool, support: Support) {
+    pub fn complete_step(&mut self, rising: bool) {
         // what a tie that yields has reached is remembered even where the other side has gone farther
         let branch = &self.wall().branches()[self.progress.state.branch];
         if rising || branch.yielding_side().is_some() {
             let state = &mut self.progress.state;
             state.peaks.include(state.displacement);
         }
-        self.progress.drift |= support.drift != 0.0;
     }
 }

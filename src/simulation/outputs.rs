@@ -38,24 +38,21 @@ impl Simulation {
         let forcing = body.forcing(support);
         // the part of the forcing that is not acceleration of the supports: W d/h
         let pull = forcing - body.forcing(Support { drift: 0.0, ..support });
-        let (acceleration, restoring, damping) = match phase {
+        let (acceleration, restoring, damping, couple) = match phase {
             Phase::Moving => {
                 let restoring = wall.restoring(branch, displacement);
                 let acceleration = match wall.rotations() {
                     None => forcing - damping - restoring,
                     Some(_) => wall.acceleration(branch, displacement, velocity, forcing),
                 };
-                (acceleration, restoring - pull, damping)
+                let couple = wall.branches()[branch].couple.at(displacement);
+                (acceleration, restoring - pull, damping, couple)
             }
-            Phase::Resting => (0.0, forcing - pull, 0.0),
-            Phase::Landed => (0.0, 0.0, 0.0),
+            Phase::Resting => (0.0, forcing - pull, 0.0, wall.couple_at_rest(forcing).at(forcing)),
+            Phase::Landed => (0.0, 0.0, 0.0, 0.0),
         };
-        let reactions = if departed {
-            Ends::default()
-        } else {
-            let drift = self.progress.drift || support.drift != 0.0;
-            body.reactions(support, acceleration, displacement, drift)
-        };
+        let reactions =
+            if departed { Ends::default() } else { body.reactions(support, acceleration, couple) };
         Outputs {
             displacement,
             velocity,
@@ -90,7 +87,7 @@ impl Simulation {
     }
 
     /// Returns the derivative of the outputs along a change of u, of u̇ and of the supports' motion, which is
-    /// `support` now. A change of drift includes that of its couple.
+    /// `support` now.
     ///
     /// # Panics
     /// If the wall moves in full rotations.
@@ -120,12 +117,14 @@ impl Simulation {
             Phase::Resting => (0.0, forcing - pull, 0.0),
             Phase::Landed => (0.0, 0.0, 0.0),
         };
-        let drift = self.progress.drift || support.drift != 0.0 || change.drift != 0.0;
         let reactions = match phase {
             Phase::Landed => Ends::default(),
             _ if departed => Ends::default(),
-            Phase::Moving => body.reactions(change, acceleration, du, drift),
-            Phase::Resting => body.reactions(change, acceleration, 0.0, drift),
+            Phase::Moving => body.reactions(change, acceleration, branch.couple.slope * du),
+            Phase::Resting => {
+                let couple = wall.couple_at_rest(body.forcing(support));
+                body.reactions(change, acceleration, couple.slope * forcing)
+            }
         };
         Outputs {
             displacement: du,

@@ -259,7 +259,7 @@ pub(super) fn newmark_step(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wall::{BranchDamping, Line, TieAction};
+    use crate::wall::{BranchDamping, Couple, Line, TieAction};
 
     /// The series of one law and the recurrence for any give the same motion, also with a tie.
     #[test]
@@ -272,9 +272,9 @@ mod tests {
                 [(0.1, 0.3, -5.0), (0.25, -0.4, -5.0), (0.02, 0.1, 40.0)]
             {
                 let force = stiffness * (0.02 - own.anchor);
-                let tie = TieAction::None;
-                let branch =
-                    Branch { lower: 0.01, upper: 0.3, anchor: 0.02, force, stiffness, own, tie, damping };
+                let (lower, upper, anchor) = (0.01, 0.3, 0.02);
+                let (tie, couple) = (TieAction::None, Couple::default());
+                let branch = Branch { lower, upper, anchor, force, stiffness, own, tie, couple, damping };
                 let start = KinematicState { displacement, velocity, acceleration: 0.0 };
                 let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 1.0, 0.01, tolerances);
                 let secant = Secant::new(&branch).expect("secant damping");
@@ -305,8 +305,9 @@ mod tests {
         let mut far = 0;
         for damping in [BranchDamping::SecantRatio(0.1), BranchDamping::SecantStiffness(0.05)] {
             let (lower, upper) = (0.01, 0.3 * (1.0 - 1e-10));
-            let tie = TieAction::None;
-            let branch = Branch { lower, upper, anchor: 0.3, force: 0.0, stiffness: -5.0, own, tie, damping };
+            let (anchor, force, stiffness) = (0.3, 0.0, -5.0);
+            let (tie, couple) = (TieAction::None, Couple::default());
+            let branch = Branch { lower, upper, anchor, force, stiffness, own, tie, couple, damping };
             let secant = Secant::new(&branch).expect("secant damping");
             let series = |now: [f64; 2], time: f64, length: f64, tolerance: f64| {
                 let tolerances = Tolerances { displacement: tolerance, velocity: tolerance };

@@ -9,9 +9,10 @@ use super::motion::Motion;
 use super::run::Run;
 use super::state::{Phase, Report, Segment, SolverError, State, Work};
 use super::watch::Watch;
+use crate::wall::Couple;
 
 impl Motion {
-    /// Moves `state` through a segment. With `integral`, the report contains ∫u dt. `memo` keeps the
+    /// Moves `state` through a segment. `with_couple` asks for ∫G dt in the report. `memo` keeps the
     /// propagators of the last whole steps.
     ///
     /// # Errors
@@ -20,14 +21,14 @@ impl Motion {
         &self,
         state: &mut State,
         segment: &Segment,
-        integral: bool,
+        with_couple: bool,
         memo: &mut Memo,
     ) -> Result<Report, SolverError> {
-        self.advance_watched(state, segment, integral, memo, None)
+        self.advance_watched(state, segment, with_couple, memo, None)
     }
 
-    /// Moves `state` through a segment and collects its demands. `watch` holds the demands so far, the time
-    /// at the start of the segment \[s\], and whether the couple of a drift acts.
+    /// Moves `state` through a segment and collects its demands. `watch` holds the demands so far and the
+    /// time at the start of the segment \[s\].
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
@@ -36,20 +37,18 @@ impl Motion {
         &self,
         state: &mut State,
         segment: &Segment,
-        integral: bool,
+        with_couple: bool,
         memo: &mut Memo,
-        watch: Option<(&mut Demands, f64, bool)>,
+        watch: Option<(&mut Demands, f64)>,
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let forcing = [body.forcing(segment.from), body.forcing(segment.to)];
-        let mut watch =
-            watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
-        if !integral
-            && let Some(report) = self.pass_quietly(state, segment.duration, forcing, memo, watch.as_mut())
-        {
+        let mut watch = watch.map(|(demands, time)| Watch { demands, wall: &self.wall, segment, time });
+        let duration = segment.duration;
+        if let Some(report) = self.pass_quietly(state, duration, forcing, with_couple, memo, watch.as_mut()) {
             return Ok(report);
         }
-        self.run(state, segment.duration, forcing, integral, memo, watch)
+        self.run(state, duration, forcing, with_couple, memo, watch)
     }
 
     /// Moves `state` through a time \[s\] in which the forcing p goes from one value to another \[m/s²\].
@@ -65,7 +64,7 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         // of a wall as it was at first, records leave here the steps that are not quiet
         if state.tie != *self.wall.tie_memory()
-            && let Some(report) = self.pass_quietly(state, duration, forcing, memo, None)
+            && let Some(report) = self.pass_quietly(state, duration, forcing, false, memo, None)
         {
             return Ok(report);
         }
@@ -81,16 +80,29 @@ impl Motion {
         state: &mut State,
         duration: f64,
         forcing: [f64; 2],
+        with_couple: bool,
         memo: &mut Memo,
         mut watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
         let (motion, propagators) = memo.prepare(self, &state.tie);
         let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch.as_deref_mut()) else {
-            return motion.stay(state, duration, forcing, watch);
+            return motion.stay(state, duration, forcing, with_couple, watch);
         };
+        let couple_impulse = if with_couple { motion.couple_over(state, duration, forcing) } else { 0.0 };
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
         state.peaks.include(end.displacement);
-        Some(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() })
+        Some(Report { work: Work { pieces: 1, ..Work::default() }, couple_impulse, ..Report::default() })
+    }
+
+    /// Returns ∫G dt over one piece in closed form.
+    fn couple_over(&self, state: &State, duration: f64, [from, to]: [f64; 2]) -> f64 {
+        let &State { displacement, velocity, branch: index, .. } = state;
+        let branch = &self.wall.branches()[index];
+        let acceleration = branch.acceleration(displacement, velocity, from);
+        let start = KinematicState { displacement, velocity, acceleration };
+        let rate = (to - from) / duration;
+        let Couple { at_zero, slope } = branch.couple;
+        at_zero * duration + slope * self.oscillators[index].displacement_integral(start, rate, duration)
     }
 
     /// Passes a segment through which a wall at rest, or one that lies, stays where it is; `None` for another
@@ -100,6 +112,7 @@ impl Motion {
         state: &State,
         duration: f64,
         forcing: [f64; 2],
+        with_couple: bool,
         watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
         let [lowest, highest] = self.rest_band;
@@ -111,7 +124,9 @@ impl Motion {
         if let (Phase::Resting, true, Some(watch)) = (state.phase, stays && !state.overturned, watch) {
             watch.rest(0.0, duration);
         }
-        stays.then(Report::default)
+        let rests = with_couple && state.phase == Phase::Resting;
+        let impulse = || if rests { self.wall.couple_of_rest(forcing, duration) } else { 0.0 };
+        stays.then(|| Report { couple_impulse: impulse(), ..Report::default() })
     }
 
     /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.
@@ -120,7 +135,7 @@ impl Motion {
         state: &mut State,
         duration: f64,
         forcing: [f64; 2],
-        integral: bool,
+        with_couple: bool,
         memo: &mut Memo,
         mut watch: Option<Watch<'_>>,
     ) -> Result<Report, SolverError> {
@@ -130,7 +145,7 @@ impl Motion {
             if now.tie != state.tie {
                 motion.find_branch(&mut now);
             }
-            let mut run = Run::new(motion, now, duration, forcing, integral, propagators);
+            let mut run = Run::new(motion, now, duration, forcing, with_couple, propagators);
             (run.time, run.report) = (time, report);
             run.watch = watch.as_mut().map(|watch| watch.of(&motion.wall));
             run.finish()?;
@@ -252,11 +267,11 @@ mod tests {
                 let segment = &Segment { duration: step, from, to };
                 let forcing = [wall.body().forcing(from), wall.body().forcing(to)];
                 let (mut searched, mut of_search) = (state, demands.clone());
-                let watch = Watch { demands: &mut of_search, wall, segment, time, drift: false };
+                let watch = Watch { demands: &mut of_search, wall, segment, time };
                 let memos = &mut Memo::default();
-                let expected = motion.run(&mut searched, step, forcing, false, memos, Some(watch));
-                let watch = &mut Watch { demands: &mut demands, wall, segment, time, drift: false };
-                let found = motion.pass_quietly(&mut state, step, forcing, &mut memo, Some(watch));
+                let expected = motion.run(&mut searched, step, forcing, true, memos, Some(watch));
+                let watch = &mut Watch { demands: &mut demands, wall, segment, time };
+                let found = motion.pass_quietly(&mut state, step, forcing, true, &mut memo, Some(watch));
                 by_ends += i32::from(found.is_some());
                 if let Some(report) = found {
                     assert_eq!((Ok(report), state, &demands), (expected, searched, &of_search), "{time} s");

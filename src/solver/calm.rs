@@ -11,7 +11,7 @@ use super::memo::{Memo, Propagators};
 use super::motion::{Method, Motion};
 use super::secant::Secant;
 use super::state::{Phase, State};
-use crate::wall::{Branch, Support, TieAction, Wall};
+use crate::wall::{Branch, Couple, Support, TieAction, Wall};
 
 /// Accelerations of both supports \[m/s²\], one for each sample.
 #[derive(Clone, Copy)]
@@ -39,6 +39,7 @@ struct Calm<'a> {
     displacement: Bounds,
     velocity: Bounds,
     acceleration: Bounds,
+    couple: Couple,
     bottom: Bounds,
     top: Bounds,
 }
@@ -63,15 +64,18 @@ impl<'a> Calm<'a> {
         // from the straight line u₀ + u̇₀ t
         let departure = 0.5 * step * step * most;
         let share = 0.125 * step * step;
-        let by_acceleration = wall.body().reactions(Support::default(), 1.0, 0.0, false);
-        let reaction = |extremes, slope: f64| within(extremes, share * snap * slope.abs());
+        let by = |acceleration, couple| wall.body().reactions(Support::default(), acceleration, couple);
+        let [by_a, by_u] = [by(1.0, 0.0), by(0.0, branch.couple.slope)];
+        let reaction =
+            |extremes, a: f64, u: f64| within(extremes, share * snap * a.abs() + share * most * u.abs());
         (c * step < 1.0).then(|| Self {
             wall,
             displacement: [lower + departure, upper - departure],
             velocity: within(&demands.velocity, share * jerk),
             acceleration: within(&demands.acceleration, share * snap),
-            bottom: reaction(&demands.reaction_bottom, by_acceleration.bottom),
-            top: reaction(&demands.reaction_top, by_acceleration.top),
+            couple: branch.couple,
+            bottom: reaction(&demands.reaction_bottom, by_a.bottom, by_u.bottom),
+            top: reaction(&demands.reaction_top, by_a.top, by_u.top),
         })
     }
 
@@ -79,7 +83,8 @@ impl<'a> Calm<'a> {
     #[inline]
     fn holds(&self, motion: &KinematicState, acceleration: f64) -> bool {
         let support = Support::rigid(acceleration);
-        let reactions = self.wall.body().reactions(support, motion.acceleration, motion.displacement, false);
+        let couple = self.couple.at(motion.displacement);
+        let reactions = self.wall.body().reactions(support, motion.acceleration, couple);
         holds(self.displacement, motion.displacement)
             && holds(self.velocity, motion.velocity)
             && holds(self.acceleration, motion.acceleration)
@@ -135,12 +140,17 @@ impl Motion {
     /// Counts the first steps of a record through which a wall rests with known reactions.
     fn count_calm_rests(&self, state: &State, samples: Samples<'_>, demands: &Demands) -> usize {
         let [lowest, highest] = self.rest_band;
-        let (body, [bottom, top]) =
-            (self.wall.body(), [&demands.reaction_bottom, &demands.reaction_top].map(|of| within(of, 0.0)));
+        let (wall, body) = (&self.wall, self.wall.body());
+        let [bottom, top] = [&demands.reaction_bottom, &demands.reaction_top].map(|of| within(of, 0.0));
+        let forcing = |acceleration: f64| body.forcing(Support::rigid(acceleration));
+        let starts_below = samples.accelerations.first().is_some_and(|first| forcing(*first) < 0.0);
         let is_calm = |acceleration: &&f64| {
-            let support = Support::rigid(**acceleration);
-            let (p, reactions) = (body.forcing(support), body.reactions(support, 0.0, 0.0, false));
-            lowest < p && p < highest && holds(bottom, reactions.bottom) && holds(top, reactions.top)
+            let (support, p) = (Support::rigid(**acceleration), forcing(**acceleration));
+            let reactions = body.reactions(support, 0.0, wall.couple_at_rest(p).at(p));
+            // between the samples the reactions bend where p = 0
+            let is_straight = !wall.bends_at_rest() || (p < 0.0) == starts_below;
+            let is_inside = lowest < p && p < highest && is_straight;
+            is_inside && holds(bottom, reactions.bottom) && holds(top, reactions.top)
         };
         let is_known = !state.overturned && holds(within(&demands.acceleration, 0.0), 0.0);
         let calm = if is_known { samples.accelerations.iter().take_while(is_calm).count() } else { 0 };
@@ -253,7 +263,7 @@ mod tests {
             let search = |state: &mut State, demands: &mut Demands, index: usize| {
                 let [from, to] = [index, index + 1].map(|n| Support::rigid(accelerations[n]));
                 let segment = Segment { duration: step, from, to };
-                let watch = Some((demands, index as f64 * step, false));
+                let watch = Some((demands, index as f64 * step));
                 motion.advance_watched(state, &segment, false, &mut Memo::default(), watch).unwrap().work
             };
             while index < count {

@@ -11,6 +11,7 @@ use super::state::{Phase, Report, SolverError, State};
 use super::transition::{self, Reached, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
+use crate::wall::Couple;
 
 /// Most impacts in one segment. A wall that can rest is put to rest when it reaches them.
 const MOST_IMPACTS: u64 = 100_000;
@@ -24,7 +25,7 @@ pub(super) struct Run<'a> {
     /// Forcing at the start of the segment \[m/s²\] and its rate \[m/s³\].
     forcing: f64,
     rate: f64,
-    integral: bool,
+    with_couple: bool,
     propagators: &'a mut Propagators,
     pub(super) watch: Option<Watch<'a>>,
     pub(super) report: Report,
@@ -38,7 +39,7 @@ impl<'a> Run<'a> {
         state: State,
         duration: f64,
         [from, to]: [f64; 2],
-        integral: bool,
+        with_couple: bool,
         propagators: &'a mut Propagators,
     ) -> Self {
         let rate = if duration > 0.0 { (to - from) / duration } else { 0.0 };
@@ -49,7 +50,7 @@ impl<'a> Run<'a> {
             duration,
             forcing: from,
             rate,
-            integral,
+            with_couple,
             propagators,
             watch: None,
             report: Report::default(),
@@ -102,6 +103,10 @@ impl<'a> Run<'a> {
             && !self.state.overturned
         {
             watch.rest(self.time, until);
+        }
+        if self.with_couple {
+            let forcing = [now, self.forcing + self.rate * until];
+            self.report.couple_impulse += self.motion.wall.couple_of_rest(forcing, until - self.time);
         }
         self.time = until;
         if leaving >= self.duration {
@@ -196,8 +201,9 @@ impl<'a> Run<'a> {
             let watched = watched.and_then(|()| if tie { watch.tie(&followed) } else { Ok(()) });
             watched.map_err(|_| self.not_followed("a largest value of the motion cannot be found"))?;
         }
-        if self.integral && !self.state.departed {
-            self.report.displacement_integral += piece.displacement_integral(length);
+        if self.with_couple && !self.state.departed {
+            let Couple { at_zero, slope } = branch.couple;
+            self.report.couple_impulse += at_zero * length + slope * piece.displacement_integral(length);
         }
         (self.state.displacement, self.state.velocity) = (displacement, velocity);
         if let Some(upwards) = exit {

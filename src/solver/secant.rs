@@ -203,7 +203,7 @@ fn extend<L: SecantLaw>(series: &mut Scaled<f64>, length: f64, most: f64) -> (us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wall::{Line, TieAction};
+    use crate::wall::{Couple, Line, TieAction};
 
     /// Follows a branch to the end of a length by one series after the other; returns their
     /// number, too.
@@ -251,8 +251,9 @@ mod tests {
                 // from u = 0.1, where p all but balances f, on a line that ends far beyond
                 let (lower, upper) = (0.1, 100.0);
                 let own = Line { anchor: upper, force: 0.0, slope: -0.02 };
-                let (stiffness, tie) = (-0.02, TieAction::None);
-                let branch = Branch { lower, upper, anchor: upper, force: 0.0, stiffness, own, tie, damping };
+                let (anchor, force, stiffness) = (upper, 0.0, -0.02);
+                let (tie, couple) = (TieAction::None, Couple::default());
+                let branch = Branch { lower, upper, anchor, force, stiffness, own, tie, couple, damping };
                 let branch = Secant::new(&branch).expect("secant damping");
                 let p = [2.0, 2.001];
                 let (fine, many) = follow(&branch, [lower, speed], p, 16, most);

@@ -119,8 +119,8 @@ pub struct Report {
     pub departure: Option<[f64; 2]>,
     /// Times at which the tie of each side, u > 0 first, broke in this segment \[s\].
     pub fractures: [Option<f64>; 2],
-    /// ∫u dt while the wall is on its supports \[m s\]; 0 unless requested.
-    pub displacement_integral: f64,
+    /// ∫G dt without the couple of a drift, while the wall is on its supports \[N s\]; 0 unless requested.
+    pub couple_impulse: f64,
     /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
     /// Work done.

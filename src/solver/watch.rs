@@ -5,7 +5,7 @@
 
 use oscillator::KinematicState;
 
-use crate::wall::{Branch, Ends, Support, TieAction, Wall};
+use crate::wall::{Branch, Couple, Ends, Support, TieAction, Wall};
 
 use super::demand::{Demands, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
@@ -25,8 +25,6 @@ pub(super) struct Watch<'a> {
     pub(super) segment: &'a Segment,
     /// Time at the start of the segment \[s\].
     pub(super) time: f64,
-    /// Whether the couple of a drift acts.
-    pub(super) drift: bool,
 }
 
 /// A piece of motion that has been followed.
@@ -45,8 +43,8 @@ pub(super) struct Followed<'a, P> {
 impl Watch<'_> {
     /// Returns what goes on with the wall as its ties are now.
     pub(super) fn of<'a>(&'a mut self, wall: &'a Wall) -> Watch<'a> {
-        let Self { segment, time, drift, .. } = *self;
-        Watch { demands: self.demands, wall, segment, time, drift }
+        let Self { segment, time, .. } = *self;
+        Watch { demands: self.demands, wall, segment, time }
     }
 
     /// Includes a motion on a branch over the whole segment by its ends, from bounds on |ü| and on the jerk,
@@ -80,7 +78,7 @@ impl Watch<'_> {
             return false;
         }
         let supports = [self.segment.from, self.segment.to];
-        self.include_extremes([from, to], supports, [0.0, length], bounds)
+        self.include_extremes(branch.couple, [from, to], supports, [0.0, length], bounds)
     }
 
     /// Includes the extremes of a motion by its ends, which it reaches `from` after the start of the segment
@@ -89,14 +87,18 @@ impl Watch<'_> {
     #[inline]
     fn include_extremes(
         &mut self,
+        couple: Couple,
         [start, end]: [KinematicState; 2],
         supports: [Support; 2],
         [from, length]: [f64; 2],
         [most_acceleration, most_jerk, most_snap]: [f64; 3],
     ) -> bool {
         let (share, times) = (0.125 * length * length, [self.time + from, self.time + (from + length)]);
-        let [by_a, by_u] = self.slopes();
-        let reactions = [self.reactions(supports[0], &start), self.reactions(supports[1], &end)];
+        let [by_a, by_u] = self.slopes(couple);
+        let at = |support: Support, motion: &KinematicState| {
+            self.wall.body().reactions(support, motion.acceleration, couple.at(motion.displacement))
+        };
+        let reactions = [at(supports[0], &start), at(supports[1], &end)];
         let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_snap);
         let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
             &mut *self.demands;
@@ -119,23 +121,24 @@ impl Watch<'_> {
         crossings.any(|crossing| crossing.first.is_none() && displacement.abs() >= crossing.fraction * u_ins)
     }
 
-    #[inline]
-    fn reactions(&self, support: Support, motion: &KinematicState) -> Ends {
-        self.wall.body().reactions(support, motion.acceleration, motion.displacement, self.drift)
-    }
-
     /// Returns ∂R/∂ü and ∂R/∂u of both reactions.
     #[inline]
-    fn slopes(&self) -> [Ends; 2] {
+    fn slopes(&self, couple: Couple) -> [Ends; 2] {
         let (body, still) = (self.wall.body(), Support::default());
-        [body.reactions(still, 1.0, 0.0, self.drift), body.reactions(still, 0.0, 1.0, self.drift)]
+        [body.reactions(still, 1.0, 0.0), body.reactions(still, 0.0, couple.slope)]
     }
 
-    /// Includes a rest between two times within the segment. Forces are linear in between.
+    /// Includes a rest between two times within the segment. Forces are linear in between, but where the
+    /// couple of a strip bends.
     pub(super) fn rest(&mut self, from: f64, to: f64) {
-        for offset in [from, to] {
+        let body = self.wall.body();
+        let [start, end] = [from, to].map(|offset| body.forcing(self.segment.support(offset)));
+        let bend = (self.wall.bends_at_rest() && start * end < 0.0)
+            .then(|| from + (to - from) * (start / (start - end)));
+        for offset in [from].into_iter().chain(bend).chain([to]) {
             let (support, time) = (self.segment.support(offset), self.time + offset);
-            let reactions = self.wall.body().reactions(support, 0.0, 0.0, self.drift);
+            let forcing = body.forcing(support);
+            let reactions = body.reactions(support, 0.0, self.wall.couple_at_rest(forcing).at(forcing));
             self.demands.acceleration.include(0.0, time);
             self.demands.reaction_bottom.include(reactions.bottom, time);
             self.demands.reaction_top.include(reactions.top, time);
@@ -148,8 +151,9 @@ impl Watch<'_> {
         let search = Self::search_of(self.segment, self.time, followed);
         let (from, length) = (search.from, search.length);
         let supports = [from, from + length].map(|offset| self.segment.support(offset));
-        if !self.include_extremes(search.ends, supports, [from, length], search.bounds) {
-            self.search(&search)?;
+        let couple = self.wall.branches()[followed.branch].couple;
+        if !self.include_extremes(couple, search.ends, supports, [from, length], search.bounds) {
+            self.search(&search, couple)?;
         }
         self.cross(followed)?;
         self.count(followed)
@@ -167,7 +171,11 @@ impl Watch<'_> {
     }
 
     /// Searches a piece for the extremes that its ends do not show.
-    fn search<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
+    fn search<P: Piece>(
+        &mut self,
+        search: &ExtremeSearch<'_, P>,
+        couple: Couple,
+    ) -> Result<(), SearchExhausted> {
         let demands = &mut *self.demands;
         let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
             [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
@@ -179,13 +187,17 @@ impl Watch<'_> {
             let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: || search.largest(pick) })?;
         }
-        self.forces(search)
+        self.forces(search, couple)
     }
 
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
-    fn forces<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
-        let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
-        let [by_a, by_u] = self.slopes();
+    fn forces<P: Piece>(
+        &mut self,
+        search: &ExtremeSearch<'_, P>,
+        couple: Couple,
+    ) -> Result<(), SearchExhausted> {
+        let (body, segment) = (self.wall.body(), self.segment);
+        let [by_a, by_u] = self.slopes(couple);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
@@ -193,14 +205,14 @@ impl Watch<'_> {
         for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
             let value = |offset: f64, motion: &KinematicState| {
                 let support = segment.support(search.from + offset);
-                pick(body.reactions(support, motion.acceleration, motion.displacement, drift))
+                pick(body.reactions(support, motion.acceleration, couple.at(motion.displacement)))
             };
             let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
             let curvature = [slope_u, 0.0, slope_a];
             let size = || {
                 let [most_u, most_a] =
                     [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
-                slope_a * (most_a + given) + slope_u * most_u
+                slope_a * (most_a + given) + slope_u * most_u + couple.at_zero.abs()
             };
             search.raise(extremes, &Quantity { value, curvature, size })?;
         }

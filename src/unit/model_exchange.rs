@@ -162,8 +162,7 @@ impl ModelExchange for Unit {
 
     fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure> {
         self.warn_of_inputs(log);
-        let support = self.support();
-        self.simulation.complete_step(self.exchange.is_some_and(|exchange| exchange.rising), support);
+        self.simulation.complete_step(self.exchange.is_some_and(|exchange| exchange.rising));
         Ok(self.indicators().iter().any(|&indicator| indicator <= 0.0))
     }
 }

@@ -64,7 +64,7 @@ impl Unit {
 }
 
 fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-    let Progress { time, state, overturn_time, tie_breaks, drift, work } = progress;
+    let Progress { time, state, overturn_time, tie_breaks, work } = progress;
     let State { displacement, velocity, branch, phase, peaks, overturned, departed, tie } = state;
     let TieMemory { yielded, lost } = tie;
     let Peaks { positive, negative } = peaks;
@@ -79,7 +79,7 @@ fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Res
     for count in [pieces, corners, impacts] {
         codec.u64(count)?;
     }
-    for flag in [overturned, departed, lost, drift] {
+    for flag in [overturned, departed, lost] {
         codec.bool(flag)?;
     }
     Ok(())

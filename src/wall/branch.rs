@@ -2,7 +2,37 @@
 
 use super::damping::BranchDamping;
 use super::force_law::Line;
+use super::mechanism::Body;
 use super::tie::TieAction;
+
+/// The couple G of a strip wall without that of a drift, a straight line: G = `at_zero` + `slope` x. On a
+/// branch x is u \[m\], at rest the forcing p \[m/s²\]. 0 for a parapet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Couple {
+    /// G at x = 0 \[N\].
+    pub at_zero: f64,
+    /// dG/dx \[N/m\], or at rest \[kg\].
+    pub slope: f64,
+}
+
+impl Couple {
+    /// Returns the couple where the wall's own force \[N\] is on a line on the side of `sign`:
+    /// [`M_A` − W u/2]/h. The toe is at s = (F + k₀ u)/F₀ of its way between the edges.
+    pub(super) fn on(own: &Line, body: &Body, sign: f64) -> Self {
+        if body.hinge().is_none() {
+            return Self::default();
+        }
+        let at = |force: f64| body.contact_couple(force, sign);
+        let at_zero = at(own.at(0.0));
+        let slope = at(own.slope + body.geometric_stiffness) - at(0.0) - 0.5 * body.weight / body.height;
+        Self { at_zero, slope }
+    }
+
+    /// Returns G \[N\].
+    pub fn at(&self, x: f64) -> f64 {
+        self.at_zero + self.slope * x
+    }
+}
 
 /// A straight piece of the restoring force per unit effective mass, with its damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +51,8 @@ pub struct Branch {
     pub own: Line,
     /// What a tie does.
     pub tie: TieAction,
+    /// The couple of a strip wall.
+    pub couple: Couple,
     /// Damping on the branch.
     pub damping: BranchDamping,
 }

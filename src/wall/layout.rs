@@ -1,6 +1,6 @@
 //! Lays out the branches and corners of a wall.
 
-use super::branch::{Branch, Corner};
+use super::branch::{Branch, Corner, Couple};
 use super::equation::Wall;
 use super::force_law::Line;
 use super::sides::Sides;
@@ -48,8 +48,8 @@ impl Wall {
         }
         corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
         let pulls_at_once = [1.0, -1.0].into_iter().filter_map(hold).any(|hold| hold.onset == 0.0);
-        if !passage && force.is_straight() && !pulls_at_once {
-            // One elastic line runs through the origin.
+        if !passage && force.is_straight() && !body.has_bent_couple() && !pulls_at_once {
+            // One elastic line runs through the origin, and one line of the couple.
             corners.retain(|corner| corner.displacement != 0.0);
         }
         corners
@@ -71,13 +71,14 @@ impl Wall {
             let line = side.lines[index];
             let is_beyond = reach > side.end * self.damping.rocking.end();
             let damping = self.damping.on_branch(line.is_elastic(), is_beyond);
+            let couple = Couple::on(&line, self.body(), middle);
             let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
             let (line, tie) = self.tie().map_or((own, TieAction::None), |tie| {
                 let (memory, action) = (self.tie_memory(), tie.action(lower, upper, self.tie_memory()));
                 (tie.added_to(own, action, middle, memory, m), action)
             });
             let Line { anchor, force, slope: stiffness } = line;
-            Branch { lower, upper, anchor, force, stiffness, own, tie, damping }
+            Branch { lower, upper, anchor, force, stiffness, own, tie, couple, damping }
         };
         self.corners().windows(2).map(between).collect()
     }

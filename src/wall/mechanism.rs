@@ -39,6 +39,9 @@ pub struct Body {
     pub landing: Sides,
     /// Displacement from which the wall has left its supports: max(half the geometric end, `u_ins`) \[m\].
     pub departure: Sides,
+    /// Moment of weight and overburden about the edge of the base on which a strip wall bears, of each side:
+    /// (W + O) b/2 − O c with c of the side, against the motion \[N m\]. 0 for a parapet.
+    pub contact_moments: Sides,
     /// Share of the bottom and of the top support in the effective support acceleration, `w_b` and `w_t`
     /// \[-\].
     pub support_weights: [f64; 2],
@@ -75,13 +78,15 @@ impl Body {
             Mechanism::VerticalSpanning => 2.0 * (weight + o) / hinge_height + 2.0 * o / (h - hinge_height),
         };
         let c = parameters.overburden_eccentricity;
-        let strength = Sides {
-            positive: strength_with(c),
-            negative: strength_with(match parameters.eccentricity_mode {
-                EccentricityMode::FixedToWall => -c,
-                EccentricityMode::FollowsPivot => c,
-            }),
+        let eccentricity = match parameters.eccentricity_mode {
+            EccentricityMode::FixedToWall => Sides { positive: c, negative: -c },
+            EccentricityMode::FollowsPivot => Sides { positive: c, negative: c },
         };
+        let strength = eccentricity.map(strength_with);
+        let contact_moments = eccentricity.map(|c| match mechanism {
+            Mechanism::Parapet => 0.0,
+            Mechanism::VerticalSpanning => 0.5 * (weight + o) * b - o * c,
+        });
         for (side, force) in [("u > 0", strength.positive), ("u < 0", strength.negative)] {
             if force.is_nan() || force <= 0.0 {
                 return Err(ParameterError::NoStrength { side, force, eccentricity: c, overburden: o });
@@ -103,8 +108,21 @@ impl Body {
             instability,
             landing: instability.map(|u_ins| end.max(u_ins)),
             departure: instability.map(|u_ins| (end / 2.0).max(u_ins)),
+            contact_moments,
             support_weights,
         })
+    }
+
+    /// Returns the couple of the contacts where the wall alone bears the force F on the side of `sign`, from
+    /// F at u = 0 \[N\]: [M̄ + F/F₀ (M₊ + M₋)/2]/h with M̄ = (M₊ − M₋)/2 of the contact moments \[N\].
+    pub(super) fn contact_couple(&self, force: f64, sign: f64) -> f64 {
+        let Sides { positive, negative } = self.contact_moments;
+        0.5 * (positive - negative + (positive + negative) * force / self.strength.of(sign)) / self.height
+    }
+
+    /// Returns whether the couple of the contacts grows with the force at different rates on the two sides.
+    pub(super) fn has_bent_couple(&self) -> bool {
+        self.mechanism == Mechanism::VerticalSpanning && self.strength.positive != self.strength.negative
     }
 
     /// Returns the height of the hinge of a strip wall \[m\]; a parapet has none.

@@ -47,7 +47,7 @@ mod warning;
 mod warnings;
 
 pub use bar::{Bar, BarNumber, BarTie, TiePart};
-pub use branch::{Branch, Corner};
+pub use branch::{Branch, Corner, Couple};
 pub use capacity::CapacityPoint;
 pub(crate) use damping::DampingSeries;
 pub use damping::{BranchDamping, Damping};

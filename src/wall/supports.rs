@@ -1,7 +1,9 @@
-//! Moving supports: the forces they exert on the wall, and the impulses of a step.
+//! Moving supports: the forces they exert on the wall, and the couple of a wall at rest.
 
 use crate::choices::Mechanism;
 
+use super::branch::Couple;
+use super::equation::Wall;
 use super::mechanism::Body;
 
 /// Motion of the supports at one instant: absolute accelerations \[m/s²\] and the drift `x_top` − `x_bottom`
@@ -61,46 +63,56 @@ impl Body {
         }
     }
 
-    /// Forces the supports exert on the wall \[N\]; `acceleration` is ü \[m/s²\].
+    /// Forces the supports exert on the wall \[N\]: `acceleration` is ü \[m/s²\], `couple` the couple G of a
+    /// strip without that of the drift \[N\] ([`Couple`]).
     ///
-    /// `drift` says whether a drift has been given: then the couple G = −W u/(2h) − (W/2 + O) d/h acts too.
-    pub fn reactions(&self, support: Support, acceleration: f64, displacement: f64, drift: bool) -> Ends {
-        let couple = if drift { self.couple(displacement, support.drift) } else { 0.0 };
-        self.exchange([support.bottom, support.top], acceleration, couple)
-    }
-
-    /// Impulses of the supports on the wall \[N s\], from the changes of velocity, jumps at impacts included.
-    /// `velocity_changes` are those of the bottom and top support \[m/s\], `couple_impulse` is ∫G dt.
-    pub fn impulses(&self, velocity_changes: [f64; 2], velocity_change: f64, couple_impulse: f64) -> Ends {
-        self.exchange(velocity_changes, velocity_change, couple_impulse)
-    }
-
-    /// G = −W u/(2h) − (W/2 + O) d/h \[N\]; with time integrals of u and d it gives ∫G dt.
-    pub(crate) fn couple(&self, displacement: f64, drift: f64) -> f64 {
-        match self.mechanism {
-            Mechanism::Parapet => 0.0,
-            Mechanism::VerticalSpanning => {
-                -(self.weight * displacement / 2.0 + (self.weight / 2.0 + self.overburden) * drift)
-                    / self.height
-            }
-        }
-    }
-
-    /// R or ∫R dt, from accelerations or from velocity changes.
-    fn exchange(&self, [bottom, top]: [f64; 2], relative: f64, couple: f64) -> Ends {
-        let m = self.mass;
+    /// Integrals over time in place of all these give the impulses of the supports \[N s\], jumps of u̇ at
+    /// impacts included.
+    pub fn reactions(&self, support: Support, acceleration: f64, couple: f64) -> Ends {
+        let (m, Support { bottom, top, drift }) = (self.mass, support);
         match self.mechanism {
             // R_b = m (a_b + ü)
-            Mechanism::Parapet => Ends { bottom: m * (bottom + relative), top: 0.0 },
+            Mechanism::Parapet => Ends { bottom: m * (bottom + acceleration), top: 0.0 },
             // R_b = m (2a_b + a_t)/6 + (m w_b/2) ü − G,  R_t = m (a_b + 2a_t)/6 + (m w_t/2) ü + G
             Mechanism::VerticalSpanning => {
                 let [w_b, w_t] = self.support_weights;
+                let couple = couple - (self.weight / 2.0 + self.overburden) * drift / self.height;
                 Ends {
-                    bottom: m * (2.0 * bottom + top) / 6.0 + m * w_b / 2.0 * relative - couple,
-                    top: m * (bottom + 2.0 * top) / 6.0 + m * w_t / 2.0 * relative + couple,
+                    bottom: m * (2.0 * bottom + top) / 6.0 + m * w_b / 2.0 * acceleration - couple,
+                    top: m * (bottom + 2.0 * top) / 6.0 + m * w_t / 2.0 * acceleration + couple,
                 }
             }
         }
+    }
+}
+
+impl Wall {
+    /// Returns the couple of a wall at rest as a line in the forcing p, on the side of p. What transverse
+    /// walls hold does not move the toe.
+    pub fn couple_at_rest(&self, forcing: f64) -> Couple {
+        let body = self.body();
+        let at = |force: f64| body.contact_couple(force, forcing);
+        let is_held = self.free_side().is_some_and(|side| side * forcing < 0.0);
+        let slope = if is_held { 0.0 } else { at(body.effective_mass) - at(0.0) };
+        Couple { at_zero: at(0.0), slope }
+    }
+
+    /// Returns whether the couple at rest bends where p changes its sign.
+    pub fn bends_at_rest(&self) -> bool {
+        self.body().has_bent_couple() || self.free_side().is_some()
+    }
+
+    /// Returns ∫G dt of a rest over a length \[s\] in which p goes from one value to another \[N s\].
+    pub fn couple_of_rest(&self, [from, to]: [f64; 2], length: f64) -> f64 {
+        let mean = |from: f64, to: f64| {
+            let middle = 0.5 * (from + to);
+            self.couple_at_rest(middle).at(middle)
+        };
+        if from * to >= 0.0 {
+            return length * mean(from, to);
+        }
+        let share = from / (from - to);
+        length * (share * mean(from, 0.0) + (1.0 - share) * mean(0.0, to))
     }
 }
 
@@ -123,16 +135,14 @@ mod tests {
         let body = wall.body();
         assert_eq!(body.hinge(), None);
         near(body.forcing(MOVED), -0.75 * 2.0);
-        for drift in [false, true] {
-            let Ends { bottom, top } = body.reactions(MOVED, 0.3, 0.02, drift);
-            near(bottom, body.mass * 2.3);
-            assert_eq!(top, 0.0);
-        }
-        near(body.impulses([2.0, -1.0], 0.3, 9.0).bottom, body.mass * 2.3);
+        let Ends { bottom, top } = body.reactions(MOVED, 0.3, 9.0);
+        near(bottom, body.mass * 2.3);
+        assert_eq!(top, 0.0);
+        assert!(wall.branches().iter().all(|branch| branch.couple == Couple::default()));
     }
 
     /// A strip of 3 m with its hinge at 1.8 m has `w_b` = 7/15, `w_t` = 8/15, λ = 3/2 and `m_eff` = 2m/3.
-    /// With a drift G = −(W u/2 + (W/2 + O) d)/h acts.
+    /// A drift has the couple −(W/2 + O) d/h.
     #[test]
     fn a_strip_moves_with_both_supports() {
         let mechanism = Mechanism::VerticalSpanning;
@@ -144,14 +154,11 @@ mod tests {
         let (m, weight) = (body.mass, body.mass * gravity);
         near(body.hinge().unwrap(), 1.8);
         near(body.forcing(MOVED), -1.5 * (14.0 - 8.0) / 15.0 + 1.5 * gravity * 0.01 / 3.0);
-        for drift in [false, true] {
-            let couple = if drift { -(weight * 0.01 + (weight / 2.0 + 5e3) * 0.01) / 3.0 } else { 0.0 };
-            let Ends { bottom, top } = body.reactions(MOVED, 0.3, 0.02, drift);
+        for couple in [0.0, 900.0] {
+            let Ends { bottom, top } = body.reactions(MOVED, 0.3, couple);
+            let couple = couple - (weight / 2.0 + 5e3) * 0.01 / 3.0;
             near(bottom, m * (0.5 + 0.07) - couple);
             near(top, m * 0.08 + couple);
         }
-        let Ends { bottom, top } = body.impulses([2.0, -1.0], 0.3, 9.0);
-        near(bottom, m * 0.57 - 9.0);
-        near(top, m * 0.08 + 9.0);
     }
 }

@@ -134,6 +134,28 @@ class Wall:
             if u <= u1:
                 return self.sign * (f0 + (f1 - f0) * (u - u0) / (u1 - u0))
 
+    def toe_moment(self):
+        """Σ P (x - x_A) of all weights at their places about the toe, x_A growing against u.
+
+        Where the law spreads the jump of the force, the toe is the share s = (F + k₀|u|)/F₀ of the way from
+        the middle of the two toes, each with its place of the load, to that of this side.
+        """
+        p = self.given
+        weights = [self.weight * self.h1 / self.h, self.weight * (1 - self.h1 / self.h), p["overburden"]]
+        hinge = self.u + self.drift * self.h1 / self.h
+        places = [hinge / 2, (hinge + self.drift) / 2, self.drift]
+
+        def about(sign):
+            flips = p["eccentricity_mode"] == "follows_pivot" and sign < 0
+            load = -p["overburden_eccentricity"] if flips else p["overburden_eccentricity"]
+            arms = [sign * self.b / 2 - x for x in places]
+            return sum(w * x for w, x in zip(weights, arms)) - weights[2] * load
+
+        f0, k0 = self.strength(self.sign)
+        share = (abs(self.force()) + k0 * abs(self.u)) / f0
+        middle = (about(1) + about(-1)) / 2
+        return middle + share * (about(self.sign) - middle)
+
     def omega1(self):
         _, (u1, f1), *_ = self.law()
         return (f1 / u1 / self.m_eff).sqrt()
@@ -193,15 +215,15 @@ class Wall:
         damping = self.damping() * self.v if self.v else Decimal(0)
         acceleration = -(damping + force) / m - self.participation * effective
         terms = max(abs(damping / m), abs(force / m), abs(self.participation * effective))
-        # moments of the inertia forces, a straight line and a triangle, about each end over h
+        # moments of the inertia forces, a straight line and a triangle, about each end over h; of the weights
+        # about the toe
         straight = self.mass * (2 * bottom + top) / 6
         triangle = self.mass * (1 - centroid / h) / 2
         couple = Decimal(0)
-        if self.drift:
-            couple = -self.weight * self.u / (2 * h) - (self.weight / 2 + p["overburden"]) * self.drift / h
         if self.parapet:
             reactions = [self.mass * (bottom + acceleration), Decimal(0)]
         else:
+            couple = self.toe_moment() / h
             other = self.mass * (bottom + 2 * top) / 6 + self.mass * centroid / h / 2 * acceleration
             reactions = [straight + triangle * acceleration - couple, other + couple]
         inertia = self.mass * max(terms, abs(bottom), abs(top))

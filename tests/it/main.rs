@@ -21,6 +21,7 @@ mod cases;
 mod chain;
 mod closed_forms;
 mod configuration;
+mod couple;
 mod demands;
 mod departing_ties;
 mod description;

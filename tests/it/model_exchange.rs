@@ -5,7 +5,7 @@ use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Handled, Simulation};
 use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
-use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Rocking, Softening};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RealVariable, Rocking, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
 
 use crate::{instantiated, secant_models, start};
@@ -153,33 +153,6 @@ fn indicators_are_distances_to_the_next_event() {
     assert_eq!(simulation.indicators(false, still), [1.0; INDICATORS], "it has landed");
 }
 
-/// A drift counts from the first event or completed step on, and for good: its couple acts.
-#[test]
-fn a_drift_is_remembered() {
-    let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..Parameters::default() };
-    let drifting = Support { drift: 1e-3, ..Support::default() };
-    let complete: fn(&mut Simulation, Support) = |wall, support| wall.complete_step(false, support);
-    let event: fn(&mut Simulation, Support) = |wall, support| {
-        wall.handle_event(&mut false, support);
-    };
-    for accept in [complete, event] {
-        let mut simulation = start(&strip);
-        for (support, remembered) in
-            [(Support::default(), false), (drifting, true), (drifting, true), (Support::default(), true)]
-        {
-            accept(&mut simulation, support);
-            assert_eq!(simulation.progress().drift, remembered, "{support:?}");
-            // a drift that is given now acts before it is remembered
-            for (given, acts) in [(Support::default(), remembered), (drifting, true)] {
-                let outputs = simulation.outputs(given);
-                let body = simulation.wall().body();
-                let wanted = body.reactions(given, outputs.acceleration, outputs.displacement, acts);
-                assert_eq!(outputs.reactions, wanted, "{given:?} after {support:?}");
-            }
-        }
-    }
-}
-
 /// Only steps outwards beyond the largest |u| so far raise it, and an event on the way back ends that.
 #[test]
 fn peaks_rise_with_completed_steps() {
@@ -192,7 +165,7 @@ fn peaks_rise_with_completed_steps() {
         [(0.11, true, 0.11), (0.12, true, 0.12), (0.115, true, 0.12), (0.13, false, 0.12)]
     {
         simulation.set_motion(displacement, 0.1);
-        simulation.complete_step(rises, still);
+        simulation.complete_step(rises);
         assert_eq!(simulation.progress().state.peaks.largest(), largest);
     }
     simulation.set_motion(0.12, -0.1);

@@ -147,7 +147,8 @@ impl Way<'_> {
         let a = branch.acceleration(u, v, body.forcing(support));
         let (c, slope) = (branch.damping_at(u), branch.damping_slope(u));
         let jerk = body.forcing(rate) - slope * v * v - c * a - branch.stiffness * v;
-        let [now, later] = [(support, a, u), (rate, jerk, v)].map(|(s, a, u)| body.reactions(s, a, u, false));
+        let now = body.reactions(support, a, branch.couple.at(u));
+        let later = body.reactions(rate, jerk, branch.couple.slope * v);
         let tie = wall.tie_slope(self.branch) * u.signum();
         let values = [u, v, a, now.bottom, now.top, wall.tie_force(self.branch, u)];
         let slopes = [v, a, jerk, later.bottom, later.top, tie * v];
