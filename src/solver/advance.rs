@@ -88,21 +88,29 @@ impl Motion {
         let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch.as_deref_mut()) else {
             return motion.stay(state, duration, forcing, with_couple, watch);
         };
-        let couple_impulse = if with_couple { motion.couple_over(state, duration, forcing) } else { 0.0 };
+        let couple_impulse =
+            if with_couple { motion.couple_over(state, end, duration, forcing, propagators) } else { 0.0 };
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
         state.peaks.include(end.displacement);
         Some(Report { work: Work { pieces: 1, ..Work::default() }, couple_impulse, ..Report::default() })
     }
 
-    /// Returns ∫G dt over one piece in closed form.
-    fn couple_over(&self, state: &State, duration: f64, [from, to]: [f64; 2]) -> f64 {
+    /// Returns ∫G dt over a segment in one piece to its `end`, which was found by the propagators last.
+    fn couple_over(
+        &self,
+        state: &State,
+        end: KinematicState,
+        duration: f64,
+        [from, to]: [f64; 2],
+        propagators: &Propagators,
+    ) -> f64 {
         let &State { displacement, velocity, branch: index, .. } = state;
         let branch = &self.wall.branches()[index];
         let acceleration = branch.acceleration(displacement, velocity, from);
         let start = KinematicState { displacement, velocity, acceleration };
         let rate = (to - from) / duration;
         let Couple { at_zero, slope } = branch.couple;
-        at_zero * duration + slope * self.oscillators[index].displacement_integral(start, rate, duration)
+        at_zero * duration + slope * propagators.displacement_integral([start, end], rate, duration)
     }
 
     /// Passes a segment through which a wall at rest, or one that lies, stays where it is; `None` for another

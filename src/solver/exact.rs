@@ -17,6 +17,8 @@ pub(super) struct ClosedForm<'a> {
     horizon: f64,
     /// The motion at the horizon, where it is known already.
     pub(super) end: Option<KinematicState>,
+    /// ∫u dt up to the horizon, where it is known already \[m s\].
+    pub(super) integral: Option<f64>,
     /// The Taylor series of a short piece, once needed.
     series: OnceCell<Option<Polynomial>>,
 }
@@ -32,8 +34,8 @@ impl<'a> ClosedForm<'a> {
         bounds: [f64; 2],
         peaks: &Peaks,
     ) -> Self {
-        let mut piece =
-            Self { oscillator, start, forcing_rate, horizon: remaining, end: None, series: OnceCell::new() };
+        let (horizon, end, integral, series) = (remaining, None, None, OnceCell::new());
+        let mut piece = Self { oscillator, start, forcing_rate, horizon, end, integral, series };
         if remaining > oscillator.longest_piece() && !piece.stays_within(bounds, peaks) {
             piece.horizon = oscillator.longest_piece();
         }
@@ -106,7 +108,10 @@ impl Piece for ClosedForm<'_> {
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
-        self.oscillator.displacement_integral(self.start, self.forcing_rate, time)
+        match self.integral {
+            Some(integral) if time == self.horizon => integral,
+            _ => self.oscillator.displacement_integral(self.start, self.forcing_rate, time),
+        }
     }
 }
 

@@ -63,11 +63,13 @@ struct Propagator {
     branch: usize,
     duration: f64,
     matrix: Matrix3<f64>,
+    /// Of ∫u dt.
+    integral: [f64; 3],
 }
 
 impl Default for Propagator {
     fn default() -> Self {
-        Self { branch: 0, duration: f64::NAN, matrix: Matrix3::zeros() }
+        Self { branch: 0, duration: f64::NAN, matrix: Matrix3::zeros(), integral: [0.0; 3] }
     }
 }
 
@@ -84,7 +86,8 @@ impl Propagator {
     #[cold]
     fn new(branch: usize, oscillator: &Oscillator, duration: f64) -> Self {
         let rows = oscillator.propagator(duration);
-        Self { branch, duration, matrix: Matrix3::from_fn(|i, j| rows[i][j]) }
+        let matrix = Matrix3::from_fn(|i, j| rows[i][j]);
+        Self { branch, duration, matrix, integral: oscillator.integral_row(duration) }
     }
 
     #[inline]
@@ -131,6 +134,20 @@ impl Propagators {
             acceleration: acceleration + rest * oscillator.jerk(end, forcing_rate),
         }
     }
+
+    /// Returns ∫u dt over the whole step whose end was returned last, from its start to its end \[m s\].
+    #[inline]
+    pub(super) fn displacement_integral(
+        &self,
+        [start, end]: [KinematicState; 2],
+        forcing_rate: f64,
+        length: f64,
+    ) -> f64 {
+        let Propagator { duration, integral: [v, a, p], .. } = self.last;
+        let KinematicState { displacement, velocity, acceleration } = start;
+        let change = v * velocity + a * acceleration + p * forcing_rate;
+        displacement * duration + change + (length - duration) * end.displacement
+    }
 }
 
 #[cfg(test)]
@@ -159,7 +176,8 @@ mod tests {
         for apart in [2047, 1000, 1] {
             let length = f64::from_bits(rounded(0.7).to_bits() + apart);
             let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
-            let found = Propagators::default().end(0, &oscillator, start, 90.0, length);
+            let mut propagators = Propagators::default();
+            let found = propagators.end(0, &oscillator, start, 90.0, length);
             let wanted = oscillator.propagate(start, 90.0, length);
             // a few roundings of the largest terms; without the remainder of the length it would be a
             // thousand
@@ -168,6 +186,8 @@ mod tests {
             near(found.displacement, wanted.displacement);
             near(found.velocity, wanted.velocity);
             near(found.acceleration, wanted.acceleration);
+            let integral = propagators.displacement_integral([start, found], 90.0, length);
+            near(integral, oscillator.displacement_integral(start, 90.0, length));
         }
     }
 }

@@ -161,7 +161,10 @@ impl<'a> Run<'a> {
         // length, a part of one does not.
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if whole && !oscillator.is_spread(self.duration) {
-            piece.end = Some(self.propagators.end(index, oscillator, start, rate, remaining));
+            let end = self.propagators.end(index, oscillator, start, rate, remaining);
+            let integral = || self.propagators.displacement_integral([start, end], rate, remaining);
+            piece.integral = self.with_couple.then(integral);
+            piece.end = Some(end);
         }
         piece
     }

@@ -298,9 +298,15 @@ impl Oscillator {
     /// ∫u dt = u₀ t + (H + cJ) u̇₀ + J ü₀ + K p₁
     /// ```
     pub fn displacement_integral(&self, start: KinematicState, rate: f64, time: f64) -> f64 {
-        let Green { h, j, k, .. } = self.green(time);
+        let [v, a, p] = self.integral_row(time);
         let KinematicState { displacement, velocity, acceleration } = start;
-        displacement * time + (h + self.damping * j) * velocity + j * acceleration + k * rate
+        displacement * time + v * velocity + a * acceleration + p * rate
+    }
+
+    /// Computes the row that maps (u̇₀, ü₀, p₁) to ∫u dt − u₀ t over `time` \[s\].
+    pub fn integral_row(&self, time: f64) -> [f64; 3] {
+        let Green { h, j, k, .. } = self.green(time);
+        [h + self.damping * j, j, k]
     }
 
     /// Returns whether over `time` \[s\] the two modes differ so much that [`Self::propagate`] computes each
