@@ -41,7 +41,8 @@ class Wall:
             self.effective = self.mass * 2 / 3
             f0 = 2 * (self.weight + load) * b / h1 + load * b / (h - h1)
             k0 = 2 * (self.weight + load) / h1 + 2 * load / (h - h1)
-        self.u_ins, self.k0 = f0 / k0, k0
+        self.u_ins, self.k0, self.f0 = f0 / k0, k0, f0
+        self.edge = (self.weight + load) * b / 2
         self.u1 = p["a1"] * self.u_ins
         self.k1 = k0 * (self.u_ins - self.u1) / self.u1
         self.damping = 2 * self.effective * math.sqrt(self.k1 / self.effective) * p["xi"]
@@ -50,9 +51,12 @@ class Wall:
     def force(self, u, branch):
         return self.k1 * u if branch == 0 else self.k0 * (branch * self.u_ins - u)
 
-    def couple(self, u, d):
-        """Returns G: the force that drift adds to the top reaction and subtracts from the bottom one."""
-        return -(self.weight * u / 2 + (self.weight / 2 + self.load) * d) / self.height if self.drift else 0.0
+    def couple(self, u, d, branch):
+        """Returns G: the force that weights and contacts add to the top reaction of a strip and subtract from
+        the bottom one. The toe is at an edge from the end of the elastic branch on."""
+        share = branch if branch else (self.k1 + self.k0) * u / self.f0
+        weights = self.weight * u / 2 + (self.weight / 2 + self.load) * d
+        return (share * self.edge - weights) / self.height
 
     def reactions(self):
         """Returns the coefficients of (A_b, A_t, u'') in the reactions at bottom and top."""
@@ -112,10 +116,11 @@ class Monolith:
                 - wall.force(u, branches[j])
                 + (wall.weight * d / wall.height if wall.drift else 0.0)
             )
-            couple = wall.couple(u, d)
-            if wall.drift:
-                right[wall.bottom] += couple
-                right[wall.top] -= couple
+            if wall.top is not None:
+                couple = wall.couple(u, d, branches[j])
+                for end, sign in [(wall.bottom, 1), (wall.top, -1)]:
+                    if end != GROUND:
+                        right[end] += sign * couple
         return self.inverse @ (right - self.by_ground * ground)
 
     def rates(self, t, y, branches):

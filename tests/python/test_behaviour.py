@@ -244,31 +244,34 @@ def test_directional_derivatives(unpacked, shape):
                 assert found == pytest.approx(expected, abs=2e-6 * size), f"d {unknown} / d {known}"
 
 
-def test_directional_derivatives_know_the_first_drift(unpacked):
-    """A drift set between steps changes the reactions and their derivatives without delay."""
-    ends = ["reaction_bottom", "reaction_top"]
+def test_directional_derivatives_know_the_couple(unpacked):
+    """On a branch reactions of a strip are linear in u and in the drift, so that only rounding remains."""
+    ends, at_rest = ["reaction_bottom", "reaction_top"], {"u_start": 0.0, "overburden": 1000.0}
     with Unit(unpacked) as unit:
-        unit.start(**STRIP | {"u_start": 0.0, "overburden": 1000.0})
+        unit.start(**STRIP | at_rest)
         unknowns = [unit.reference(name) for name in ends]
 
         def slopes(known):
             return list(unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0]))
 
-        # at u = 0 the reactions are linear in the drift, from the first drift on: only rounding remains
-        expected = [
-            (a - b) / 2e-4
-            for a, b in zip(unit.set(drift=1e-4).get(*ends), unit.set(drift=-1e-4).get(*ends), strict=True)
-        ]
+        assert unit.get(*ends) == [0.0, 0.0]
+        forward, backward = (unit.set(drift=drift).get(*ends) for drift in (1e-4, -1e-4))
+        expected = [(a - b) / 2e-4 for a, b in zip(forward, backward, strict=True)]
         assert slopes("drift") == pytest.approx(expected, rel=1e-9)
-        weight = unit.get("mass") * 9.81
-        with_couple = slopes("u")
+        by_u = slopes("u")
         assert unit.set(drift=0.0).get(*ends) == [0.0, 0.0]
         assert slopes("drift") == pytest.approx(expected, rel=1e-9)
-        without = slopes("u")
-        couple = [a - b for a, b in zip(with_couple, without, strict=True)]
-        # R_b contains -G and R_t contains G, with G = -W u/(2h) - ...
-        each = weight / (2 * unit.get("height"))
-        assert couple == pytest.approx([each, -each], rel=1e-9)
+        assert slopes("u") == by_u
+    with Unit(unpacked) as unit:
+        unit.start(**STRIP | at_rest | {"u_start": 1e-5})
+        assert by_u == pytest.approx([force / 1e-5 for force in unit.get(*ends)], rel=1e-9)
+        # R_b contains -G and R_t contains G
+        names = ["effective_mass", "mass", "omega1", "F0", "u_ins", "height", "thickness", "hinge_ratio"]
+        effective, mass, omega, f0, u_ins, h, b, ratio = unit.get(*names)
+        toe = (mass * 9.81 + 1000.0) * b / 2 * (effective * omega**2 + f0 / u_ins) / f0
+        couple = (toe - mass * 9.81 / 2) / h
+        inertia = [mass * weight / 2 * -(omega**2) for weight in ((2 - ratio) / 3, (1 + ratio) / 3)]
+        assert by_u == pytest.approx([inertia[0] - couple, inertia[1] + couple], rel=1e-9)
 
 
 def test_the_tighter_tolerance_applies(unpacked):

@@ -210,7 +210,8 @@ ANSWERS = {
     "rocking parapet": ({}, 1 / 4),
     "rigid parapet at rest": (RIGID, 1.0),
     "rocking strip": (STRIP, 7 / 48),
-    "rigid strip at rest": (STRIP | RIGID, 1 / 3),
+    # at rest the toe moves with the force: m/3, and b/2 of F/F0 over h
+    "rigid strip at rest": (STRIP | RIGID, 1 / 3 + 1 / 16),
 }
 
 

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Args;
 use report::table::significant;
-use rocking_wall::choices::Mechanism;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, TiePart, Wall};
 
@@ -60,8 +59,6 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         ("solver", method_name(&method).to_owned()),
     ];
     let words = words.into_iter().chain(weaker.map(|words| ("tie", words.to_owned())));
-    let is_strip = parameters.mechanism == Mechanism::VerticalSpanning;
-    let words = words.chain(is_strip.then(|| ("reactions", REACTIONS_OF_STRIP.to_owned())));
     if arguments.json {
         let words = words.map(|(name, value)| (name.to_owned(), value.into()));
         let facts = facts.iter().map(|fact| (fact.name.to_owned(), fact.value.into()));
@@ -89,10 +86,6 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     text += &output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
     console.print(&text)
 }
-
-/// What the reactions of a strip wall leave out.
-const REACTIONS_OF_STRIP: &str =
-    "right in sum, but split between the supports without the couple of the contacts";
 
 /// The solver in words.
 pub(crate) fn method_name(method: &Method) -> &'static str {
