@@ -194,7 +194,8 @@ impl Ledger {
             let known = self.known.iter().filter(|(symbol, _)| is_whole(symbol));
             if let Some((symbol, value)) = known.max_by_key(|(symbol, _)| symbol.len()) {
                 let number = shown(*value).replace('-', "−");
-                text += &if *value < 0.0 { format!("({number})") } else { number };
+                let [open, close] = if *value < 0.0 { ["(", ")"] } else { ["", ""] };
+                text.extend([open, &number, close]);
                 rest = &rest[symbol.len()..];
                 continue;
             }

@@ -225,10 +225,8 @@ impl Verdict<'_> {
         let title = self.rows.iter().find(|row| row.check == self.governs).map(|row| row.title.clone());
         let (governs, symbol) = (title.unwrap_or_else(|| Sentence::same(self.governs)), self.code.ratio());
         let zeta = Written(format!("{:.3}", self.zeta));
-        let of = match self.side {
-            Some(name) => side(name),
-            None => say!("both sides alike", "identico nei due versi"),
-        };
+        let alike = || say!("both sides alike", "identico nei due versi");
+        let of = self.side.map_or_else(alike, side);
         if self.passed {
             say! {
                 "PASSED{raised}: {governs} governs with {symbol} = {zeta} ({of})",

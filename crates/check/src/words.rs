@@ -259,9 +259,9 @@ impl<T: InWords + ?Sized> InWords for &T {
 }
 
 /// Sentences one after the other, with something between them.
-pub(crate) fn joined<'a>(all: impl IntoIterator<Item = &'a Sentence> + Clone, between: &str) -> Sentence {
+pub(crate) fn joined(all: &[Sentence], between: &str) -> Sentence {
     let of = |language| {
-        let parts: Vec<_> = all.clone().into_iter().map(|one| one.of(language)).collect();
+        let parts: Vec<_> = all.iter().map(|one| one.of(language)).collect();
         parts.join(between)
     };
     Sentence::new(of(Language::En), of(Language::It))
@@ -333,7 +333,8 @@ pub(crate) fn formula(text: &str) -> String {
         let word = leading(rest, char::is_alphabetic);
         rest = &rest[word.len()..];
         let is_symbol = word.chars().count() == 1 && word != "π";
-        markup += &if is_symbol { format!("<i>{word}</i>") } else { word.to_owned() };
+        let [open, close] = if is_symbol { ["<i>", "</i>"] } else { ["", ""] };
+        markup.extend([open, word, close]);
         let index = match rest.strip_prefix('_') {
             Some(after) => {
                 rest = after;
@@ -345,7 +346,7 @@ pub(crate) fn formula(text: &str) -> String {
         // a comma at the end separates
         let index = index.trim_end_matches(',');
         if !index.is_empty() {
-            markup += &format!("<sub>{index}</sub>");
+            markup.extend(["<sub>", index, "</sub>"]);
             rest = &rest[index.len()..];
         }
     }

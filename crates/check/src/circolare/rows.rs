@@ -227,10 +227,8 @@ impl<'a> Checked<'a> {
             }
         }
         notes.extend(side.sensitivity.iter().map(|varied| {
-            let result = match varied.passed {
-                Some(is_passed) => passed(is_passed),
-                None => say!("no check is possible", "nessuna verifica possibile"),
-            };
+            let impossible = || say!("no check is possible", "nessuna verifica possibile");
+            let result = varied.passed.map_or_else(impossible, passed);
             say! {
                 "sensitivity: with {assigned} zeta_E = {zeta}, {result}.",
                 "analisi di sensibilità: con {assigned} ζ_E = {zeta}, {result}.",

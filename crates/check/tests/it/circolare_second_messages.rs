@@ -194,7 +194,8 @@ fn the_ground_bounds_a_height() {
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
     let verdict = code.check((&scene).into()).unwrap();
     // at the roof of SLD a_Z is above it
-    let notes: String = verdict.notes.iter().map(|note| format!("{note} ")).collect();
+    let notes: Vec<_> = verdict.notes.iter().map(ToString::to_string).collect();
+    let notes = notes.join(" ");
     assert!(!notes.contains("SLD: a_g S = "), "{notes}");
     let note = "SLV: a_g S = 2.953 m/s² of the ground governs at the height, above a_Z = 2.765 m/s²";
     assert!(verdict.notes.iter().any(|found| found.contains(note)), "{:?}", verdict.notes);

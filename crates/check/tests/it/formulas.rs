@@ -25,7 +25,7 @@ impl Interval {
         let (digits, power) = plain.split_once('e').unwrap_or((&plain, "0"));
         let figures = digits.trim_start_matches(['-', '0', '.']).chars().filter(char::is_ascii_digit).count();
         let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        let half_unit = 0.5 * 10.0_f64.powi(power.parse::<i32>().ok()? - decimals as i32);
+        let half_unit = 0.5 * 10.0_f64.powi(power.parse::<i32>().ok()? - i32::try_from(decimals).ok()?);
         let half_unit = if figures < 4 { 0.0 } else { half_unit };
         Some(Self([value - half_unit, value + half_unit]))
     }

@@ -113,7 +113,7 @@ fn what_the_header_says_of_samples_alone_is_compared() {
         let none = warnings(&column(head), &with_step(0.01));
         assert!(!none.iter().any(|warning| warning.starts_with("step")), "{none:?}");
     }
-    let eight = |row: &[f64]| row.iter().map(|a| format!("{a:.6} ")).collect::<String>() + "\n";
+    let eight = |row: &[f64]| row.iter().map(|a| format!("{a:.6} ")).collect::<Vec<_>>().concat() + "\n";
     let numbers = "# dt 0.01\n".to_owned() + &motion().chunks(8).map(eight).collect::<String>();
     assert!(warnings(&numbers, &with_step(0.02)).contains(&other.to_owned()));
     for (head, filter) in [("# filter 0.1-25 Hz\n", 0.01), ("# time step: 10 ms\n", 0.01)] {
@@ -130,8 +130,8 @@ fn what_the_header_says_of_samples_alone_is_compared() {
 /// A row of times above a row of samples, two records one below the other, and a code of a missing value.
 #[test]
 fn times_records_and_codes_among_samples_are_noticed() {
-    let times = (0..401).map(|i| format!("{:.2} ", 0.01 * f64::from(i))).collect::<String>();
-    let samples = motion().iter().map(|a| format!("{a:.5} ")).collect::<String>();
+    let times = (0..401).map(|i| format!("{:.2} ", 0.01 * f64::from(i))).collect::<Vec<_>>().concat();
+    let samples = motion().iter().map(|a| format!("{a:.5} ")).collect::<Vec<_>>().concat();
     refused(
         &format!("{times}\n{samples}\n"),
         &with_step(0.01),
@@ -157,7 +157,7 @@ fn times_records_and_codes_among_samples_are_noticed() {
 /// An exponent without its letter, as Fortran writes those of three digits, is no second sample.
 #[test]
 fn exponents_without_a_letter_are_refused() {
-    let text = motion().iter().map(|a| format!("{a:.6}\n")).collect::<String>();
+    let text = motion().iter().map(|a| format!("{a:.6}\n")).collect::<Vec<_>>().concat();
     for number in ["0.1234567-103", "-.1234567+103"] {
         let text = text.replacen(&format!("{:.6}", motion()[200]), number, 1);
         refused(&text, &with_step(0.01), &["line 201", number]);

@@ -30,7 +30,7 @@ fn tables_of_walls() {
             let words = ["walls.csv", line, "a row or a comment", "in quotes"];
             refused(&folder, &["check", "walls.toml"], &words);
         }
-        of((heads.to_owned() + &rows.replace("#", "\"#").replacen(',', "\",", 1)).as_bytes());
+        of((heads.to_owned() + &rows.replace('#', "\"#").replacen(',', "\",", 1)).as_bytes());
         if !rows.starts_with('W') {
             assert_has(&printed(&folder, &["check", "walls.toml"]), &[&rows[..2]]);
         }
@@ -131,8 +131,8 @@ fn hazard_curves() {
         (|rate| 100.0 * rate, "PGA = 0.256 g every 10 years"),
     ] {
         let points = points.map(|(x, rate)| [x, of_rate(rate)]);
-        let lines: String = points.iter().map(|[x, rate]| format!("{x},{rate}\n")).collect();
-        write(&folder, "h.csv", format!("PGA,annual_rate\n{lines}"));
+        let lines: Vec<_> = points.iter().map(|[x, rate]| format!("{x},{rate}\n")).collect();
+        write(&folder, "h.csv", format!("PGA,annual_rate\n{}", lines.concat()));
         for source in [format!("points = {points:?}"), "file = \"h.csv\"".to_owned()] {
             study(&source);
             let told = text(&succeed(&folder, &run).stderr);

@@ -26,6 +26,7 @@ fn is_by_code(case: &Checked<'_>) -> bool {
 }
 
 /// The readings that bear on this check, with their formulas between grave accents.
+#[allow(clippy::too_many_lines, reason = "texts in two languages, one below the other")]
 pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<Sentence> {
     let at_height = is_at_height(case);
     let raises =

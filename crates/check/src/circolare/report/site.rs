@@ -39,13 +39,13 @@ type Stated<'a> = (&'a StateStatement, &'a Demand);
 struct Rows<'a> {
     states: Vec<Stated<'a>>,
     language: Language,
-    rows: Vec<[String; 2]>,
+    lines: Vec<[String; 2]>,
 }
 
 impl<'a> Rows<'a> {
     fn new(case: &'a Checked<'_>, language: Language) -> Self {
         let states = case.statement.demanded(&case.demands).collect();
-        Self { states, language, rows: Vec::new() }
+        Self { states, language, lines: Vec::new() }
     }
 
     /// Adds a row: symbol, source, unit and values, unless no limit state has one.
@@ -54,14 +54,14 @@ impl<'a> Rows<'a> {
         if values.iter().any(|value| value != "–") {
             let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
             let name = format!("{}{unit} <small>{source}</small>", formula(&self.language.decimal(name)));
-            self.rows.push([name, values.join("</td><td>")]);
+            self.lines.push([name, values.join("</td><td>")]);
         }
     }
 
     fn table(self) -> String {
         let heads = self.states.iter().map(|(given, _)| given.state.to_string());
         let heads: Vec<_> = std::iter::once(String::new()).chain(heads).collect();
-        table(&heads, &self.rows)
+        table(&heads, &self.lines)
     }
 }
 
