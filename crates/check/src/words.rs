@@ -260,10 +260,7 @@ impl<T: InWords + ?Sized> InWords for &T {
 
 /// Sentences one after the other, with something between them.
 pub(crate) fn joined(all: &[Sentence], between: &str) -> Sentence {
-    let of = |language| {
-        let parts: Vec<_> = all.iter().map(|one| one.of(language)).collect();
-        parts.join(between)
-    };
+    let of = |language| all.iter().map(|one| one.of(language)).collect::<Vec<_>>().join(between);
     Sentence::new(of(Language::En), of(Language::It))
 }
 
