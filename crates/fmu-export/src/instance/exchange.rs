@@ -71,7 +71,7 @@ impl<M: ModelExchange> Instance<M> {
         }
     }
 
-    /// The values of [`get_real`](Self::get_real), and of the variables that FMI 3.0 has besides those of the
+    /// The values of `get_real`, and of the variables that FMI 3.0 has besides those of the
     /// model.
     pub fn get_float64(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;

@@ -138,7 +138,7 @@ impl<M: Model> Instance<M> {
     }
 
     /// Carries out `call`, if it is allowed in the present phase. A failure is logged, and ends the
-    /// simulation where [`Call::failure_is_final`].
+    /// simulation where `Call::failure_is_final`.
     pub fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
         let rule = call.rule(self.purpose.version);
         let suits = rule.only_for.is_none_or(|only| only == self.purpose.interface);

@@ -96,7 +96,7 @@ impl<M: Model> Instance<M> {
         Err(Failure(why_not))
     }
 
-    /// Returns the time at which the last successful step ended [s].
+    /// Returns the time at which the last successful step ended \[s\].
     pub fn time(&self) -> f64 {
         self.now.time
     }
