@@ -28,7 +28,7 @@ impl Model for Unit {
     const GUID: &'static str = GUID;
     const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
     const PAYLOAD: &'static str = "scene.toml";
-    const STATE_VERSION: u64 = 2;
+    const STATE_VERSION: u64 = 3;
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
         let exchange = (environment.interface == Interface::ModelExchange).then(Exchange::default);

@@ -266,7 +266,7 @@ class Hazard(TypedDict, total=False):
     - file: A file instead of points: CSV with a measure and annual_rate, or hazard curves of OpenQuake.
     - points: Points: intensity and annual rate of exceedance [1/year]; intensities rise, rates fall.
     - site: Number of the site in a file of OpenQuake, from 1, at least 1.
-    - target: Annual rate that each limit state should not exceed [1/year], above 0.
+    - target: Annual rate that each limit state should not exceed [1/year], such as 1/475, above 0, at most 1.
     - unit: Unit of points and of two columns, as that of levels; by default that of the results.
     - years: Years of the probabilities, above 0; default 50.0.
     """
