@@ -319,10 +319,9 @@ pub fn numbers(sides: &[(&'static str, Ledger)]) -> Table {
         }
     }
     for name in names {
-        let of_side =
-            |ledger: &Ledger| ledger.rows().find(|(own, _)| *own == name).map(|(_, own)| own.clone());
-        let own: Vec<Option<Quantity>> = sides.iter().map(|(_, ledger)| of_side(ledger)).collect();
-        let values = own.iter().map(|own| Cell::from(own.as_ref().and_then(Quantity::shown)));
+        let named = sides.iter().map(|(_, ledger)| ledger.rows().find(|(own, _)| *own == name));
+        let own: Vec<Option<&Quantity>> = named.map(|found| Some(found?.1)).collect();
+        let values = own.iter().map(|own| Cell::from(own.and_then(Quantity::shown)));
         // what is said may differ by sides
         let mut meanings: Vec<&str> = own.iter().flatten().map(|own| &*own.words).collect();
         meanings.dedup();

@@ -106,11 +106,14 @@ impl Record {
 fn spike(samples: &[f64]) -> Option<Warning> {
     const RATIO: f64 = 3.0;
     const FEWEST: usize = 20;
-    let size = |at: &usize| samples[*at].abs();
-    let mut places: Vec<usize> = (0..samples.len()).collect();
-    places.sort_by(|a, b| size(b).total_cmp(&size(a)));
-    let [place, next, ..] = places[..] else { return None };
-    let (peak, others) = (size(&place), size(&next));
+    let (mut place, mut peak, mut others) = (0, 0.0, 0.0_f64);
+    for (at, size) in samples.iter().map(|a| a.abs()).enumerate() {
+        if size > peak {
+            (place, peak, others) = (at, size, peak);
+        } else {
+            others = others.max(size);
+        }
+    }
     let is_spike = samples.len() >= FEWEST && others > 0.0 && peak > RATIO * others;
     is_spike.then_some(Warning::Spike { place: place + 1, peak, others })
 }
