@@ -8,6 +8,7 @@ use ::report::escaped;
 use ::report::table::{Cell, Column, Digits, Table};
 use serde_json::{Map, Value};
 
+use crate::names::Sides;
 use crate::words::{Language, Sentence, formula, leading, raised, shown};
 
 /// A unit in which people read a number, and the factor to it from SI units.
@@ -300,9 +301,10 @@ impl Quantity {
 }
 
 /// The numbers of sides as a table: a row for each that one of them has, a column for each side.
-pub fn numbers(sides: &[(&'static str, Ledger)]) -> Table {
+pub fn numbers(sides: &[(Sides, Ledger)]) -> Table {
     let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
-    let sides_of = sides.iter().map(|(side, _)| Column::number(*side, *side, Digits::Significant(4)));
+    let names_of = sides.iter().map(|(side, _)| side.name());
+    let sides_of = names_of.map(|name| Column::number(name, name, Digits::Significant(4)));
     let words = [Column::text("meaning", "meaning")];
     let mut table = Table::new(heads.into_iter().chain(sides_of).chain(words));
     // in the order of each side

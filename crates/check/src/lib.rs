@@ -28,7 +28,7 @@ pub use error::CheckError;
 pub use file::{CheckFile, with_assignments};
 pub use find::{Found, FoundCheck, Sought, find};
 pub use ledger::{Ledger, Quantity, Unit, numbers};
-pub use names::{Deciding, LimitState, Side};
+pub use names::{Deciding, LimitState, Side, Sides};
 pub use report::{Figure, Origin, ReportTable, page, page_of_walls, report_schema};
 pub use site::{Level, Records};
 pub use verdict::{Details, Ends, Raise, Row, Section, Verdict};

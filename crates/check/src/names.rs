@@ -98,6 +98,35 @@ impl Side {
     }
 }
 
+/// What a number is of: one side, or both where they are alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Both, which are alike.
+    Alike,
+    /// One of them.
+    One(Side),
+}
+
+impl Sides {
+    /// A side of a wall whose sides may be `alike`.
+    pub fn of(side: Side, alike: bool) -> Self {
+        if alike { Self::Alike } else { Self::One(side) }
+    }
+
+    /// The sign of u, of both that of `u > 0`.
+    pub fn sign(self) -> f64 {
+        if self == Self::One(Side::Negative) { -1.0 } else { 1.0 }
+    }
+
+    /// Returns the name in tables, `u > 0`, `u < 0` or `both sides`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Alike => "both sides",
+            Self::One(side) => side.name(),
+        }
+    }
+}
+
 /// Which of the checks governs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum Deciding {

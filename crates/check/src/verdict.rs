@@ -10,9 +10,10 @@ use serde_json::{Value, json};
 use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::ledger::{Ledger, numbers};
+use crate::names::Sides;
 use crate::report::markup::side_head;
 use crate::report::{Figure, Origin, overview, the_wall};
-use crate::words::{Language, Sentence, Written, markup, passed, said, say, side};
+use crate::words::{Language, Sentence, Written, governing, markup, passed, said, say, side};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {
@@ -22,8 +23,8 @@ pub struct Verdict<'a> {
     pub passed: bool,
     /// The check that governs, such as `SLV`.
     pub governs: &'static str,
-    /// The side that governs, such as `u > 0`; `None` where both are alike.
-    pub side: Option<&'static str>,
+    /// The side that governs.
+    pub side: Sides,
     /// Capacity over demand of what governs \[-\].
     pub zeta: f64,
     /// A row for each check of each side; of sides that are alike, one.
@@ -58,7 +59,7 @@ pub struct Row {
     /// The same for people.
     pub title: Sentence,
     /// The side.
-    pub side: &'static str,
+    pub side: Sides,
     /// Capacity over demand \[-\].
     pub zeta: f64,
     /// Whether it passes.
@@ -79,13 +80,7 @@ pub struct Row {
 
 impl Row {
     /// Makes a row of a check that informs, and passes from capacity over demand 1 on; the rest is empty.
-    pub(crate) fn new(
-        check: &'static str,
-        title: Sentence,
-        side: &'static str,
-        zeta: f64,
-        ends: Ends,
-    ) -> Self {
+    pub(crate) fn new(check: &'static str, title: Sentence, side: Sides, zeta: f64, ends: Ends) -> Self {
         let (passed, decides, ground, displacement) = (zeta >= 1.0, false, None, None);
         Self {
             check,
@@ -149,8 +144,8 @@ pub trait Details {
     /// [`CheckError`] of a record, or of a spectrum that ends too early.
     fn figure(&self, language: Language) -> Result<Figure, CheckError>;
 
-    /// The numbers of the sides that differ, with what is said of them, by the names of the sides.
-    fn ledgers(&self) -> Vec<(&'static str, Ledger)>;
+    /// The numbers of the sides that differ, with what is said of them, by side.
+    fn ledgers(&self) -> Vec<(Sides, Ledger)>;
 
     /// The wall in a table of walls: headings, with units, and cells, as markup.
     fn overview(&self, language: Language) -> Vec<(String, String)> {
@@ -184,7 +179,7 @@ pub trait Details {
         let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
         let ledgers = self.ledgers();
         let head = |side| if ledgers.len() > 1 { side_head(side, language) } else { String::new() };
-        let numbers = ledgers.iter().map(|(side, ledger)| head(side) + &ledger.markup("", language));
+        let numbers = ledgers.iter().map(|(side, ledger)| head(*side) + &ledger.markup("", language));
         let over = self.figure(language)?.html(language) + &numbers.collect::<String>();
         Ok(vec![
             Section::new(say!("The wall", "La parete"), wall),
@@ -225,8 +220,7 @@ impl Verdict<'_> {
         let title = self.rows.iter().find(|row| row.check == self.governs).map(|row| row.title.clone());
         let (governs, symbol) = (title.unwrap_or_else(|| Sentence::same(self.governs)), self.code.ratio());
         let zeta = Written(format!("{:.3}", self.zeta));
-        let alike = || say!("both sides alike", "identico nei due versi");
-        let of = self.side.map_or_else(alike, side);
+        let of = governing(self.side);
         if self.passed {
             say! {
                 "PASSED{raised}: {governs} governs with {symbol} = {zeta} ({of})",
@@ -240,11 +234,6 @@ impl Verdict<'_> {
                 governs, symbol, zeta, raised, of
             }
         }
-    }
-
-    /// The side that governs, or `both` where they are alike.
-    pub fn at(&self, both: &'static str) -> &'static str {
-        self.side.unwrap_or(both)
     }
 
     /// The rows as a table: for people four digits, for files SI units and every digit.
@@ -268,7 +257,7 @@ impl Verdict<'_> {
         let table = Table::over(&self.rows)
             .column(Column::text("check", ""), |row| row.check)
             .text("", head(say!("check", "verifica")), |row| row.title.of(language).to_owned())
-            .column(Column::text("side", ""), |row| row.side)
+            .column(Column::text("side", ""), |row| row.side.name())
             .text("", head(say!("side", "verso")), |row| side(row.side).of(language).to_owned())
             .number(self.code.symbol, head(self.code.ratio()), four, |row| row.zeta)
             .value("passed", |row| row.passed)
@@ -336,7 +325,7 @@ impl Verdict<'_> {
             "code": self.code.name,
             "passed": self.passed,
             "governs": self.governs,
-            "side": self.at("both sides"),
+            "side": self.side.name(),
             "zeta": self.zeta,
             "headline": self.headline(),
             "notes": self.notes,

@@ -15,6 +15,7 @@ use crate::codes::{CODES, read};
 use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::names::Sides;
 use crate::verdict::Verdict;
 use crate::words::{Language, Sentence, joined, markup, said, say, side};
 
@@ -122,10 +123,14 @@ impl WallVerdicts<'_> {
             .text("", head(say!("governs", "determinante")), |wall| {
                 Some(self.title(wall.1.ok()?.governs).of(language).to_owned())
             })
-            .column(Column::text("side", ""), |wall| Some(wall.1.ok()?.at("both")))
+            .column(Column::text("side", ""), |wall| {
+                let of = wall.1.ok()?.side;
+                Some(if of == Sides::Alike { "both" } else { of.name() })
+            })
             .text("", head(say!("side", "verso")), |wall| {
-                let both = say!("both", "entrambi");
-                Some(wall.1.ok()?.side.map_or(both, side).of(language).to_owned())
+                let of = wall.1.ok()?.side;
+                let told = if of == Sides::Alike { say!("both", "entrambi") } else { side(of) };
+                Some(told.of(language).to_owned())
             });
         let table = checks.iter().fold(table, |table, check| {
             let name = check.replace(" with ", "_").replace(' ', "_");

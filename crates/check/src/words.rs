@@ -14,7 +14,7 @@ use ::report::table::{Cell, Table, significant};
 use ::report::{escaped, number};
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::names::{Deciding, LimitState};
+use crate::names::{Deciding, LimitState, Sides};
 
 /// Makes a [`Sentence`]: English, Italian, and the values of the gaps of both, as
 /// `say!("{d} mm", "{d} mm", d = at_most(d, 4))`. A gap that one of both lacks is an unused variable.
@@ -278,9 +278,20 @@ pub(crate) fn passed(is_passed: bool) -> Sentence {
     }
 }
 
-/// A side by its name, `u > 0`, `u < 0` or `both sides`.
-pub(crate) fn side(name: &str) -> Sentence {
-    if name == "both sides" { say!("both sides", "entrambi i versi") } else { Sentence::same(name) }
+/// What a number is of.
+pub(crate) fn side(of: Sides) -> Sentence {
+    match of {
+        Sides::Alike => say!("both sides", "entrambi i versi"),
+        Sides::One(side) => Sentence::same(side.name()),
+    }
+}
+
+/// The side that governs, of sides that may be alike.
+pub(crate) fn governing(of: Sides) -> Sentence {
+    match of {
+        Sides::Alike => say!("both sides alike", "identico nei due versi"),
+        Sides::One(_) => side(of),
+    }
 }
 
 /// Symbols with an index that sentences and tables have. Names of keys, files and walls may look alike.

@@ -202,8 +202,7 @@ fn limits(verdict: &Verdict<'_>, wall: &Wall) -> Vec<(Option<&'static str>, f64)
     let mut limits: Vec<(Option<&'static str>, f64)> = Vec::new();
     for row in &verdict.rows {
         let Some(u) = row.displacement else { continue };
-        let sign = if row.side == check::Side::Negative.name() { -1.0 } else { 1.0 };
-        let fraction = (u / wall.body().instability.of(sign)).min(1.0);
+        let fraction = (u / wall.body().instability.of(row.side.sign())).min(1.0);
         match limits.iter_mut().find(|known| known.0 == Some(row.check)) {
             Some(known) => known.1 = known.1.min(fraction),
             None => limits.push((Some(row.check), fraction)),

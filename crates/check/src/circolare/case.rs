@@ -11,7 +11,8 @@ use super::states::{Source, StateStatement};
 use super::table::{Activation, Hinge, Rocks};
 use crate::code::Subject;
 use crate::error::CheckError;
-use crate::names::Side;
+use crate::names::{Side, Sides};
+use crate::words::{Sentence, side};
 
 /// A wall as the static checks take it.
 #[derive(Clone)]
@@ -79,9 +80,9 @@ impl<'a> Case<'a> {
         varied
     }
 
-    /// The name of a side in messages.
-    pub(super) fn name(&self, side: Side) -> &'static str {
-        if self.alike { "both sides" } else { side.name() }
+    /// What is said of a side.
+    pub(super) fn told(&self, of: Side) -> Sentence {
+        side(Sides::of(of, self.alike))
     }
 
     /// The signs of u to which the wall rocks.

@@ -9,7 +9,7 @@ use super::dynamic::DynamicCheck;
 use super::sides::{SideVerdict, SideVerdicts};
 use super::statement::Statement;
 use super::table::Hinge;
-use crate::names::{Deciding, Side};
+use crate::names::{Deciding, Side, Sides};
 use crate::words::Sentence;
 
 /// A wall that was checked, with what it was checked by.
@@ -29,11 +29,14 @@ pub struct Checked<'a> {
 }
 
 impl Checked<'_> {
-    /// The sides that differ, with their names.
-    pub(super) fn sides(&self) -> impl Iterator<Item = (&'static str, Side, &SideVerdict)> {
-        let alike = self.outcome.alike;
-        let shown = self.outcome.sides.iter().take(if alike { 1 } else { 2 });
-        shown.map(move |(side, verdict)| (if alike { "both sides" } else { side.name() }, side, verdict))
+    /// The sides that differ.
+    pub(super) fn sides(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
+        self.outcome.sides.iter().take(if self.outcome.alike { 1 } else { 2 })
+    }
+
+    /// What a number of a side is of.
+    pub(super) fn which(&self, side: Side) -> Sides {
+        Sides::of(side, self.outcome.alike)
     }
 
     /// The side that governs.

@@ -16,10 +16,12 @@ use super::table::{Hinge, Method, UseClass};
 use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::ledger::Ledger;
-use crate::names::{Deciding, LimitState};
+use crate::names::{Deciding, LimitState, Side, Sides};
 use crate::report::{Figure, Origin};
 use crate::verdict::{Details, Ends, Raise, Row, Section, Verdict};
-use crate::words::{Language, Sentence, Written, apart, at_most, fixed, joined, passed, say, side};
+use crate::words::{
+    Language, Sentence, Written, apart, at_most, fixed, joined, passed, say, side as told_side,
+};
 
 impl<'a> Checked<'a> {
     /// The verdict.
@@ -29,7 +31,7 @@ impl<'a> Checked<'a> {
             code,
             passed: self.outcome.passed,
             governs: governs.limit_state.name(),
-            side: (!self.outcome.alike).then(|| governs.side.name()),
+            side: self.which(governs.side),
             zeta: governs.zeta,
             raise: self.raise(),
             rows: self.rows(),
@@ -44,7 +46,8 @@ impl<'a> Checked<'a> {
         let method = self.statement.table.method;
         let class_iv = self.statement.table.use_class == Some(UseClass::IV);
         let site = |state| self.statement.state(state).map_or(f64::NAN, |given| given.ag);
-        for (side, _, verdict) in self.sides() {
+        for (side, verdict) in self.sides() {
+            let side = self.which(side);
             let activations = [
                 (Deciding::Sld, verdict.checks.sld, class_iv, "C8.7.1.2.1.5"),
                 (Deciding::SlvWithQ, verdict.checks.slv_q, method == Method::Linear, "C8.7.1.2.1.7"),
@@ -78,14 +81,13 @@ impl<'a> Checked<'a> {
             let judged = found.judged;
             let check = if state == LimitState::Slc { "SLC under records" } else { "SLV under records" };
             let title = say!("{state} under records", "{state} con accelerogrammi", state);
-            let side = if self.outcome.alike { "both sides" } else { judged.side.name() };
             let ends = Ends::Displacements([judged.ratio * judged.d, judged.d]);
             rows.push(Row {
                 passed: judged.passed,
                 decides: method == Method::Dynamic,
                 ground: Some([found.zeta * site(state), site(state)]),
                 clause: "C8.7.1.2.1.9",
-                ..Row::new(check, title, side, found.zeta, ends)
+                ..Row::new(check, title, self.which(judged.side), found.zeta, ends)
             });
         }
         rows
@@ -147,8 +149,8 @@ impl<'a> Checked<'a> {
             },
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
-        for (name, _, verdict) in self.sides() {
-            let name = side(name);
+        for (side, verdict) in self.sides() {
+            let name = told_side(self.which(side));
             let own = self.of_side(verdict);
             notes.extend(own.into_iter().map(|note| say!("{name}: {note}", "{name}: {note}", name, note)));
         }
@@ -323,15 +325,15 @@ impl Details for Checked<'_> {
         json
     }
 
-    fn ledgers(&self) -> Vec<(&'static str, Ledger)> {
-        self.sides().map(|(name, side, verdict)| (name, self.ledger(side, verdict))).collect()
+    fn ledgers(&self) -> Vec<(Sides, Ledger)> {
+        self.sides().map(|(side, verdict)| (self.which(side), self.ledger(side, verdict))).collect()
     }
 
     fn figure(&self, language: Language) -> Result<Figure, CheckError> {
         let governs = self.outcome.governs.side;
-        let shown = self.sides().find(|(_, side, _)| *side == governs).or(self.sides().next());
-        let Some((name, _, side)) = shown else { return Err(CheckError::wall("the wall has no side")) };
-        report::capacity::figure(self, name, side, language)
+        let shown = self.sides().find(|(side, _)| *side == governs).or(self.sides().next());
+        let Some((side, verdict)) = shown else { return Err(CheckError::wall("the wall has no side")) };
+        report::capacity::figure(self, self.which(side), verdict, language)
     }
 
     fn overview(&self, language: Language) -> Vec<(String, String)> {
@@ -357,12 +359,12 @@ impl Details for Checked<'_> {
 
 impl Checked<'_> {
     /// The wall on a side.
-    pub(super) fn of(&self, side: crate::names::Side) -> OfSide<'_> {
+    pub(super) fn of(&self, side: Side) -> OfSide<'_> {
         OfSide { statement: self.statement, parameters: &self.parameters, side }
     }
 
     /// The numbers of a side.
-    pub(super) fn ledger(&self, side: crate::names::Side, verdict: &SideVerdict) -> Ledger {
+    pub(super) fn ledger(&self, side: Side, verdict: &SideVerdict) -> Ledger {
         verdict.ledger(self.of(side), &self.demands)
     }
 }

@@ -17,7 +17,7 @@ use super::table::{AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, Method, UseCl
 use super::tie::TieState;
 use crate::names::{Deciding, LimitState, Side};
 use crate::others::{self, improbable};
-use crate::words::{Sentence, apart, fixed, passed, say, side as told_side};
+use crate::words::{Sentence, apart, fixed, passed, say};
 
 /// Share by which a searched hinge is said to be less favourable than the one given \[-\].
 const LOWER: f64 = 0.01;
@@ -138,7 +138,7 @@ fn of_demands(statement: &Statement, demands: &Demands) -> Vec<Sentence> {
 
 /// What the curve of a side and its hinge leave to be known.
 fn of_hinges(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> Vec<Sentence> {
-    let (mut warnings, side) = (of_curve(case, &verdict.curve), told_side(case.name(side)));
+    let (mut warnings, side) = (of_curve(case, &verdict.curve), case.told(side));
     warnings.extend(verdict.unsearched.as_ref().map(|error| {
         say! {
             "{side}: other hinges could not be searched: {error}",
@@ -236,7 +236,7 @@ fn of_untied_side(case: &Case<'_>, sides: &SideVerdicts, governs: Side) -> Optio
     };
     Some(say! {
         "{side}: no tie holds this side{which}",
-        "{side}: nessuna catena trattiene questo verso{which}", side = told_side(case.name(untied)), which
+        "{side}: nessuna catena trattiene questo verso{which}", side = case.told(untied), which
     })
 }
 
@@ -283,7 +283,7 @@ fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> Vec<Senten
     let (mut warnings, statement) = (Vec::new(), case.statement);
     let decides = statement.table.method != Method::Linear;
     for (side, verdict) in sides.iter() {
-        let side = told_side(case.name(side));
+        let side = case.told(side);
         for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < 1.0) {
             let [ratio, zeta] = [found.ratio, found.zeta].map(|value| fixed(value, 3));
             if statement.state(LimitState::Sld).is_none() {
@@ -373,7 +373,7 @@ fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sentence> {
             warnings.push(say! {
                 "{side}: {parameter} {what}: with {assigned} {check} goes from {from} to {to}, {result}",
                 "{side}: {parameter} {what}: con {assigned} lo {check} passa da {from} a {to}, {result}",
-                side = told_side(case.name(name)), parameter = varied.parameter, what,
+                side = case.told(name), parameter = varied.parameter, what,
                 assigned = varied.assigned(), check = Deciding::ALL[at], from = fixed(own[at], 3),
                 to = fixed(zetas[at], 3), result = passed(!passes)
             });

@@ -27,12 +27,12 @@ use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::ledger::Ledger;
-use crate::names::Side;
+use crate::names::{Side, Sides};
 use crate::others::{heavy, improbable, storeys};
 use crate::report::Figure;
 use crate::site::{Records, check_points};
 use crate::verdict::{Details, Ends, Row, Verdict};
-use crate::words::{Language, Sentence, Written, say, side};
+use crate::words::{Language, Sentence, Written, governing as told_governing, say, side};
 use ::report::table::significant;
 use sides::{Outcome, governing, outcomes};
 
@@ -235,7 +235,7 @@ impl Code for Statement {
             code: ENTRY,
             passed: worst.displacement_ratio >= 1.0,
             governs: "displacement",
-            side: (!checked.wall.has_equal_sides()).then(|| name(&worst)),
+            side: checked.of(&worst),
             zeta: worst.displacement_ratio,
             raise: None,
             rows: checked.rows(),
@@ -261,20 +261,20 @@ struct Checked<'a> {
     warnings: Vec<Sentence>,
 }
 
-fn name(side: &SideCheck) -> &'static str {
-    Side::of(side.sign).name()
-}
-
 impl Checked<'_> {
-    /// The sides that differ, with their names.
-    fn shown(&self) -> impl Iterator<Item = (&'static str, &SideCheck)> {
-        let alike = self.wall.has_equal_sides();
-        let shown = self.sides.iter().take(if alike { 1 } else { 2 });
-        shown.map(move |side| (if alike { "both sides" } else { name(side) }, side))
+    /// What a side is of.
+    fn of(&self, side: &SideCheck) -> Sides {
+        Sides::of(Side::of(side.sign), self.wall.has_equal_sides())
+    }
+
+    /// The sides that differ.
+    fn shown(&self) -> impl Iterator<Item = (Sides, &SideCheck)> {
+        let shown = self.sides.iter().take(if self.wall.has_equal_sides() { 1 } else { 2 });
+        shown.map(|side| (self.of(side), side))
     }
 
     fn rows(&self) -> Vec<Row> {
-        let of_side = |(side, found): (&'static str, &SideCheck)| {
+        let of_side = |(side, found): (Sides, &SideCheck)| {
             let onset = Ends::Accelerations([found.onset_acceleration, found.peak_acceleration]);
             let ends = Ends::Displacements([found.displacement_capacity, found.displacement_demand]);
             let displacement = Some(self.wall.body().participation * found.displacement_capacity);
@@ -310,11 +310,7 @@ impl Checked<'_> {
         ];
         for Outcome { ratio, title, says: [holds, fails], .. } in outcomes() {
             let worst = governing(&self.sides, ratio);
-            let of = if self.wall.has_equal_sides() {
-                say!("both sides alike", "identico nei due versi")
-            } else {
-                Sentence::same(name(worst))
-            };
+            let of = told_governing(self.of(worst));
             notes.push(say! {
                 "{title}: {verdict}, ratio {ratio} ({of})",
                 "{title}: {verdict}, rapporto {ratio} ({of})",
@@ -322,8 +318,8 @@ impl Checked<'_> {
                 ratio = Written(significant(ratio(worst), 4)), of
             });
         }
-        notes.extend(self.shown().filter(|(_, found)| found.limited_by_tie).map(|(name, _)| {
-            let side = side(name);
+        notes.extend(self.shown().filter(|(_, found)| found.limited_by_tie).map(|(of, _)| {
+            let side = side(of);
             say! {
                 "{side}: the strength of the tie limits d_u*",
                 "{side}: la resistenza della catena limita d_u*", side
@@ -345,7 +341,7 @@ impl Details for Checked<'_> {
     fn json(&self, verdict: &Verdict<'_>) -> Value {
         let governs = outcomes().map(|Outcome { name: result, ratio, .. }| {
             let worst = governing(&self.sides, ratio);
-            (result.to_owned(), json!({ "side": name(worst), "ratio": ratio(worst) }))
+            (result.to_owned(), json!({ "side": Side::of(worst.sign).name(), "ratio": ratio(worst) }))
         });
         let sides: Vec<_> = self.sides.iter().map(|side| side.ledger().json()).collect();
         json!({
@@ -366,7 +362,7 @@ impl Details for Checked<'_> {
         figure::figure(&self.wall, &self.demand, worst, language)
     }
 
-    fn ledgers(&self) -> Vec<(&'static str, Ledger)> {
-        self.shown().map(|(name, side)| (name, side.ledger())).collect()
+    fn ledgers(&self) -> Vec<(Sides, Ledger)> {
+        self.shown().map(|(of, side)| (of, side.ledger())).collect()
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use ::report::escaped;
 
+use crate::names::Sides;
 use crate::words::{Language, Sentence, say, side};
 
 /// A list of texts.
@@ -13,8 +14,8 @@ pub(crate) fn list(texts: &[Sentence], language: Language) -> String {
 }
 
 /// The headline of a side.
-pub(crate) fn side_head(name: &str, language: Language) -> String {
-    let name = side(name);
+pub(crate) fn side_head(of: Sides, language: Language) -> String {
+    let name = side(of);
     format!("<h3>{}</h3>\n", say!("Side {name}", "Verso {name}", name).markup(language))
 }
 

@@ -129,8 +129,7 @@ fn check_row(loaded: &LoadedStudy, codes: &WallCodes, curves: &[Vec<Curve>], row
     let [ground, site] = checked.ground.unwrap().map(|ag| ag * G);
     // the least of both sides at which the event is
     let u_ins = Wall::new(&wall.parameters).unwrap().body().instability;
-    let of_side =
-        |one: &Row| one.displacement.unwrap() / u_ins.of(if one.side == "u < 0" { -1.0 } else { 1.0 });
+    let of_side = |one: &Row| one.displacement.unwrap() / u_ins.of(one.side.sign());
     let event = row["event"].strip_prefix("beyond d_");
     let rows_of_event = verdict.rows.iter().filter(|one| Some(one.check) == event);
     let fraction = rows_of_event.map(of_side).fold(1.0, f64::min);

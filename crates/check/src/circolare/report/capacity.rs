@@ -6,7 +6,7 @@ use crate::circolare::outcome::Checked;
 use crate::circolare::sides::SideVerdict;
 use crate::error::CheckError;
 use crate::ledger::Ledger;
-use crate::names::Deciding;
+use crate::names::{Deciding, Sides};
 use crate::report::Figure;
 use crate::report::markup::table;
 use crate::words::{Language, Sentence, Written, formula, joined, say, shown, side as told_side};
@@ -19,11 +19,11 @@ pub(super) fn section(
     let mut text = by_side(case, sides, language, |one| {
         one.ledger.markup("curve", language) + &at_hinges(case, one, language)
     });
-    for SideLedger { name, verdict, .. } in sides {
+    for SideLedger { of, verdict, .. } in sides {
         if verdict.checks.slv.is_some() || verdict.checks.slc.is_some() {
-            text += &figure(case, name, verdict, language)?.html(language);
+            text += &figure(case, *of, verdict, language)?.html(language);
             if let Some(d) = cut(verdict) {
-                text += &detail(case, name, verdict, d, language)?.html(language);
+                text += &detail(case, *of, verdict, d, language)?.html(language);
             }
         }
     }
@@ -33,7 +33,7 @@ pub(super) fn section(
 /// The curve of a side over the demands of SLV and SLC.
 pub(in crate::circolare) fn figure(
     case: &Checked<'_>,
-    name: &str,
+    of: Sides,
     side: &SideVerdict,
     language: Language,
 ) -> Result<Figure, CheckError> {
@@ -41,7 +41,7 @@ pub(in crate::circolare) fn figure(
         "Capacity curve over the demand, {side}. A wall passes by displacement where its circle lies right \
          of the triangle of the same colour.",
         "Curva di capacità e domanda, {side}. La verifica in spostamento è soddisfatta se il cerchio è a \
-         destra del triangolo dello stesso colore.", side = told_side(name)
+         destra del triangolo dello stesso colore.", side = told_side(of)
     }];
     for (state, check) in side.by_displacement() {
         // the curve is that of the hinge that governs
@@ -73,7 +73,7 @@ fn cut(side: &SideVerdict) -> Option<f64> {
 /// The beginning of the curve, up to d = `cut`.
 fn detail(
     case: &Checked<'_>,
-    name: &str,
+    of: Sides,
     side: &SideVerdict,
     cut: f64,
     language: Language,
@@ -81,7 +81,7 @@ fn detail(
     let caption = say! {
         "The beginning of the curve, {side}, up to `d` = {d} mm: where the tie pulls and gives way.",
         "L'inizio della curva, {side}, fino a `d` = {d} mm: dove la catena tira e cede.",
-        side = told_side(name), d = Written(shown(1e3 * cut))
+        side = told_side(of), d = Written(shown(1e3 * cut))
     };
     let plot = over_demand(side, case.statement, &case.demands, Some(cut), language)?;
     Ok(Figure { caption: caption.markup(language), plot })

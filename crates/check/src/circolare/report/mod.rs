@@ -15,7 +15,7 @@ use super::sides::SideVerdict;
 use super::table::{Activation, Hinge};
 use crate::error::CheckError;
 use crate::ledger::Ledger;
-use crate::names::{Deciding, Side};
+use crate::names::{Deciding, Side, Sides};
 use crate::report::markup::side_head;
 use crate::report::{Origin, the_wall};
 use crate::verdict::Section;
@@ -23,7 +23,7 @@ use crate::words::{Language, Sentence, say};
 
 /// A side that differs, with its numbers.
 struct SideLedger<'a> {
-    name: &'static str,
+    of: Sides,
     side: Side,
     verdict: &'a SideVerdict,
     ledger: Ledger,
@@ -31,7 +31,12 @@ struct SideLedger<'a> {
 
 /// The sides that differ.
 fn ledgers<'a>(case: &'a Checked<'_>) -> Vec<SideLedger<'a>> {
-    let of = |(name, side, verdict)| SideLedger { name, side, verdict, ledger: case.ledger(side, verdict) };
+    let of = |(side, verdict)| SideLedger {
+        of: case.which(side),
+        side,
+        verdict,
+        ledger: case.ledger(side, verdict),
+    };
     case.sides().map(of).collect()
 }
 
@@ -46,7 +51,7 @@ fn by_side(
     for one in sides {
         let own = say(one);
         if !own.is_empty() && !case.outcome.alike {
-            text += &side_head(one.name, language);
+            text += &side_head(one.of, language);
         }
         text += &own;
     }
@@ -103,7 +108,7 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
         for one in &sides {
             let lines = one.ledger.markup(check.name(), language);
             if !lines.is_empty() {
-                let head = if case.outcome.alike { String::new() } else { side_head(one.name, language) };
+                let head = if case.outcome.alike { String::new() } else { side_head(one.of, language) };
                 text.extend(["<div class=\"together\">", &head, &lines, "</div>\n"]);
             }
         }

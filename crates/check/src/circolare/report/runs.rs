@@ -37,10 +37,10 @@ fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState, language: Lan
     let mut ledger = Ledger::default();
     let mut thresholds = Vec::new();
     let mm = |d: f64| Written(shown(1e3 * d));
-    for (side, _, verdict) in case.sides() {
+    for (side, verdict) in case.sides() {
         let Some(check) = verdict.displacement(name) else { continue };
         thresholds.push(check.d);
-        let side = told_side(side);
+        let side = told_side(case.which(side));
         let words =
             say!("Threshold and zero of the curve, {side}", "Soglia e zero della curva, {side}", side);
         let said = say! {
