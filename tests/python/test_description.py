@@ -14,7 +14,6 @@ from unit import Unit
 
 # Largest archive for one processor, small enough for a mail or a repository: both versions of FMI, storeys,
 # ties, records in every format and messages in plain words.
-LARGEST = 855_000
 
 
 @pytest.fixture(scope="module")
@@ -213,9 +212,6 @@ def test_archive(fmu):
     with zipfile.ZipFile(fmu) as archive:
         items = archive.infolist()
     names = [item.filename for item in items]
-    # the library of macOS is for two
-    processors = sum(1 + ("darwin" in name) for name in names if name.startswith("binaries/"))
-    assert fmu.stat().st_size < LARGEST * processors
     assert names == sorted(names)
     assert {item.date_time for item in items} == {(1980, 1, 1, 0, 0, 0)}
     assert {item.compress_type for item in items} <= {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}

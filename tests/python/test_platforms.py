@@ -18,6 +18,8 @@ from test_restart import BREAK, END, STEP, restart
 from unit import Unit
 from windows import RecordingUnit, Wine, digits, windows_path
 
+# bytes of the FMU for a processor
+LARGEST = 855_000
 PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
 DRIVER = "ROCKING_WALL_DRIVER"
 
@@ -45,6 +47,14 @@ def test_library(name, platform, fmu, floor_fmu, tmp_path):
     assert problems(tmp_path / library) == []
     content = (tmp_path / library).read_bytes()
     assert str(ROOT).encode() not in content, "the folder of the build is in the library"
+
+
+def test_size(fmu):
+    with zipfile.ZipFile(fmu) as archive:
+        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    # the library of macOS is for two
+    processors = sum(1 + ("darwin" in name) for name in libraries)
+    assert fmu.stat().st_size < LARGEST * processors
 
 
 @pytest.fixture(scope="session")

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::command::{Result, output, read, root};
-use crate::fmu;
+use crate::command::{Result, output, read};
+use crate::fmu::{self, Fmi};
 use crate::python::Environment;
 
 /// A program that runs the wall without an FMU, and the one that packs the FMU.
@@ -28,8 +28,8 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
         (built, python.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned())))
     });
     let ((library, programs), python) = (built?, python?);
-    let unit = fmu::pack_version(fmu::WALL, &[library], &programs, "2")?;
-    let out = root().join("fmu_out");
+    let unit = fmu::pack_version(fmu::WALL, &[library], &programs, Fmi::Two, &fmu::out())?;
+    let out = fmu::out();
     let shake = |base: PathBuf, record: &[&str]| shake(&unit, &python, &programs, &base, record);
     shake(out.join("demo"), &[])?;
     if let [file, ..] = record {

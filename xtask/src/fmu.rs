@@ -42,9 +42,14 @@ pub(crate) const SYSTEM: [&str; 2] = [std::env::consts::DLL_PREFIX, std::env::co
 /// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
+/// Where users find the FMUs.
+pub(crate) fn out() -> PathBuf {
+    root().join("fmu_out")
+}
+
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
-    pack(unit, &[library(unit, None)?], &[], &packer()?)
+    pack(unit, &[library(unit, None)?], &[], &packer()?, &out())
 }
 
 /// Builds `fmu-pack`, and returns its folder.
@@ -61,7 +66,7 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
             None => build(unit)?,
             Some(platforms) => {
                 let (of_2, of_3) = libraries(unit, platforms)?;
-                pack(unit, &of_2, &of_3, &packer()?)?
+                pack(unit, &of_2, &of_3, &packer()?, &out())?
             }
         };
         println!("{}", path.display());
@@ -123,6 +128,13 @@ pub(crate) fn quick_library(unit: Unit) -> Result<PathBuf> {
     Ok(target().join("demo").join(file_name(unit, SYSTEM)))
 }
 
+/// Builds the library for this machine as the tests are built, whose crates it shares, and returns its path.
+pub(crate) fn tested_library(unit: Unit) -> Result<PathBuf> {
+    let mut build = cargo();
+    link(build.arg("rustc").env("CARGO_INCREMENTAL", "0"), unit, "fmu")?;
+    Ok(target().join("debug").join(file_name(unit, SYSTEM)))
+}
+
 /// Links the library of a unit with some features by a prepared `cargo rustc`.
 fn link(build: &mut Command, unit: Unit, features: &str) -> Result<()> {
     build.args(["--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
@@ -151,27 +163,44 @@ pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ["", ".wasm"])))
 }
 
-/// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 of some libraries and, below `fmi3/`,
-/// for FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the WebAssembly component;
-/// where this machine cannot build it, that is said.
-pub(crate) fn pack(unit: Unit, of_2: &[PathBuf], more: &[PathBuf], programs: &Path) -> Result<PathBuf> {
+/// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and, below
+/// `fmi3/`, for FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the WebAssembly
+/// component; where this machine cannot build it, that is said.
+pub(crate) fn pack(
+    unit: Unit,
+    of_2: &[PathBuf],
+    more: &[PathBuf],
+    programs: &Path,
+    folder: &Path,
+) -> Result<PathBuf> {
     let mut of_3 = [of_2, more].concat();
     match check_component() {
         Ok(()) => of_3.push(component(unit)?),
         Err(missing) => println!("{} has no WebAssembly component: {missing}", unit.file),
     }
-    pack_version(unit, &of_3, programs, "3")?;
-    pack_version(unit, of_2, programs, "2")
+    pack_version(unit, &of_3, programs, Fmi::Three, folder)?;
+    pack_version(unit, of_2, programs, Fmi::Two, folder)
 }
 
-/// Zips the FMU for one version of FMI, and returns its path.
+/// A version of FMI.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fmi {
+    Two,
+    Three,
+}
+
+/// Zips the FMU for one version of FMI into a folder, that of FMI 3.0 below `fmi3/`, and returns its path.
 pub(crate) fn pack_version(
     unit: Unit,
     libraries: &[PathBuf],
     programs: &Path,
-    version: &str,
+    version: Fmi,
+    folder: &Path,
 ) -> Result<PathBuf> {
-    let folder = root().join(if version == "3" { "fmu_out/fmi3" } else { "fmu_out" });
+    let (folder, version) = match version {
+        Fmi::Two => (folder.to_owned(), "2"),
+        Fmi::Three => (folder.join("fmi3"), "3"),
+    };
     make_folder(&folder)?;
     let output = folder.join(unit.file);
     let mut pack = program(programs.join("fmu-pack"));

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::command::{Result, cargo, find, output, program, root, succeed, target};
-use crate::fmu;
+use crate::command::{Result, cargo, children_seconds, find, output, program, root, succeed, target};
+use crate::fmu::{self, Fmi};
 use crate::playground;
 use crate::python::Environment;
 use crate::wheel;
@@ -32,17 +32,19 @@ pub(crate) fn run() -> Result<()> {
     let (mut lines, mut failed) = (Vec::new(), 0);
     for (name, part) in parts {
         println!("\n== {name}");
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), children_seconds());
         let outcome = part();
         // only the Rust tests need none of what is prepared
         if let Some(prepared) = prepared.take() {
             let _ = prepared.join();
         }
-        let seconds = start.elapsed().as_secs();
+        let cpu =
+            children_seconds().zip(before).map(|(after, before)| format!(", CPU {:.0} s", after - before));
+        let took = format!("{} s{}", start.elapsed().as_secs(), cpu.unwrap_or_default());
         failed += usize::from(outcome.is_err());
         lines.push(match outcome {
-            Ok(()) => format!("passed  {name} ({seconds} s)"),
-            Err(message) => format!("FAILED  {name} ({seconds} s): {message}"),
+            Ok(()) => format!("passed  {name} ({took})"),
+            Err(message) => format!("FAILED  {name} ({took}): {message}"),
         });
     }
     println!("\n== summary");
@@ -87,7 +89,6 @@ fn prepare() {
         let _ = Environment::of(name);
     }
     for unit in fmu::UNITS {
-        let _ = fmu::library(unit, None);
         if fmu::check_component().is_ok() {
             let _ = fmu::component(unit);
         }
@@ -137,17 +138,22 @@ fn programs() -> PathBuf {
     target().join("debug")
 }
 
-/// Packs an FMU of the release library.
+/// Packs an FMU of the library that the tests' profile gives; `cargo xtask portable` tests the released ones.
 fn packed(unit: fmu::Unit) -> Result<PathBuf> {
-    fmu::pack(unit, &[fmu::library(unit, None)?], &[], &programs())
+    fmu::pack(unit, &[fmu::tested_library(unit)?], &[], &programs(), &folder())
+}
+
+/// The folder of the FMUs that are tested.
+fn folder() -> PathBuf {
+    target().join("tested")
 }
 
 /// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
 fn example() -> Result<PathBuf> {
     succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
     let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
-    fmu::pack_version(fmu::BALL, std::slice::from_ref(&library), &programs(), "3")?;
-    fmu::pack_version(fmu::BALL, &[library], &programs(), "2")
+    fmu::pack_version(fmu::BALL, std::slice::from_ref(&library), &programs(), Fmi::Three, &folder())?;
+    fmu::pack_version(fmu::BALL, &[library], &programs(), Fmi::Two, &folder())
 }
 
 fn python() -> Result<()> {
