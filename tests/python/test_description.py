@@ -12,9 +12,6 @@ from conftest import ROOT
 from library import problems
 from unit import Unit
 
-# Largest archive for one processor, small enough for a mail or a repository: both versions of FMI, storeys,
-# ties, records in every format and messages in plain words.
-
 
 @pytest.fixture(scope="module")
 def xml(fmu):

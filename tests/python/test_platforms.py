@@ -18,7 +18,7 @@ from test_restart import BREAK, END, STEP, restart
 from unit import Unit
 from windows import RecordingUnit, Wine, digits, windows_path
 
-# bytes of the FMU for a processor
+# bytes of the FMU for a processor, small enough for a mail or a repository
 LARGEST = 855_000
 PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
 DRIVER = "ROCKING_WALL_DRIVER"
