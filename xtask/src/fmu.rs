@@ -163,9 +163,9 @@ pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ["", ".wasm"])))
 }
 
-/// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and, below
-/// `fmi3/`, for FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the WebAssembly
-/// component; where this machine cannot build it, that is said.
+/// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and,
+/// below `fmi3/`, for FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the
+/// WebAssembly component; where this machine cannot build it, that is said.
 pub(crate) fn pack(
     unit: Unit,
     of_2: &[PathBuf],

@@ -40,6 +40,8 @@ The jobs of the project: cargo xtask JOB [OPTIONS]
   test        run every test: Rust, the FMU through FMPy, the Python package, the C interface against fmi-sys
   portable    build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the Windows library
               under wine
+  costs       [JOB ...] [--against COMMIT] measure the CPU time of demo, test, install and wheel from nothing;
+              write docs/costs.md and docs/costs.csv; --check JOB=SECONDS ...: compare with the last month
   package     pack the crates as a registry gets them into target/package, and build each from its archive
   release     [TAG] build the files of a release into target/release-files/: FMUs, `wall` and wheels for each
               platform, the source distribution, components, notices, checksums; and
@@ -84,6 +86,10 @@ fn main() -> ExitCode {
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
+        ["costs", arguments @ ..] => {
+            let mut costs = command::program("python3");
+            command::succeed(costs.arg("xtask/costs.py").args(arguments), "see its message above")
+        }
         ["portable"] => portable::run(),
         ["package"] => release::package(),
         ["release"] => release::run(None, fmu::PORTABLE),

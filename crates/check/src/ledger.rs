@@ -8,8 +8,9 @@ use ::report::escaped;
 use ::report::table::{Cell, Column, Digits, Table};
 use serde_json::{Map, Value};
 
+use crate::formulas::{formula, leading, raised};
 use crate::names::Sides;
-use crate::words::{Language, Sentence, formula, leading, raised, shown};
+use crate::words::{Language, Sentence, shown};
 
 /// A unit in which people read a number, and the factor to it from SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

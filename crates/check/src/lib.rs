@@ -11,6 +11,7 @@ mod entry;
 mod error;
 mod file;
 mod find;
+mod formulas;
 mod ledger;
 mod names;
 mod others;

@@ -9,11 +9,12 @@ use serde_json::{Value, json};
 
 use crate::entry::Entry;
 use crate::error::CheckError;
+use crate::formulas::markup;
 use crate::ledger::{Ledger, numbers};
 use crate::names::Sides;
 use crate::report::markup::side_head;
 use crate::report::{Figure, Origin, overview, the_wall};
-use crate::words::{Language, Sentence, Written, governing, markup, passed, said, say, side};
+use crate::words::{Language, Sentence, Written, governing, passed, said, say, side};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {

@@ -15,9 +15,10 @@ use crate::codes::{CODES, read};
 use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::formulas::markup;
 use crate::names::Sides;
 use crate::verdict::Verdict;
-use crate::words::{Language, Sentence, joined, markup, said, say, side};
+use crate::words::{Language, Sentence, joined, said, say, side};
 
 /// The outcomes of walls by one code, the worst first.
 pub struct WallVerdicts<'a> {

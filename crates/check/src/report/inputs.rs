@@ -7,9 +7,10 @@ use rocking_wall::wall::{Bar, BarNumber, Damping, Parameters, Wall, is_computabl
 
 use super::markup::{heads, table};
 use super::{Origin, drawing};
+use crate::formulas::formula;
 use crate::ledger::Unit;
 use crate::others::{choice, described, mechanism};
-use crate::words::{Language, Sentence, formula, say};
+use crate::words::{Language, Sentence, say};
 
 /// Lengths that are read in mm.
 const SMALL: [&str; 2] = ["tie_slack", "tie_ultimate"];

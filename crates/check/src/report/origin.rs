@@ -6,8 +6,9 @@ use run::walls::NamedWall;
 use super::markup::as_written;
 use super::project::ReportTable;
 use crate::file::CheckFile;
+use crate::formulas::markup;
 use crate::site::Records;
-use crate::words::{Language, markup};
+use crate::words::Language;
 
 /// Width of a figure on a phone \[px\].
 const NARROW: f64 = 390.0;

@@ -5,11 +5,12 @@ use crate::circolare::figure::over_demand;
 use crate::circolare::outcome::Checked;
 use crate::circolare::sides::SideVerdict;
 use crate::error::CheckError;
+use crate::formulas::formula;
 use crate::ledger::Ledger;
 use crate::names::{Deciding, Sides};
 use crate::report::Figure;
 use crate::report::markup::table;
-use crate::words::{Language, Sentence, Written, formula, joined, say, shown, side as told_side};
+use crate::words::{Language, Sentence, Written, joined, say, shown, side as told_side};
 
 pub(super) fn section(
     case: &Checked<'_>,

@@ -2,8 +2,9 @@
 
 use crate::circolare::outcome::Checked;
 use crate::circolare::table::Activation;
+use crate::formulas::formula;
 use crate::report::overview;
-use crate::words::{Language, formula, say};
+use crate::words::{Language, say};
 
 /// Headings and cells: the wall, its place, what holds it, and the numbers of the side that governs.
 pub(in crate::circolare) fn of(case: &Checked<'_>, language: Language) -> Vec<(String, String)> {

@@ -9,12 +9,13 @@ use crate::circolare::outcome::Checked;
 use crate::circolare::states::{Source, StateStatement};
 use crate::circolare::table::{BuildingTable, CheckTable};
 use crate::error::CheckError;
+use crate::formulas::formula;
 use crate::names::LimitState;
 use crate::others::storeys;
 use crate::report::Figure;
 use crate::report::markup::{paragraph, table};
 use crate::verdict::Section;
-use crate::words::{Language, Sentence, Written, formula, joined, say, shown};
+use crate::words::{Language, Sentence, Written, joined, say, shown};
 
 /// A symbol with its source, its unit, and its number on the ground.
 type OfGround = (&'static str, &'static str, &'static str, fn(&GroundSpectrum) -> f64);

@@ -1,7 +1,8 @@
 //! The symbols of a report.
 
+use crate::formulas::formula;
 use crate::report::markup::{paragraph, table};
-use crate::words::{Language, Sentence, formula, say};
+use crate::words::{Language, Sentence, say};
 
 /// Symbols that no heading or row of a report explains, and what they mean in English and Italian;
 /// displacements are positive outwards.
