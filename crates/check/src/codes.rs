@@ -3,9 +3,9 @@
 use rocking_wall::scene::{Described, Schema, suggestion};
 
 use crate::code::Code;
-use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
+use crate::words::entry::Entry;
 use crate::{circolare, fractions};
 
 /// A code, and how its table `[check]` is read.

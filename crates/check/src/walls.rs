@@ -10,14 +10,14 @@ use run::parallel;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
+use crate::code::verdict::Verdict;
 use crate::code::{Code, Subject};
 use crate::codes::{CODES, read};
-use crate::entry::Entry;
 use crate::error::CheckError;
 use crate::file::CheckFile;
-use crate::formulas::markup;
-use crate::names::Sides;
-use crate::verdict::Verdict;
+use crate::words::entry::Entry;
+use crate::words::formulas::markup;
+use crate::words::names::Sides;
 use crate::words::{Language, Sentence, joined, said, say, side};
 
 /// The outcomes of walls by one code, the worst first.

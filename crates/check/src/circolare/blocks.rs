@@ -3,12 +3,12 @@
 use report::apart;
 use rocking_wall::wall::TiePart;
 
-use super::sides::SideVerdict;
+use super::checks::sides::SideVerdict;
 use super::statement::Statement;
-use super::table::AtActivation;
+use super::statement::table::AtActivation;
 use crate::code::Subject;
-use crate::find::Sought;
-use crate::names::Deciding;
+use crate::code::sought::Sought;
+use crate::words::names::Deciding;
 
 /// Says what blocks a check of a wall that has the last value of a search.
 pub(super) fn reason(

@@ -3,84 +3,63 @@
 //!
 //! docs/model.md states the rule and the readings taken where the code can be read in two ways.
 //!
-//! Files import downwards only, from the ground:
+//! Folders import downwards only, from the ground:
 //!
-//! | floor | file | holds |
+//! | floor | folder | holds |
 //! |---|---|---|
-//! | 1 | `table` | the table `[check]` as it is written |
-//! | 2 | `ground`, `floor`, `demand` | spectra on the ground and at a height; what a limit state demands |
-//! | 3 | `grid`, `site`, `states`, `statement` | the table, validated; the hazard of a site from a grid |
-//! | 4 | `case` | a wall as the check takes it |
-//! | 5 | `curve`, `set_back`, `tie` | a(d) of one side of a wall, its hinges and its tie |
-//! | 6 | `checks` | the static checks of a side with the hinge in one place |
-//! | 7 | `sides`, `hinge` | a side by the rule on its hinge; the search of the hinge |
-//! | 8 | `compatibility`, `level`, `runs`, `dynamic` | records at the level of a limit state; runs |
-//! | 9 | `outcome`, `warnings`, `check`, `blocks` | what governs, what to know; why no tie passes |
+//! | 1 | `statement` | the table `[check]`, as it is written and validated; its limit states and site |
+//! | 2 | `curve` | a wall as the check takes it; a(d) of one of its sides, its hinges and its tie |
+//! | 3 | `checks` | the static checks of a side with its hinge in one place; its hinge by the rule |
+//! | 4 | `runs` | records at the level of a limit state; runs, judged |
+//! | 5 | `outcome` | the orchestrator: what governs, and what to know |
+//! | 6 | `report` | the outcome as the verdict that every code has; the sections of its report |
 //!
-//! `rows`, `figure` and `report` show the outcome. What is said of a number stands in `ledger` beside it.
+//! `blocks` says why no tie passes. The hazard and the spectra are in `ntc`, beside this folder. What is said
+//! of a number stands in `ledger` beside it.
 
 mod blocks;
-mod case;
-mod check;
 mod checks;
-mod compatibility;
 mod curve;
-mod demand;
-mod dynamic;
-mod figure;
-mod floor;
-mod grid;
-mod ground;
-mod hinge;
-mod level;
 mod outcome;
 mod report;
-mod rows;
 mod runs;
-mod set_back;
-mod sides;
-mod site;
 mod statement;
-mod states;
-mod table;
-mod tie;
-mod warnings;
 
 use rocking_wall::wall::Parameters;
 
+use crate::code::sought::Sought;
+use crate::code::verdict::Verdict;
 use crate::code::{Code, InStudies, Rule, Subject};
-use crate::entry::Entry;
 use crate::error::CheckError;
-use crate::find::Sought;
-use crate::names::{Deciding, LimitState};
-use crate::site::{Level, Records};
-use crate::verdict::Verdict;
+use crate::file::site::{Level, Records};
+use crate::words::entry::Entry;
+use crate::words::names::{Deciding, LimitState};
 use crate::words::say;
 
+pub use crate::ntc::demand::{Demand, MEAN_COUNTS_FROM};
+pub use crate::ntc::floor::{FloorSpectrum, Mode};
+pub use crate::ntc::grid::GridUnit;
+pub use crate::ntc::ground::{Category, G, GroundSpectrum, Hazard, Soil, Topography, damping_factor};
+pub use checks::sides::{LeastAlpha0, Sensitivity, SideVerdict, SideVerdicts, TieNumbers, Untied};
 pub use checks::{ActivationCheck, AtActivationNumbers, Checks, DisplacementCheck, LARGEST_LOSS};
-pub use compatibility::{BAND, Compatibility};
+pub use curve::set_back::SetBack;
+pub use curve::tie::{TieAtLimit, TieState};
 pub use curve::{Curve, TieBreak};
-pub use demand::{Demand, MEAN_COUNTS_FROM};
-pub use dynamic::DynamicCheck;
-pub use floor::{FloorSpectrum, Mode};
-pub use grid::GridUnit;
-pub use ground::{Category, G, GroundSpectrum, Hazard, Soil, Topography, damping_factor};
 pub use outcome::{Checked, Governs, Outcome};
+pub use runs::compatibility::{BAND, Compatibility};
+pub use runs::dynamic::DynamicCheck;
 pub use runs::{DynamicRun, DynamicState, Judged};
-pub use set_back::SetBack;
-pub use sides::{LeastAlpha0, Sensitivity, SideVerdict, SideVerdicts, TieNumbers, Untied};
 pub use statement::Statement;
-pub use states::{Source, StateStatement};
-pub use table::{
+pub use statement::states::{Source, StateStatement};
+pub use statement::table::{
     Activation, AtActivation, BuildingTable, CheckTable, HeightDemand, Hinge, KnowledgeLevel,
     LARGEST_CONFIDENCE_FACTOR, LimitStateTable, Method, Polarities, RecordScale, Rocks, SiteTable, TieTable,
     UseClass,
 };
-pub use tie::{TieAtLimit, TieState};
 
 /// This code among the others.
 pub const ENTRY: Entry = Entry {
-    name: table::NAME,
+    name: statement::table::NAME,
     title: "Circolare 7/2019",
     source: || {
         say! {
@@ -154,7 +133,7 @@ impl InStudies for Statement {
     }
 
     fn level(&self, subject: Subject<'_>, state: &str) -> Result<Option<Level>, CheckError> {
-        level::level(self, subject, state).map(Some)
+        runs::level::level(self, subject, state).map(Some)
     }
 
     fn rule(&self, check: &str, rule: Rule) -> Option<f64> {

@@ -1,7 +1,6 @@
 //! The smallest thickness or tie, or the largest height, with which a wall passes each of its checks.
 
 mod figure;
-mod sought;
 
 use std::fmt::Write;
 
@@ -12,12 +11,10 @@ use run::parallel;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::code::sought::{Sought, load};
+use crate::code::verdict::Verdict;
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
-use crate::verdict::Verdict;
-use sought::load;
-
-pub use sought::Sought;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 241;

@@ -6,7 +6,7 @@ use ground_motion::{GroundMotion, Maxima, Spectrum};
 use run::sample::sample_median;
 
 use crate::error::CheckError;
-use crate::site::{check_points, interpolated};
+use crate::file::site::{check_points, interpolated};
 
 /// The demand of a check.
 #[derive(Clone, Debug, PartialEq)]

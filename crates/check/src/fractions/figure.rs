@@ -8,7 +8,7 @@ use rocking_wall::wall::Wall;
 use super::demand::Demand;
 use super::sides::SideCheck;
 use crate::error::CheckError;
-use crate::report::Figure;
+use crate::sections::origin::Figure;
 use crate::words::{Language, Sentence, fixed, say};
 
 /// Draws the capacity curve of a side over the demand.

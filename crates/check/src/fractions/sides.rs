@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use rocking_wall::wall::{Tie, Wall};
 
 use crate::error::CheckError;
-use crate::ledger::{Ledger, Quantity, Unit};
-use crate::names::Side;
+use crate::words::ledger::{Ledger, Quantity, Unit};
+use crate::words::names::Side;
 use crate::words::{Sentence, say};
 
 /// The displacements at which capacity is read, as fractions of `u_ins`.

@@ -1,10 +1,5 @@
 //! The report of a check for a calculation file, in one page: what the reports of all codes share.
 
-pub(crate) mod drawing;
-pub(crate) mod inputs;
-pub(crate) mod markup;
-mod origin;
-pub(crate) mod project;
 mod walls;
 
 use std::fmt::Write as _;
@@ -14,15 +9,13 @@ use ::report::escaped;
 use ::report::page::Page;
 use rocking_wall::scene::{SceneError, fingerprint};
 
+use crate::code::verdict::{Section, Verdict};
 use crate::error::CheckError;
-use crate::site::Records;
-use crate::verdict::{Section, Verdict};
+use crate::file::site::Records;
 use crate::words::{Language, Sentence, say};
 
-pub(crate) use inputs::{overview, the_wall};
-use markup::{as_written, list, paragraph, table};
-pub use origin::{Figure, Origin};
-pub use project::{ReportTable, report_schema};
+use crate::sections::origin::Origin;
+use crate::words::markup::{as_written, list, paragraph, table};
 pub use walls::page_of_walls;
 
 /// Makes the page of a report: the verdict, warnings, the sections of its code, and the fingerprints of what

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use run::walls::NamedWall;
 
-use super::markup::{as_written, table};
 use super::{Origin, begun, end, finished, footer, head, sections, sheet_head};
+use crate::code::verdict::{Section, Verdict};
 use crate::error::CheckError;
-use crate::verdict::{Section, Verdict};
 use crate::walls::{WallCodes, WallVerdicts};
+use crate::words::markup::{as_written, table};
 use crate::words::{Language, Sentence, say};
 
 /// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover

@@ -6,10 +6,10 @@ use super::spectrum::{self, At};
 use super::{ActivationCheck, DisplacementCheck};
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::ledger::{OfSide, gives};
-use crate::circolare::demand::{Demand, LONGEST_PERIOD};
-use crate::circolare::states::StateStatement;
-use crate::ledger::{Ledger, Quantity, Unit};
-use crate::names::{Deciding, LimitState};
+use crate::circolare::statement::states::StateStatement;
+use crate::ntc::demand::{Demand, LONGEST_PERIOD};
+use crate::words::ledger::{Ledger, Quantity, Unit};
+use crate::words::names::{Deciding, LimitState};
 use crate::words::{Sentence, Written, passed, say, shown};
 
 /// A check whose numbers are shown.

@@ -1,10 +1,10 @@
 //! How a number of a spectrum follows: its equation, and where it comes from.
 
 use crate::circolare::curve::ledger::gives;
-use crate::circolare::demand::{Demand, MEAN_COUNTS_FROM};
-use crate::circolare::floor::FloorSpectrum;
-use crate::circolare::ground::{GroundSpectrum, damping_factor};
-use crate::ledger::Ledger;
+use crate::ntc::demand::{Demand, MEAN_COUNTS_FROM};
+use crate::ntc::floor::FloorSpectrum;
+use crate::ntc::ground::{GroundSpectrum, damping_factor};
+use crate::words::ledger::Ledger;
 use crate::words::{Sentence, say};
 
 /// Where the spectrum of a demand comes from.

@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::Parameters;
 
+use super::case::has_plateau;
 use super::{Curve, factor_of_beam};
-use crate::circolare::case::has_plateau;
 use crate::circolare::statement::Statement;
-use crate::circolare::table::Activation;
-use crate::ledger::{Ledger, Quantity, Unit};
-use crate::names::Side;
+use crate::circolare::statement::table::Activation;
+use crate::words::ledger::{Ledger, Quantity, Unit};
+use crate::words::names::Side;
 use crate::words::say;
 
 /// Share by which a formula may differ from the number that it explains: rounding only \[-\].

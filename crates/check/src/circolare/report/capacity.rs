@@ -1,15 +1,15 @@
 //! The capacity curve: its numbers, and the curve over the demand.
 
+use super::figure::over_demand;
 use super::{SideLedger, by_side};
-use crate::circolare::figure::over_demand;
+use crate::circolare::checks::sides::SideVerdict;
 use crate::circolare::outcome::Checked;
-use crate::circolare::sides::SideVerdict;
 use crate::error::CheckError;
-use crate::formulas::formula;
-use crate::ledger::Ledger;
-use crate::names::{Deciding, Sides};
-use crate::report::Figure;
-use crate::report::markup::table;
+use crate::sections::origin::Figure;
+use crate::words::formulas::formula;
+use crate::words::ledger::Ledger;
+use crate::words::markup::table;
+use crate::words::names::{Deciding, Sides};
 use crate::words::{Language, Sentence, Written, joined, say, shown, side as told_side};
 
 pub(super) fn section(

@@ -2,9 +2,9 @@
 
 use super::{SideLedger, by_side};
 use crate::circolare::outcome::Checked;
-use crate::circolare::table::Hinge;
-use crate::names::Deciding;
-use crate::report::markup::{heads, table};
+use crate::circolare::statement::table::Hinge;
+use crate::words::markup::{heads, table};
+use crate::words::names::Deciding;
 use crate::words::{Language, Sentence, say};
 
 /// The section; empty unless the wall is a strip or its hinges are set back.

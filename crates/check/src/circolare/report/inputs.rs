@@ -4,13 +4,13 @@ use rocking_wall::variables::Mechanism;
 
 use crate::circolare::outcome::Checked;
 use crate::circolare::statement::Statement;
-use crate::circolare::states::Source;
-use crate::circolare::table::{
+use crate::circolare::statement::states::Source;
+use crate::circolare::statement::table::{
     Activation, AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, RecordScale, Rocks, STRESS_BLOCK,
 };
-use crate::names::LimitState;
-use crate::report::Origin;
-use crate::report::markup::{heads, table};
+use crate::sections::origin::Origin;
+use crate::words::markup::{heads, table};
+use crate::words::names::LimitState;
 use crate::words::{Sentence, at_most, say};
 
 /// What is stated, and where.

@@ -1,24 +1,27 @@
 //! The sections of the report: every statement, number and check, with its clause and equations.
 
 pub(super) mod capacity;
+pub(crate) mod figure;
 mod hinges;
 mod inputs;
 pub(super) mod overview;
 pub(super) mod readings;
+pub(crate) mod rows;
 mod runs;
 pub(super) mod site;
 pub(super) mod symbols;
 mod ties;
 
+use super::checks::sides::SideVerdict;
 use super::outcome::Checked;
-use super::sides::SideVerdict;
-use super::table::{Activation, Hinge};
+use super::statement::table::{Activation, Hinge};
+use crate::code::verdict::Section;
 use crate::error::CheckError;
-use crate::ledger::Ledger;
-use crate::names::{Deciding, Side, Sides};
-use crate::report::markup::side_head;
-use crate::report::{Origin, the_wall};
-use crate::verdict::Section;
+use crate::sections::inputs::the_wall;
+use crate::sections::origin::Origin;
+use crate::words::ledger::Ledger;
+use crate::words::markup::side_head;
+use crate::words::names::{Deciding, Side, Sides};
 use crate::words::{Language, Sentence, say};
 
 /// A side that differs, with its numbers.

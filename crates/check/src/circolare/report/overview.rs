@@ -1,9 +1,9 @@
 //! A wall in the table of walls of a report.
 
 use crate::circolare::outcome::Checked;
-use crate::circolare::table::Activation;
-use crate::formulas::formula;
-use crate::report::overview;
+use crate::circolare::statement::table::Activation;
+use crate::sections::inputs::overview;
+use crate::words::formulas::formula;
 use crate::words::{Language, say};
 
 /// Headings and cells: the wall, its place, what holds it, and the numbers of the side that governs.

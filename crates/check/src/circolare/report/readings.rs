@@ -1,8 +1,8 @@
 //! Where the code can be read in two ways: the reading that this check takes.
 
-use crate::circolare::demand::Demand;
 use crate::circolare::outcome::Checked;
-use crate::circolare::states::Source;
+use crate::circolare::statement::states::Source;
+use crate::ntc::demand::Demand;
 use crate::words::{Sentence, say};
 
 fn any_demand(case: &Checked<'_>, holds: fn(&Demand) -> bool) -> bool {

@@ -1,13 +1,13 @@
 //! The dynamic check: its runs.
 
 use crate::circolare::curve::ledger::gives;
-use crate::circolare::demand::MEAN_COUNTS_FROM;
 use crate::circolare::outcome::Checked;
 use crate::circolare::runs::{DynamicRun, DynamicState};
-use crate::circolare::table::RecordScale;
-use crate::ledger::{Ledger, Quantity, Unit};
-use crate::names::{LimitState, Side};
-use crate::report::markup::{as_written, heads, paragraph, table};
+use crate::circolare::statement::table::RecordScale;
+use crate::ntc::demand::MEAN_COUNTS_FROM;
+use crate::words::ledger::{Ledger, Quantity, Unit};
+use crate::words::markup::{as_written, heads, paragraph, table};
+use crate::words::names::{LimitState, Side};
 use crate::words::{Language, Sentence, Written, passed, said, say, shown, side as told_side};
 
 /// The section of the dynamic check; empty without one.

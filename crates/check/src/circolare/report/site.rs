@@ -1,20 +1,20 @@
 //! The site, what acts at the wall, and their spectra.
 
+use super::figure::{Drawn, spectra};
 use crate::circolare::checks::DisplacementCheck;
-use crate::circolare::demand::{Demand, MEAN_COUNTS_FROM};
-use crate::circolare::figure::{Drawn, spectra};
-use crate::circolare::floor::{FloorSpectrum, Mode};
-use crate::circolare::ground::{GroundSpectrum, Topography};
 use crate::circolare::outcome::Checked;
-use crate::circolare::states::{Source, StateStatement};
-use crate::circolare::table::{BuildingTable, CheckTable};
+use crate::circolare::statement::states::{Source, StateStatement};
+use crate::circolare::statement::table::{BuildingTable, CheckTable};
+use crate::code::verdict::Section;
 use crate::error::CheckError;
-use crate::formulas::formula;
-use crate::names::LimitState;
-use crate::others::storeys;
-use crate::report::Figure;
-use crate::report::markup::{paragraph, table};
-use crate::verdict::Section;
+use crate::ntc::demand::{Demand, MEAN_COUNTS_FROM};
+use crate::ntc::floor::{FloorSpectrum, Mode};
+use crate::ntc::ground::{GroundSpectrum, Topography};
+use crate::sections::origin::Figure;
+use crate::words::formulas::formula;
+use crate::words::markup::{paragraph, table};
+use crate::words::names::LimitState;
+use crate::words::others::storeys;
 use crate::words::{Language, Sentence, Written, joined, say, shown};
 
 /// A symbol with its source, its unit, and its number on the ground.

@@ -1,7 +1,7 @@
 //! The symbols of a report.
 
-use crate::formulas::formula;
-use crate::report::markup::{paragraph, table};
+use crate::words::formulas::formula;
+use crate::words::markup::{paragraph, table};
 use crate::words::{Language, Sentence, say};
 
 /// Symbols that no heading or row of a report explains, and what they mean in English and Italian;

@@ -1,11 +1,11 @@
 //! The tie: what its bar makes of it, where it yields and breaks, and the forces of its anchors.
 
 use super::{SideLedger, by_side};
+use crate::circolare::curve::tie::{TieState, add_bar, anchors};
 use crate::circolare::outcome::Checked;
-use crate::circolare::tie::{TieState, add_bar, anchors};
-use crate::ledger::Ledger;
-use crate::names::Deciding;
-use crate::report::markup::{paragraph, table};
+use crate::words::ledger::Ledger;
+use crate::words::markup::{paragraph, table};
+use crate::words::names::Deciding;
 use crate::words::{Language, Sentence, say};
 
 /// The section; empty unless the wall has a tie on a side to which it rocks.

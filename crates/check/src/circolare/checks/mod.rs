@@ -1,0 +1,358 @@
+//! The static checks of a side.
+
+pub(super) mod ledger;
+pub(crate) mod sides;
+mod spectrum;
+
+use report::apart;
+
+use super::curve::case::Case;
+use super::curve::tie::TieAtLimit;
+use super::curve::{Curve, TieBreak};
+use super::statement::states::StateStatement;
+use super::statement::table::{AtActivation, Hinge, Method};
+use super::statement::{Displacements, Statement};
+use crate::error::CheckError;
+use crate::ntc::demand::{Demand, Demands};
+use crate::words::names::{Deciding, LimitState};
+
+/// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
+/// C8.7.1.2.1.6 \[-\].
+pub const LARGEST_LOSS: f64 = 0.5;
+/// Largest `u_y`/`u_0` of a tie that acts at the activation \[-\].
+const SOFTEST: f64 = 0.10;
+
+/// The checks of a side; `None` for one that is not made.
+#[derive(Clone, Copy, Debug)]
+pub struct Checks {
+    /// SLD, activation.
+    pub sld: Option<ActivationCheck>,
+    /// SLV with q.
+    pub slv_q: Option<ActivationCheck>,
+    /// SLV by displacement.
+    pub slv: Option<DisplacementCheck>,
+    /// SLC by displacement.
+    pub slc: Option<DisplacementCheck>,
+}
+
+impl Checks {
+    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h; `tied` says whether the
+    /// tie counts.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a wall or a demand that has no check.
+    pub(super) fn at(
+        case: &Case<'_>,
+        sign: f64,
+        hinge: Option<f64>,
+        tied: bool,
+    ) -> Result<(Curve, Self), CheckError> {
+        Self::of_these(case, sign, hinge, tied, [true; 4])
+    }
+
+    /// The same with those of the checks that are wanted, in the order of
+    /// [`Deciding::ALL`].
+    pub(super) fn of_these(
+        case: &Case<'_>,
+        sign: f64,
+        hinge: Option<f64>,
+        tied: bool,
+        wanted: [bool; 4],
+    ) -> Result<(Curve, Self), CheckError> {
+        let named = |error: CheckError| match hinge {
+            Some(hinge) if case.rule != Some(Hinge::Given) => error.at_hinge(hinge),
+            _ => error,
+        };
+        let found = || {
+            let curve = Curve::new(case, sign, hinge, tied)?;
+            let demands = match &case.shared {
+                Some(shared) => shared,
+                None => &case.demands_at(curve.body())?,
+            };
+            let checks = Self::new(&curve, case.statement, demands, wanted)?;
+            Ok((curve, checks))
+        };
+        found().map_err(named)
+    }
+
+    /// Makes those of the checks that are wanted, in the order of [`Deciding::ALL`]; SLD raises the last two.
+    pub(super) fn new(
+        curve: &Curve,
+        statement: &Statement,
+        demands: &Demands,
+        [wants_sld, wants_slv_q, wants_slv, wants_slc]: [bool; 4],
+    ) -> Result<Self, CheckError> {
+        let of = |state: LimitState| statement.demanded(demands).find(|(given, _)| given.state == state);
+        let sld = of(LimitState::Sld)
+            .filter(|_| wants_sld || wants_slv || wants_slc)
+            .map(|(given, demand)| activation(curve, statement, given, demand, given.damping, 1.0))
+            .transpose()?;
+        let q = statement.behaviour_factor;
+        // a spectrum of another damping than that of the activation leaves this check out
+        let slv_q = of(LimitState::Slv)
+            .filter(|_| wants_slv_q)
+            .filter(|(given, demand)| {
+                statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
+            })
+            .map(|(given, demand)| activation(curve, statement, given, demand, given.activation_damping, q))
+            .transpose()?;
+        let floor = sld.map(|sld| sld.ag);
+        let by_displacement = |state: LimitState, is_wanted: bool| {
+            let rules = statement.rules(state);
+            of(state)
+                .filter(|_| is_wanted)
+                .map(|(given, demand)| displacement(curve, given, demand, rules, floor))
+                .transpose()
+        };
+        let slv = by_displacement(LimitState::Slv, wants_slv)?;
+        let slc = by_displacement(LimitState::Slc, wants_slc)?;
+        if let (Some(slv), Some(slc)) = (slv, slc)
+            && slc.d < slv.d
+        {
+            let [slc, slv] = apart([slc.d, slv.d].map(|d| 1e3 * d), 4);
+            let message = format!("SLC comes before SLV: d_SLC = {slc} mm is below d_SLV = {slv} mm");
+            return Err(CheckError::value(&["SLC", "displacement"], message));
+        }
+        Ok(Self { sld, slv_q, slv, slc })
+    }
+
+    /// `ζ_E` of the checks, in the order of [`Deciding::ALL`]; infinite for one that is not made.
+    pub(super) fn zetas(&self) -> [f64; 4] {
+        let of = |zeta: Option<f64>| zeta.unwrap_or(f64::INFINITY);
+        [
+            of(self.sld.map(|check| check.ratio)),
+            of(self.slv_q.map(|check| check.ratio)),
+            of(self.slv.map(|check| check.zeta)),
+            of(self.slc.map(|check| check.zeta)),
+        ]
+    }
+
+    /// Where the hinge is in a check, of h \[-\].
+    pub(super) fn hinge(&self, check: Deciding) -> Option<f64> {
+        match check {
+            Deciding::Sld => self.sld?.hinge,
+            Deciding::SlvWithQ => self.slv_q?.hinge,
+            Deciding::Slv => self.slv?.hinge,
+            Deciding::Slc => self.slc?.hinge,
+        }
+    }
+
+    /// The check that governs this side, and its `ζ_E`; infinite where none decides.
+    pub(super) fn governing(&self, statement: &Statement) -> (Deciding, f64) {
+        let all = Deciding::ALL.into_iter().zip(self.zetas());
+        let deciding = all.filter(|(check, _)| statement.decides(*check));
+        deciding.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((Deciding::Slv, f64::INFINITY))
+    }
+}
+
+/// A wall at its activation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtActivationNumbers {
+    /// α0 with the tie \[-\].
+    pub alpha0: f64,
+    /// a with the tie, without FC \[m/s²\].
+    pub acceleration: f64,
+    /// T0 with the tie \[s\].
+    pub t0: f64,
+    /// N of the tie \[N\].
+    pub force: f64,
+}
+
+/// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActivationCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    pub hinge: Option<f64>,
+    /// Capacity, with FC and, in the linear check, times q \[m/s²\].
+    pub capacity: f64,
+    /// Demand \[m/s²\].
+    pub demand: f64,
+    /// `ζ_E` = capacity/demand \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there \[g\].
+    pub ag: f64,
+    /// Strength of the tie at which `ζ_E` is 1; `None` without a tie, and for one with slack \[N\].
+    pub required: Option<f64>,
+    /// a of the activation, without FC and q \[m/s²\].
+    pub acceleration: f64,
+    /// T0 of the demand \[s\].
+    pub t0: f64,
+}
+
+/// A check of displacements, C8.7.1.2.1.8.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplacementCheck {
+    /// Where the hinge of a strip is, of h \[-\].
+    pub hinge: Option<f64>,
+    /// `d_SLV` or `d_SLC` \[m\].
+    pub d: f64,
+    /// a there, with FC \[m/s²\].
+    pub a: f64,
+    /// `T_SLV` or `T_SLC` \[s\].
+    pub period: f64,
+    /// `S_e` or `S_eZ` at that period \[m/s²\].
+    pub acceleration: f64,
+    /// `S_d` \[m\].
+    pub demand: f64,
+    /// Both terms of [C8.7.1.12]; the second only behind b T₁ \[m\].
+    pub demand_terms: [Option<f64>; 2],
+    /// d/`S_d` \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
+    pub ag: f64,
+    /// `ζ_E` \[-\].
+    pub zeta: f64,
+    /// Whether the tie breaks there.
+    pub limited_by_tie: bool,
+    /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
+    pub raised: bool,
+    /// The tie there and at the demand.
+    pub tie: Option<TieAtLimit>,
+}
+
+/// C8.7.1.2.1.5 with the capacity times `factor`: `a_0` of a wall that is held, or `a_y`, over FC, with the
+/// tie at its strength where it counts at the activation.
+fn activation(
+    curve: &Curve,
+    statement: &Statement,
+    given: &StateStatement,
+    demand: &Demand,
+    xi: f64,
+    factor: f64,
+) -> Result<ActivationCheck, CheckError> {
+    let own = curve.ay;
+    let AtActivationNumbers { acceleration, t0, .. } = at_activation(curve, statement)?;
+    let capacity = factor * acceleration / statement.confidence_factor;
+    let required = match curve.tie() {
+        // N = max(0, [FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
+        Some(tie) if tie.slack == 0.0 => {
+            let demand = demand.acceleration(given.state, curve.tied_period(), xi)?;
+            let lacking = statement.confidence_factor * demand / factor - own;
+            Some((lacking / curve.of_force(tie.lever)).max(0.0))
+        }
+        _ => None,
+    };
+    let demand = demand.acceleration(given.state, t0, xi)?;
+    let ratio = capacity / demand;
+    Ok(ActivationCheck {
+        hinge: curve.hinge,
+        capacity,
+        demand,
+        ratio,
+        ag: ratio * given.ag,
+        required,
+        acceleration,
+        t0,
+    })
+}
+
+/// The wall at its activation, with the tie where it counts there.
+pub(super) fn at_activation(curve: &Curve, statement: &Statement) -> Result<AtActivationNumbers, CheckError> {
+    let pull = tie_at_activation(curve, statement)?;
+    Ok(AtActivationNumbers {
+        alpha0: curve.alpha0 + pull / curve.pushed_weight,
+        acceleration: curve.ay + curve.of_force(pull),
+        t0: if pull > 0.0 { curve.tied_period() } else { curve.t0 },
+        force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
+    })
+}
+
+/// A `N_y`, the force of the tie at the place of F at the activation; 0 where it does not count \[N\].
+///
+/// # Errors
+/// [`CheckError`] of a tie that does not act there.
+fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckError> {
+    if statement.at_activation() == AtActivation::None {
+        return Ok(0.0);
+    }
+    let Some(tie) = curve.tie() else { return Ok(0.0) };
+    let refused = |message: String| {
+        let message = format!("at_activation = \"yield\" {message}");
+        Err(CheckError::value(&["tie", "at_activation"], message))
+    };
+    let Some(strength) = tie.strength else {
+        return refused("needs a tie with tie_strength, N_y in N, or a bar".into());
+    };
+    if tie.slack > 0.0 {
+        return refused(format!(
+            "needs a tight tie: with tie_slack = {} m the wall rocks before the tie pulls; state \"none\", \
+             or leave tie_slack out",
+            tie.slack
+        ));
+    }
+    let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
+    if yields > limit {
+        let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
+        return refused(format!(
+            "needs a stiff tie: this one has its strength at u_y = {yields} mm, beyond {SOFTEST} u_0 = \
+             {limit} mm; state \"none\", or a stiffer tie"
+        ));
+    }
+    Ok(tie.lever * strength)
+}
+
+/// Returns the displacement u of a limit state, and whether the tie breaks there, C8.7.1.2.1.6 \[m\].
+fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, bool), CheckError> {
+    let of_curve = fraction * curve.zero;
+    if given.state == LimitState::Slc {
+        let Some(local) = given.displacement else { return Ok((of_curve, false)) };
+        if !(local > 0.0 && local < curve.zero) {
+            let [_, zero] = apart([local, curve.zero], 4);
+            let message = format!("SLC.displacement = {local} m must be above 0 and below u_0 = {zero} m");
+            return Err(CheckError::value(&["SLC", "displacement"], message));
+        }
+        return Ok((of_curve.min(local), false));
+    }
+    Ok(match curve.tie_break() {
+        Some(TieBreak { u, loss, .. }) if u < of_curve && loss > LARGEST_LOSS => (u, true),
+        _ => (of_curve, false),
+    })
+}
+
+fn displacement(
+    curve: &Curve,
+    given: &StateStatement,
+    demand: &Demand,
+    rules: Displacements,
+    floor: Option<f64>,
+) -> Result<DisplacementCheck, CheckError> {
+    let state = given.state;
+    let Displacements { fraction, period_factor } = rules;
+    let (u, limited_by_tie) = limit(curve, given, fraction)?;
+    let (d, a) = (curve.d_per_u * u, curve.tied(u));
+    if a <= 0.0 {
+        return Err(CheckError::wall(format!("{state}: a is not positive at d = {d} m")));
+    }
+    let (elastic, end) = (curve.dy, fraction * curve.d0);
+    if end <= elastic {
+        let [elastic, end] = apart([elastic, end].map(|d| 1e3 * d), 4);
+        return Err(CheckError::wall(format!(
+            "{state}: the elastic branch ends at d_y = {elastic} mm, beyond {fraction:.2} d_0 = {end} mm: \
+             lower a1 or raise E"
+        )));
+    }
+    let period = Curve::period(period_factor, d, a);
+    let t0 = curve.tied_period().min(period);
+    let (acceleration, demand, demand_terms) = demand.displacement(state, [t0, period], given.damping)?;
+    let ratio = d / demand;
+    let least = floor.unwrap_or(0.0);
+    let raised = least > ratio * given.ag;
+    let ag = if raised { least } else { ratio * given.ag };
+    let zeta = if raised { least / given.ag } else { ratio };
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
+    Ok(DisplacementCheck {
+        hinge: curve.hinge,
+        d,
+        a,
+        period,
+        acceleration,
+        demand,
+        demand_terms,
+        ratio,
+        ag,
+        zeta,
+        limited_by_tie,
+        raised,
+        tie,
+    })
+}

@@ -1,0 +1,219 @@
+//! The ledger of a side.
+
+use std::f64::consts::TAU;
+
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::Parameters;
+use serde_json::json;
+
+use super::{LeastAlpha0, SideVerdict, TieNumbers};
+use crate::circolare::checks::LARGEST_LOSS;
+use crate::circolare::checks::ledger::OfCheck;
+use crate::circolare::curve::TieBreak;
+use crate::circolare::curve::ledger::OfSide;
+use crate::circolare::statement::table::STRESS_BLOCK;
+use crate::ntc::demand::Demands;
+use crate::words::ledger::{Ledger, Quantity, Unit};
+use crate::words::names::{Deciding, LimitState};
+use crate::words::{Written, say, shown};
+
+impl SideVerdict {
+    /// The numbers of the side, in the order of a terminal and a report.
+    pub(in crate::circolare) fn ledger(&self, of: OfSide<'_>, demands: &Demands) -> Ledger {
+        let mut ledger = of.ledger(&self.curve);
+        self.least_alpha0.iter().for_each(|found| found.add_to(&mut ledger));
+        self.add_set_back(of, &mut ledger);
+        self.curve.add_to(of, &mut ledger);
+        self.add_activation(of, &mut ledger);
+        self.tie.iter().for_each(|tie| tie.add_to(self, of, &mut ledger));
+        let is_tied = self.activation.force > 0.0;
+        for (given, demand) in of.statement.demanded(demands) {
+            let at = |own| OfCheck { side: of, curve: &self.curve, own, given, demand, is_tied };
+            let activated = match given.state {
+                LimitState::Sld => self.checks.sld.map(|found| (Deciding::Sld, found)),
+                LimitState::Slv => self.checks.slv_q.map(|found| (Deciding::SlvWithQ, found)),
+                LimitState::Slc => None,
+            };
+            if let Some((check, found)) = activated {
+                found.add_to(check, at(&self.curve), &mut ledger);
+            }
+            if let Some(found) = self.displacement(given.state) {
+                found.add_to(at(self.at(found.hinge)), &mut ledger);
+            }
+        }
+        if let Some(untied) = self.untied {
+            ledger.begin("untied", "untied");
+            for (state, zeta) in [(LimitState::Slv, untied.slv), (LimitState::Slc, untied.slc)] {
+                let words = say!("Without the tie, {state}", "In assenza di catena, {state}", state);
+                ledger.add(Quantity::new(state.key(), "ζ_E", Unit::NONE, zeta, words));
+            }
+        }
+        ledger.begin("", "");
+        if !self.sensitivity.is_empty() {
+            ledger.fact("sensitivity", json!(self.sensitivity));
+        }
+        ledger
+    }
+
+    /// Adds the depths of stress blocks and what they take of the thickness.
+    fn add_set_back(&self, of: OfSide<'_>, ledger: &mut Ledger) {
+        let (given, set_back, mm) = (&of.statement.table, self.curve.set_back, Unit::MILLIMETRES);
+        let is_set_back = of.statement.masonry.is_some();
+        ledger.begin("", "set-back");
+        if let (Some(strength), Some(bears)) = (given.masonry_strength, of.statement.masonry) {
+            let (gamma, block) =
+                (given.masonry_gamma.unwrap_or(1.0), given.stress_block.unwrap_or(STRESS_BLOCK));
+            ledger.know(&[("f_m", 1e-6 * strength), ("γ", gamma), ("κ", block)]);
+            let (words, equation) = if given.masonry_over_fc.unwrap_or(true) {
+                let words = say! {
+                    "Design strength of the masonry, with FC", "Resistenza di progetto della muratura, con FC"
+                };
+                (words, "f_d = f_m/(γ FC)")
+            } else {
+                let words = say! {
+                    "Design strength of the masonry, without FC",
+                    "Resistenza di progetto della muratura, senza FC"
+                };
+                (words, "f_d = f_m/γ")
+            };
+            let design = Quantity::new("", equation, Unit::MEGAPASCALS, bears / block, words);
+            ledger.add(design.at("C8.7.1.2.1 d)"));
+        }
+        ledger.begin("set_back", "set-back");
+        let is_strip = of.parameters.mechanism == Mechanism::VerticalSpanning;
+        // kN over MPa and m are mm
+        let mut add = |key, equation: &str, depth: f64, words| {
+            if is_set_back && (is_strip || key == "base") {
+                ledger.add(Quantity::new(key, equation, mm, depth, words).at("NTC 7.8.2.2.3"));
+            } else {
+                ledger.fact(key, depth);
+            }
+        };
+        let words = say!("Set-back of the hinge at the base", "Arretramento della cerniera alla base");
+        add("base", "t_b = (W + O)/(2 κ f_d l)", set_back.base, words);
+        let words = say!("Set-back of the intermediate hinge", "Arretramento della cerniera intermedia");
+        add("middle", "t_m = (W_2 + O)/(2 κ f_d l)", set_back.middle, words);
+        let words = say!("Set-back of the hinge at the top", "Arretramento della cerniera in sommità");
+        add("top", "t_t = O/(2 κ f_d l)", set_back.top, words);
+        if is_set_back {
+            ledger.begin("", "set-back");
+            let share = set_back.base.max(set_back.middle) / of.parameters.thickness;
+            let words = say!("Largest set-back over the thickness", "Arretramento massimo su spessore");
+            ledger.add(Quantity::new("", "t/b", Unit::NONE, share, words));
+        }
+    }
+
+    /// Adds the wall at its activation; with the tie at its strength where that counts.
+    fn add_activation(&self, of: OfSide<'_>, ledger: &mut Ledger) {
+        let Parameters { tie_height, height, gravity, tie_stiffness, .. } = *of.parameters;
+        let (at, curve) = (self.activation, &self.curve);
+        let lever = 2.0 * tie_height / height;
+        let stiffness = lever * lever * tie_stiffness * gravity / (curve.pushed_weight * curve.d_per_u);
+        let tied = "(2 y/h)² K g/((W + 2 r O) e* d/u)";
+        ledger.begin("activation", "tie");
+        let words = say! {
+            "Multiplier of activation with the tie at its strength, without FC",
+            "Moltiplicatore di attivazione con la catena alla resistenza, senza FC"
+        };
+        let equation = "α0 = [F_act + (2 y/h) N_y]/(W + 2 r O)";
+        let multiplier = Quantity::new("alpha0", equation, Unit::NONE, at.alpha0, words).at("[C8.7.1.1]");
+        let words = say! {
+            "Acceleration of activation with the tie at its strength, without FC",
+            "Accelerazione di attivazione con la catena alla resistenza, senza FC"
+        };
+        let equation = format!("a = {} + (2 y/h) N_y g/[(W + 2 r O) e*]", curve.own_symbol());
+        let acceleration = Quantity::new("a", equation, Unit::ACCELERATION, at.acceleration, words);
+        let words = say!("Force of the tie at the activation", "Tiro della catena all'attivazione");
+        let force = Quantity::new("tie_force", "N", Unit::KILONEWTONS, at.force, words).unlisted();
+        if at.force == 0.0 {
+            for (key, value) in
+                [("alpha0", at.alpha0), ("a", at.acceleration), ("T0", at.t0), ("tie_force", 0.0)]
+            {
+                ledger.fact(key, value);
+            }
+            return;
+        }
+        ledger.add(multiplier);
+        ledger.add(acceleration);
+        ledger.know(&[("4π²/T0²", (TAU / curve.t0).powi(2)), (tied, stiffness)]);
+        let words = say!("Period of wall and tie", "Periodo di parete e catena");
+        let period =
+            Quantity::new("T0", format!("T_0t = 2π/√[4π²/T0² + {tied}]"), Unit::SECONDS, at.t0, words);
+        let period = period.at("[C8.7.1.6]");
+        ledger.add(if curve.t0 > 0.0 { period } else { period.with_numbers("").unlisted() });
+        ledger.add(force);
+    }
+}
+
+impl LeastAlpha0 {
+    /// Adds what the rules on the hinge give; a table of a report has them.
+    fn add_to(&self, ledger: &mut Ledger) {
+        ledger.begin("least_alpha0", "hinges");
+        let words = say!("Least multiplier, without FC", "Moltiplicatore minimo, senza FC");
+        ledger.add(Quantity::new("alpha0", "α_0,min", Unit::NONE, self.alpha0, words).at("C8.7.1.2.1.1"));
+        for (key, value, words) in [
+            ("hinge_ratio", Some(self.hinge), say!("Its hinge", "La sua cerniera")),
+            ("zeta_E", self.zeta, say!("ζ_E with that hinge", "ζ_E con quella cerniera")),
+            (
+                "worst_hinge_ratio",
+                self.worst_hinge,
+                say!("Least favourable hinge", "Cerniera più sfavorevole"),
+            ),
+            ("worst_zeta_E", self.worst, say!("ζ_E with that hinge", "ζ_E con quella cerniera")),
+        ] {
+            ledger.add(Quantity::new(key, "", Unit::NONE, value, words).unlisted());
+        }
+    }
+}
+
+impl TieNumbers {
+    /// Adds where the tie pulls, yields and breaks, and what its rupture takes.
+    fn add_to(&self, side: &SideVerdict, of: OfSide<'_>, ledger: &mut Ledger) {
+        let mm = Unit::MILLIMETRES;
+        ledger.begin("tie", "tie");
+        let words = say!("The tie begins to pull at", "La catena inizia a tirare a");
+        let engaged = Quantity::new("u_engaged", "u_g = g_0 h/(2 y)", mm, self.engaged, words);
+        ledger.add(if self.engaged > 0.0 { engaged } else { engaged.unlisted() });
+        let words = say!("The tie reaches its strength at", "La catena raggiunge la resistenza a");
+        ledger.add(Quantity::new("u_yield", "u_y = (N_y/K {10³} + g_0) h/(2 y)", mm, self.yields, words));
+        let words = say!("The tie breaks at", "La catena si rompe a");
+        let equation = "u_r = (N_y/K {10³} + g_0 + e_p) h/(2 y)";
+        ledger.add(Quantity::new("u_break", equation, mm, self.breaks, words));
+        let strength = side.curve.tie().and_then(|tie| tie.strength);
+        let of_anchor = strength.zip(side.curve.anchors).map(|(force, anchors)| force / anchors);
+        for (name, value, words) in [
+            ("strength", strength, say!("Strength of the tie", "Resistenza della catena")),
+            ("one anchor", of_anchor, say!("Strength of one anchor", "Resistenza di un ancoraggio")),
+        ] {
+            let force = Quantity::new("", "", Unit::KILONEWTONS, value, words);
+            ledger.add(force.unlisted().on_terminal(name));
+        }
+        match side.curve.tie_break() {
+            Some(broken) => add_rupture(side, of, &broken, ledger),
+            None => ledger.fact("loss", json!(self.loss)),
+        }
+    }
+}
+
+/// Adds what the curve loses where the tie breaks.
+fn add_rupture(side: &SideVerdict, of: OfSide<'_>, broken: &TieBreak, ledger: &mut Ledger) {
+    let TieBreak { before, after, largest, loss, .. } = *broken;
+    let put = format!("({} − {})/{}", shown(before), shown(after), shown(largest));
+    let words = say! {
+        "What the curve, with FC, loses there for good, over its largest a",
+        "Riduzione della capacità alla rottura della catena, rapportata ad a_max"
+    };
+    ledger
+        .add(Quantity::new("loss", "Δa/a_max", Unit::NONE, loss, words).at("C8.7.1.2.1.6").with_numbers(put));
+    let share = Written(format!("{:.2}", of.statement.rules(LimitState::Slv).fraction));
+    let early = side.checks.slv.is_some_and(|check| check.limited_by_tie);
+    let decides = if early {
+        say! {
+            "more than {limit}, before {share} d_0: d_SLV is there",
+            "oltre {limit}, prima di {share} d_0: d_SLV è in quel punto", limit = LARGEST_LOSS, share
+        }
+    } else {
+        say!("d_SLV stays at {share} d_0", "d_SLV resta a {share} d_0", share)
+    };
+    ledger.say(say!("Consequence", "Conseguenza"), decides.as_markup());
+}
