@@ -35,9 +35,19 @@ const MANY: u32 = 15;
 /// not depend on the machine's load.
 pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     let remedy = "see its message above";
-    succeed(cargo().args(["bench", "--locked", "--bench", "step"]), remedy)?;
+    succeed(cargo().args(["bench", "--profile", "dist", "--locked", "--bench", "step"]), remedy)?;
     let mut bench = cargo();
-    bench.args(["bench", "--locked", "--package", "rocking-record", "--bench", "record", "--"]);
+    bench.args([
+        "bench",
+        "--profile",
+        "dist",
+        "--locked",
+        "--package",
+        "rocking-record",
+        "--bench",
+        "record",
+        "--",
+    ]);
     if let Some(record) = record {
         bench.arg(std::path::absolute(record).map_err(|error| format!("{record}: {error}"))?);
     }
@@ -46,7 +56,7 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
         println!("valgrind is not installed: instructions are not counted");
         return Ok(());
     }
-    let no_run = "bench --locked --package rocking-record --bench record --no-run --message-format json";
+    let no_run = "bench --profile dist --locked --package rocking-record --bench record --no-run --message-format json";
     let built = output(cargo().args(no_run.split(' ')), remedy)?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
     println!("\ninstructions a sample, walls of Table 5 under the embedded motion");

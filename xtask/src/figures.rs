@@ -33,7 +33,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let stability =
         wall(&["verify", "stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
     let mut noise = cargo();
-    noise.args(["run", "--release", "--locked", "--quiet", "--package", "rocking-study"]);
+    noise.args(["run", "--profile", "dist", "--locked", "--quiet", "--package", "rocking-study"]);
     noise.args(["--example", "record_noise"]);
     let figures = [
         ("accuracy", condensed(&read("fmu_out/accuracy.csv")?)),

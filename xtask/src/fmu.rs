@@ -114,8 +114,8 @@ pub(crate) fn library(unit: Unit, platform: Option<&Platform>) -> Result<PathBuf
         }
         Some(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
-    link(build.arg("--release").env("CARGO_TARGET_DIR", &folder), unit, "fmu")?;
-    Ok(built.join("release").join(file_name(unit, names)))
+    link(build.args(["--profile", "dist"]).env("CARGO_TARGET_DIR", &folder), unit, "fmu")?;
+    Ok(built.join("dist").join(file_name(unit, names)))
 }
 
 /// Builds the library for this machine as the programs of the demo are built, whose crates it shares, and
@@ -157,10 +157,10 @@ pub(crate) fn check_component() -> Result<()> {
 pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let mut build = cargo();
-    build.args(["rustc", "--release", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
+    build.args(["rustc", "--profile", "dist", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build, &[]);
     link(&mut build, unit, "component")?;
-    Ok(folder.join(COMPONENT).join("release").join(file_name(unit, ["", ".wasm"])))
+    Ok(folder.join(COMPONENT).join("dist").join(file_name(unit, ["", ".wasm"])))
 }
 
 /// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and,

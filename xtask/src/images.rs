@@ -32,6 +32,6 @@ fn page(name: &str, command: &[&str]) -> Result<()> {
 /// Runs `wall` as released, from the root, and returns what it prints.
 pub(crate) fn wall(arguments: &[&str]) -> Result<String> {
     let mut run = cargo();
-    run.args(["run", "--release", "--locked", "--quiet", "--bin", "wall", "--"]);
+    run.args(["run", "--profile", "dist", "--locked", "--quiet", "--bin", "wall", "--"]);
     output(run.args(arguments), "see its message above")
 }

@@ -52,7 +52,7 @@ pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
         let (built, ending) = wall(platform)?;
         copy(&built, folder.join(format!("wall-{VERSION}-{}{ending}", platform.fmi3)))?;
         if wheel::is_linked_here(platform) {
-            packages.push(wheel::build("release", &unit, Some(platform))?);
+            packages.push(wheel::build("dist", &unit, Some(platform))?);
         }
     }
     for package in packages {
@@ -120,10 +120,10 @@ fn notes() -> Result<String> {
 fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
     let folder = target().join("fmu");
     let mut build = platform.cargo("build")?;
-    build.args(["--release", "--locked", "--bin", "wall"]).env("CARGO_TARGET_DIR", &folder);
+    build.args(["--profile", "dist", "--locked", "--bin", "wall"]).env("CARGO_TARGET_DIR", &folder);
     succeed(&mut build, "see the compiler's message above")?;
     let ending = if platform.library[1] == ".dll" { ".exe" } else { "" };
-    Ok((folder.join(platform.target).join("release").join(format!("wall{ending}")), ending))
+    Ok((folder.join(platform.target).join("dist").join(format!("wall{ending}")), ending))
 }
 
 /// Packages that are not published: `publish = false` in their manifests, which a test compares.

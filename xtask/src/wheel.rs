@@ -14,10 +14,14 @@ const UNIT: &str = "crates/python/python/rocking_wall/wall.fmu";
 const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/python/licenses"];
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
 
-/// Builds the wheel for this machine with a general FMU, or one that is built, and prints its path.
+/// Builds the wheel for this machine with a general FMU, and prints its path. With an FMU that is built it is
+/// optimised as what is published; without, as what `pip install` builds.
 pub(crate) fn run(unit: Option<&str>) -> Result<()> {
-    let unit = unit.map_or_else(|| fmu::build(fmu::WALL), |path| Ok(root().join(path)))?;
-    println!("{}", build("release", &unit, None)?.display());
+    let (profile, unit) = match unit {
+        Some(path) => ("dist", root().join(path)),
+        None => ("release", fmu::build(fmu::WALL)?),
+    };
+    println!("{}", build(profile, &unit, None)?.display());
     Ok(())
 }
 
@@ -26,7 +30,7 @@ pub(crate) fn portable(names: &str) -> Result<()> {
     let [unit, _] = &fmu::build_all(Some(names))?[..] else { unreachable!("wall and floor") };
     for platform in Platform::named(names)? {
         if is_linked_here(platform) {
-            println!("{}", build("release", unit, Some(platform))?.display());
+            println!("{}", build("dist", unit, Some(platform))?.display());
         } else {
             let unit = unit.display();
             println!("not built: that for Windows: run `cargo xtask wheel --fmu FILE` there with {unit}");
