@@ -2,6 +2,7 @@
 
 mod model;
 mod model_exchange;
+mod scene;
 mod state;
 
 use std::cell::Cell;
@@ -16,6 +17,8 @@ use crate::variables::{RealVariable, real_calculated, real_local, real_output, r
 use crate::wall::{Ends, Parameters, Support, Wall};
 
 use model_exchange::Exchange;
+
+pub use scene::UnitScene;
 
 /// A wall between the FMI calls.
 #[derive(Clone, Debug)]

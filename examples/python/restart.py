@@ -1,6 +1,6 @@
 """A simulation that goes on in another process, from the bytes of a saved state.
 
-    python examples/python/restart.py                      both FMUs that `cargo xtask fmu` makes
+    python examples/python/restart.py [FOLDER]             both FMUs in fmu_out, from `cargo xtask fmu`
     python examples/python/restart.py save UNIT STATE      simulates UNIT for 2 s and writes its state
     python examples/python/restart.py resume UNIT STATE    goes on to 5 s, and prints u there
 
@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-UNITS = {"FMI 2.0": ROOT / "fmu_out/wall.fmu", "FMI 3.0": ROOT / "fmu_out/fmi3/wall.fmu"}
+UNITS = {"FMI 2.0": "wall.fmu", "FMI 3.0": "fmi3/wall.fmu"}
 STEP, BREAK, END = 0.01, 200, 500
 
 
@@ -80,17 +80,18 @@ def without_break(unit):
 
 
 # %% Each half in a process of its own; what one version of FMI saved, the other resumes too.
-def demonstrate():
-    missing = [str(unit) for unit in UNITS.values() if not unit.is_file()]
+def demonstrate(of):
+    units = {version: of / name for version, name in UNITS.items()}
+    missing = [str(unit) for unit in units.values() if not unit.is_file()]
     if missing:
         sys.exit(f"missing: {', '.join(missing)}; make them with `cargo xtask fmu`")
     with tempfile.TemporaryDirectory() as folder:
-        for saved in UNITS:
+        for saved in units:
             state = Path(folder) / f"{saved}.state"
-            half("save", UNITS[saved], state)
-            expected = without_break(UNITS[saved])
-            for resumed in UNITS:
-                found = float(half("resume", UNITS[resumed], state))
+            half("save", units[saved], state)
+            expected = without_break(units[saved])
+            for resumed in units:
+                found = float(half("resume", units[resumed], state))
                 print(f"saved in {saved} ({state.stat().st_size} bytes), resumed in {resumed}: u = {found} m")
                 if found != expected:
                     sys.exit(f"differs from the run without a break: {expected} m")
@@ -109,10 +110,12 @@ except ImportError as error:
 
 match sys.argv[1:]:
     case []:
-        demonstrate()
+        demonstrate(ROOT / "fmu_out")
     case ["save", unit, file]:
         save(unit, file)
     case ["resume", unit, file]:
         print(resume(unit, file))
+    case [folder]:
+        demonstrate(Path(folder))
     case _:
         sys.exit(__doc__)

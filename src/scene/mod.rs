@@ -3,7 +3,8 @@
 //! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[tie]`, `[start]` and `[solver]` hold
 //! the parameters of the model description under the same names; `[motion]` says what moves the supports, or
 //! the ground below `[[storeys]]`, and `[supports]` between which of these the wall stands. `[check]` is read
-//! by whoever checks. An FMU made from a scene carries it as `resources/scene.toml`, read by the same code.
+//! by whoever checks. An FMU made from a scene carries what its unit needs of it as bytes:
+//! [`UnitScene`](crate::unit::UnitScene).
 
 mod document;
 mod error;

@@ -103,6 +103,12 @@ impl Excitation {
         (is_at_sample && !samples.is_empty()).then_some((first, samples))
     }
 
+    /// Returns the motion of the bottom support or of both, that of the top where it has its own, and the
+    /// drift.
+    pub(crate) fn records_of_supports(&self) -> [Option<GroundMotion>; 3] {
+        [Some(self.bottom.clone()), self.top.clone(), self.drift.clone()]
+    }
+
     fn records(&self) -> impl Iterator<Item = &GroundMotion> {
         [Some(&self.bottom), self.top.as_ref(), self.drift.as_ref()].into_iter().flatten()
     }

@@ -1,23 +1,20 @@
 //! The wall as an FMI model for co-simulation.
 
-use std::path::Path;
-use std::sync::Arc;
-
 use fmu_export::{
     Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step as CommunicationStep,
     VariableId,
 };
 
-use crate::scene::Scene;
 use crate::simulation::Outputs;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
     integer_parameter, real_calculated, real_input, real_local, real_output, real_parameter,
 };
-use crate::wall::{Kinematics, Parameters, Support};
+use crate::wall::{Parameters, Support};
 
 use super::Unit;
 use super::model_exchange::Exchange;
+use super::scene::UnitScene;
 
 impl Model for Unit {
     type Real = RealVariable;
@@ -27,7 +24,7 @@ impl Model for Unit {
 
     const GUID: &'static str = GUID;
     const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
-    const PAYLOAD: &'static str = "scene.toml";
+    const PAYLOAD: &'static str = "scene.bin";
     const STATE_VERSION: u64 = 3;
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
@@ -35,15 +32,8 @@ impl Model for Unit {
         let Some(payload) = environment.payload else {
             return Self::new(Parameters::default(), None, exchange);
         };
-        let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
-        let folder = environment.resources.unwrap_or(Path::new("."));
-        let scene = Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
-        if scene.parameters.kinematics != Kinematics::Linear {
-            return Err("resources/scene.toml: an FMU knows kinematics = linear only".into());
-        }
-        let motion = scene.support_motion().map_err(|error| format!("resources/scene.toml: {error}"))?;
-        let motion = motion.map(|motion| Arc::new(motion.into_owned()));
-        let mut unit = Self::new(scene.parameters, motion, exchange)?;
+        let scene = UnitScene::read(payload).map_err(|error| format!("resources/scene.bin: {error}"))?;
+        let mut unit = Self::new(scene.parameters.clone(), scene.shared_motion(), exchange)?;
         unit.has_scene = true;
         Ok(unit)
     }

@@ -6,9 +6,10 @@
 use std::path::Path;
 
 use fmu_export::{Environment, Interface, Log, Model};
+use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
-use rocking_wall::unit::Unit;
+use rocking_wall::unit::{Unit, UnitScene};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -43,6 +44,7 @@ mod runge_kutta;
 mod ties;
 mod trigonometric;
 mod unit;
+mod unit_scene;
 mod warnings;
 mod yielding;
 mod yielding_records;
@@ -74,7 +76,16 @@ fn still(duration: f64) -> Segment {
 
 /// Returns a unit as an importer instantiates it, with the scene inside its FMU if there is one.
 fn instantiated(interface: Interface, scene: Option<&str>, log: &mut Log<'_>) -> Unit {
-    let payload = scene.map(str::as_bytes);
+    let bytes = scene.map(|text| {
+        let scene = Scene::parse("scene", text, Path::new(".")).unwrap();
+        let motion = scene.support_motion().unwrap().map(std::borrow::Cow::into_owned);
+        UnitScene { parameters: scene.parameters, motion }.bytes()
+    });
+    of_payload(interface, bytes.as_deref(), log)
+}
+
+/// A unit of what its FMU has in `resources/`.
+fn of_payload(interface: Interface, payload: Option<&[u8]>, log: &mut Log<'_>) -> Unit {
     Unit::instantiate(Environment { interface, instance_name: "wall", resources: None, payload }, log)
         .unwrap()
 }

@@ -165,22 +165,22 @@ def without(path, target, *names):
     return target
 
 
-@pytest.mark.parametrize("missing", ["resources/scene.toml", "resources/motion.csv"])
-def test_a_scene_does_not_run_without_its_resources(packages, tmp_path, missing):
-    broken = without(packages["shaken_parapet"], tmp_path / "broken.fmu", missing)
+def test_a_scene_does_not_run_without_its_resources(packages, tmp_path):
+    broken = without(packages["shaken_parapet"], tmp_path / "broken.fmu", "resources/scene.bin")
     with Unit.unpack(broken) as unpacked, pytest.raises(Exception, match="instantiate"):
         Unit(unpacked)
 
 
 def test_a_changed_scene_is_refused(packages, tmp_path):
     with Unit.unpack(packages["shaken_parapet"]) as unpacked:
-        for name in ("scene.toml", "motion.csv"):
-            file = Path(unpacked.folder) / "resources" / name
-            original = file.read_text()
-            file.write_text(original.replace("0", "1", 1))
+        file = Path(unpacked.folder) / "resources/scene.bin"
+        original = file.read_bytes()
+        for place in (0, len(original) // 2, len(original) - 1):
+            changed = bytes([original[place] ^ 1])
+            file.write_bytes(original[:place] + changed + original[place + 1 :])
             with pytest.raises(Exception, match="instantiate"):
                 Unit(unpacked)
-            file.write_text(original)
+        file.write_bytes(original)
         with Unit(unpacked) as unit:
             unit.start()
             assert unit.step(1.0).get("u_max") >= 0.0

@@ -29,14 +29,14 @@ def restart(*arguments):
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def test_a_run_goes_on_in_another_process(unpacked):
+def test_a_run_goes_on_in_another_process(unpacked, fmu):
     """With the bits of a run without a break, in both versions of FMI and from one to the other."""
     with Unit(unpacked) as unit:
         unit.start()
         for index in range(END):
             unit.slave.doStep(currentCommunicationPoint=index * STEP, communicationStepSize=STEP)
         expected = unit.get("u")
-    told = restart().splitlines()
+    told = restart(fmu.parent).splitlines()
     assert len(told) == 4 and all(line.endswith(f": u = {expected} m") for line in told), told
 
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use fmu_export::VariableId;
 use fmu_export_build::Reduction;
 use fmu_export_build::archive::Archive;
-use rocking_wall::scene::{Scene, to_toml};
+use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::Wall;
 use scene_fmu::{General, experiment, of_scene_in};
@@ -50,7 +50,10 @@ impl Parts {
         }
         let system = system(building, &scenes)?;
         let payloads = building.floors.iter().map(payload);
-        let payloads = payloads.chain(scenes.iter().map(|scene| to_toml(scene, ""))).collect();
+        let walls_read = scenes.iter().zip(&building.walls).map(|(scene, member)| {
+            scene_fmu::payload(scene).map_err(|error| BuildingError::of_wall(&member.name, error))
+        });
+        let payloads = payloads.map(Ok).chain(walls_read).collect::<Result<_, _>>()?;
         let plan = Plan::new(building.floors.len(), &system, payloads);
         Ok(Self { scenes, walls, system, plan, warnings })
     }
@@ -139,9 +142,9 @@ fn general(path: &Path, option: &str) -> Result<General, BuildingError> {
 }
 
 /// The values of a storey, as its `resources/floor.toml`.
-fn payload(floor: &Floor) -> String {
+fn payload(floor: &Floor) -> Vec<u8> {
     let line = |Parameter { name, text, .. }: &Parameter| format!("{name} = {text}\n");
-    floor.parameters.iter().map(line).collect()
+    floor.parameters.iter().map(line).collect::<String>().into_bytes()
 }
 
 /// The FMU of a storey, made from the general one.
@@ -149,7 +152,7 @@ fn storey(
     building: &Building,
     step: f64,
     floor: &Floor,
-    payload: &str,
+    payload: &[u8],
     path: &Path,
 ) -> Result<Archive, BuildingError> {
     let general = general(path, "--floor-fmu")?;
@@ -166,7 +169,7 @@ fn storey(
         starts: &starts.collect::<Vec<_>>(),
         experiment: experiment(building.stop_time, step),
     };
-    let unit = general.unit("floor.toml", payload, &reduction);
+    let unit = general.unit("floor.toml", payload.to_vec(), &reduction);
     let (archive, _) = unit.map_err(|error| BuildingError::of_floor(&floor.name, error))?;
     Ok(archive)
 }

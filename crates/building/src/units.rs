@@ -52,12 +52,12 @@ impl<M: Model> Unit for M {
 }
 
 /// Makes a unit of what its FMU contains.
-pub(crate) fn unit<M: Model>(payload: &str) -> Result<Box<dyn Unit>> {
+pub(crate) fn unit<M: Model>(payload: &[u8]) -> Result<Box<dyn Unit>> {
     let environment = Environment {
         interface: Interface::CoSimulation,
         instance_name: M::IDENTIFIER,
         resources: None,
-        payload: Some(payload.as_bytes()),
+        payload: Some(payload),
     };
     let unit = M::instantiate(environment, &mut Log::silent()).map_err(|failure| failure.to_string())?;
     Ok(Box::new(unit))
@@ -67,7 +67,7 @@ pub(crate) fn unit<M: Model>(payload: &str) -> Result<Box<dyn Unit>> {
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// Contents of the units, storeys first: what their FMUs hold in `resources/`.
-    pub(crate) payloads: Vec<String>,
+    pub(crate) payloads: Vec<Vec<u8>>,
     /// Number of storeys.
     pub(crate) floors: usize,
     /// From a unit and its output to a unit and its input.
@@ -78,7 +78,7 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Makes the plan of a building from its system and the contents of its units, storeys first.
-    pub(crate) fn new(floors: usize, system: &System, payloads: Vec<String>) -> Self {
+    pub(crate) fn new(floors: usize, system: &System, payloads: Vec<Vec<u8>>) -> Self {
         let (mut connections, mut ground) = (Vec::new(), Vec::new());
         for Connection { from, output, to, input } in &system.connections {
             let input = (*to, input.reference);
@@ -92,7 +92,7 @@ impl Plan {
 
     /// Makes the units and ends their initialisation.
     pub(crate) fn start(&self) -> Result<Vec<Box<dyn Unit>>> {
-        let make = |(index, payload): (usize, &String)| {
+        let make = |(index, payload): (usize, &Vec<u8>)| {
             if index < self.floors { unit::<FloorUnit>(payload) } else { unit::<WallUnit>(payload) }
         };
         let mut units: Vec<_> = self.payloads.iter().enumerate().map(make).collect::<Result<_>>()?;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use fmu_export_build::archive::ArchiveError;
 use fmu_export_build::{Fault, ReductionError};
+use rocking_wall::scene::SceneError;
 use rocking_wall::wall::ParameterError;
 
 /// Why there is no FMU of a scene.
@@ -35,6 +36,9 @@ pub enum SceneFmuError {
     /// asks.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
+    /// The supports cannot move as the scene says.
+    #[error(transparent)]
+    Motion(#[from] SceneError),
     /// The description cannot be reduced to the scene.
     #[error(transparent)]
     Reduction(#[from] ReductionError),

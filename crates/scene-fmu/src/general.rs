@@ -68,11 +68,11 @@ impl General {
     pub fn unit(
         self,
         name: &str,
-        payload: &str,
+        payload: Vec<u8>,
         reduction: &Reduction<'_>,
     ) -> Result<(Archive, Description), SceneFmuError> {
         let Self { mut archive, description, sources, guid } = self;
-        let guid = format!("{{{guid}-{}}}", scene::fingerprint(payload.as_bytes()));
+        let guid = format!("{{{guid}-{}}}", scene::fingerprint(&payload));
         let reduced = description.reduced(reduction, &guid)?;
         archive.remove_folder(REFERENCES);
         if let Some(page) = archive.remove(PAGE) {

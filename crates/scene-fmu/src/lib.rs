@@ -6,11 +6,14 @@ mod error;
 mod general;
 mod page;
 
+use std::borrow::Cow;
+
 use fmu_export_build::archive::Archive;
 use fmu_export_build::{DefaultExperiment, Reduction};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::simulation::Simulation;
+use rocking_wall::unit::UnitScene;
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
 
 pub use error::SceneFmuError;
@@ -24,7 +27,7 @@ const STEPS: f64 = 1000.0;
 pub struct SceneFmu {
     /// Its files.
     pub archive: Archive,
-    /// Its `resources/scene.toml`.
+    /// The scene's parameters as a text, its `documentation/scene.toml`.
     pub scene: String,
     /// Number of its variables.
     pub variables: usize,
@@ -55,22 +58,12 @@ pub fn experiment(stop: f64, step: f64) -> DefaultExperiment {
 /// As [`of_scene`].
 pub fn of_scene_in(
     scene: &Scene,
-    mut general: General,
+    general: General,
     experiment: DefaultExperiment,
 ) -> Result<SceneFmu, SceneFmuError> {
-    check(scene)?;
-    let mut motion = String::new();
-    if let Some(excitation) = &scene.excitation {
-        motion = motion_table(&mut general.archive, "motion", excitation.bottom());
-        // the tail is in stop_time
-        motion.push_str("tail = 0.0\n");
-        if let Some(top) = excitation.top() {
-            let table = motion_table(&mut general.archive, "motion_top", top);
-            motion.push_str("\n[motion.top]\n");
-            motion.push_str(&table);
-        }
-    }
-    let text = scene::to_toml(scene, &motion);
+    let payload = payload(scene)?;
+    let text = scene::to_toml(scene, "")
+        + &scene.motion_notes.iter().map(|note| format!("# {note}\n")).collect::<String>();
     let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
     let starts: Vec<_> = numbers
         .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
@@ -83,7 +76,8 @@ pub fn of_scene_in(
         experiment,
     };
     let general_variables = general.description.variable_names().count();
-    let (archive, reduced) = general.unit("scene.toml", &text, &reduction)?;
+    let (mut archive, reduced) = general.unit("scene.bin", payload, &reduction)?;
+    archive.insert("documentation/scene.toml", text.clone());
     let variables = reduced.variable_names().count();
     Ok(SceneFmu { archive, scene: text, variables, general_variables })
 }
@@ -101,15 +95,12 @@ pub fn check(scene: &Scene) -> Result<Wall, SceneFmuError> {
     }
 }
 
-/// Puts a motion into the archive and returns the keys that read it.
-fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
-    let line = |sample: &f64| format!("{sample:?}\n");
-    let csv: String = motion.samples().iter().map(line).collect();
-    let table = format!(
-        "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",
-        motion.step(),
-        scene::fingerprint(csv.as_bytes())
-    );
-    archive.insert(format!("resources/{name}.csv"), csv);
-    table
+/// Returns what the library reads of a scene: its `resources/scene.bin`.
+///
+/// # Errors
+/// Those of [`check`]; [`SceneFmuError::Motion`] where the supports cannot move as the scene says.
+pub fn payload(scene: &Scene) -> Result<Vec<u8>, SceneFmuError> {
+    check(scene)?;
+    let motion = scene.support_motion()?.map(Cow::into_owned);
+    Ok(UnitScene { parameters: scene.parameters.clone(), motion }.bytes())
 }
