@@ -56,8 +56,9 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
         println!("valgrind is not installed: instructions are not counted");
         return Ok(());
     }
-    let no_run = "bench --profile dist --locked --package rocking-record --bench record --no-run --message-format json";
-    let built = output(cargo().args(no_run.split(' ')), remedy)?;
+    let bench = "bench --profile dist --locked --package rocking-record --bench record";
+    let no_run = ["--no-run", "--message-format", "json"];
+    let built = output(cargo().args(bench.split(' ')).args(no_run), remedy)?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
     println!("\ninstructions a sample, walls of Table 5 under the embedded motion");
     for path in ["segments", "record", "batch", "adaptive"] {

@@ -62,8 +62,8 @@ pub fn of_scene_in(
     experiment: DefaultExperiment,
 ) -> Result<SceneFmu, SceneFmuError> {
     let payload = payload(scene)?;
-    let text = scene::to_toml(scene, "")
-        + &scene.motion_notes.iter().map(|note| format!("# {note}\n")).collect::<String>();
+    let mut text = scene::to_toml(scene, "");
+    text.extend(scene.motion_notes.iter().flat_map(|note| ["# ", note, "\n"]));
     let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
     let starts: Vec<_> = numbers
         .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
