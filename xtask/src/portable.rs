@@ -6,10 +6,11 @@ use crate::command::{Result, cargo, find, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
 use crate::python::Environment;
-use crate::test::{pytest, records};
+use crate::test::{pytest, records, with_libclang};
 
 /// Builds the FMUs for all platforms into `fmu_out/` and tests them: the Linux library in FMPy, the Windows
-/// library and `wall.exe` under wine; the macOS library is only inspected.
+/// library and `wall.exe` under wine; the macOS library is only inspected. The importer `fmi` drives the
+/// Linux library from Rust.
 pub(crate) fn run() -> Result<()> {
     fmu::build_all(Some(fmu::PORTABLE))?;
     succeed(cargo().args(["build", "--locked", "--bin", "wall"]), "see the compiler's message above")?;
@@ -22,10 +23,13 @@ pub(crate) fn run() -> Result<()> {
     compile("windows_random.c", &programs.join("bcryptprimitives.dll"), &["-shared", "-ladvapi32"])?;
     let python = Environment::of("tests")?;
     let mut pytest = pytest(&python, "tests/python", None);
-    for (name, path) in [
+    let built = [
         ("ROCKING_WALL_FMU", root().join("fmu_out/wall.fmu")),
         ("ROCKING_FLOOR_FMU", root().join("fmu_out/floor.fmu")),
         ("ROCKING_WALL_BIN", target().join("debug/wall")),
+    ];
+    pytest.envs(built.clone());
+    for (name, path) in [
         ("ROCKING_WALL_EXE", programs.join("wall.exe")),
         ("ROCKING_WALL_DRIVER", programs.join("driver.exe")),
         ("ROCKING_WALL_RECORDS", records()),
@@ -35,6 +39,10 @@ pub(crate) fn run() -> Result<()> {
     }
     pytest.env("WINEDEBUG", "-all");
     succeed(&mut pytest, "see the failures above")?;
+    let mut importer = cargo();
+    importer.args(["test", "--locked", "--manifest-path", "tests/importer/Cargo.toml"]);
+    importer.env("CARGO_TARGET_DIR", target().join("importer")).envs(built);
+    succeed(with_libclang(&mut importer)?, "see the failures above")?;
     if find("wine").is_none() {
         println!("not run: the Windows library and wall.exe: `apt-get install wine wine64`");
     }

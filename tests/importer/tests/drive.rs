@@ -289,7 +289,7 @@ fn states(loaded: &Loaded, wall: *mut c_void) {
 #[test]
 fn every_function_can_be_loaded() {
     let loaded = Loaded::new("names");
-    let names = include_str!("signatures.rs");
+    let names = include_str!("../../conformance/tests/signatures.rs");
     let names: Vec<_> =
         names.lines().filter_map(|line| line.trim().split_once(": fmi2")).map(|(name, _)| name).collect();
     assert!(names.len() >= 42);
