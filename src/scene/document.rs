@@ -19,7 +19,7 @@ use super::storeys::{StoreyTable, SupportsTable};
 use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
 
 /// Largest scene file that is read.
-pub(super) const MAX_FILE_BYTES: u64 = 1 << 20;
+pub(super) const MAX_FILE_BYTES: u64 = 4 << 20;
 
 tables! {
     /// A scene.

@@ -122,9 +122,15 @@ impl Scene {
     /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// [`SceneError`] of a file that cannot be read, is too large or is not UTF-8.
+    /// [`SceneError`] of a file that cannot be read, is too large, is not UTF-8 or says nothing.
     pub fn text(path: &Path) -> Result<String, SceneError> {
-        read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)
+        let text = read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)?;
+        if text.lines().any(|line| !matches!(line.trim_ascii_start().bytes().next(), None | Some(b'#'))) {
+            return Ok(text);
+        }
+        let reason = "is empty or has comments alone; state the wall, as in `geometry.height = 3`, or give \
+                      no file for the default wall";
+        Err(SceneError::File { file: ground_motion::shown_path(path), reason: reason.into() })
     }
 
     /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in

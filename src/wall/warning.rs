@@ -38,13 +38,6 @@ pub enum Warning {
         omega1 * USUAL_STEP / std::f64::consts::TAU
     )]
     Fast { omega1: f64 },
-    /// A step of Newmark that makes steps expensive \[s\].
-    #[error(
-        "newmark_step = {step:e} s: {:.0} steps for each {USUAL_STEP} s, and computing takes as much longer \
-         than usual; 1e-4 s is usual",
-        USUAL_STEP / step
-    )]
-    SmallStep { step: f64 },
     /// A tie that holds the wall beyond its instability.
     #[error(
         "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins of the \
@@ -95,6 +88,6 @@ fn six_digits(value: f64) -> String {
 impl Warning {
     /// Returns whether the warning says that runs take long.
     pub fn is_about_work(&self) -> bool {
-        matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
+        matches!(self, Self::Fast { .. })
     }
 }

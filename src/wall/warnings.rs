@@ -1,6 +1,6 @@
 //! What the parameters of a wall give reason to warn about.
 
-use crate::choices::{Mechanism, Solver};
+use crate::choices::Mechanism;
 
 use super::bar::Bar;
 use super::damping::DampingLaw;
@@ -15,8 +15,6 @@ use super::warning::{USUAL_STEP, Warning};
 
 /// Largest usual ω₁ times that step: 16 vibrations.
 const MOST_USUAL_ANGLE: f64 = 100.0;
-/// Most usual steps of Newmark in it.
-const MOST_USUAL_STEPS: f64 = 10_000.0;
 
 /// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
 pub(super) fn collect(
@@ -51,10 +49,6 @@ pub(super) fn collect(
     let omega1 = force.omega1(body.effective_mass);
     if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {
         warnings.push(Warning::Fast { omega1 });
-    }
-    let step = parameters.newmark_step;
-    if parameters.solver == Solver::Newmark && USUAL_STEP / step > MOST_USUAL_STEPS {
-        warnings.push(Warning::SmallStep { step });
     }
     warnings.extend(parameters.unusual());
     warnings

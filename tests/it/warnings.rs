@@ -311,9 +311,8 @@ fn model_exchange_warns_of_a_solver_that_is_set() {
 #[test]
 fn warnings_about_work_are_marked() {
     let fast = Parameters { a1: 1e-9, ..Parameters::default() };
-    let small = Parameters { solver: Solver::Newmark, newmark_step: 1e-9, ..Parameters::default() };
     let improbable = Parameters { density: 10.0, ..Parameters::default() };
-    for (parameters, about_work) in [(fast, 1), (small, 1), (improbable, 0)] {
+    for (parameters, about_work) in [(fast, 1), (improbable, 0)] {
         let wall = Wall::new(&parameters).unwrap();
         let warnings = wall.warnings();
         assert!(!warnings.is_empty());

@@ -29,6 +29,8 @@ def test_units_of_samples_are_those_stated():
     xarray = pytest.importorskip("xarray")
     plain = rw.Record(0.01, A, unit="cm/s2")
     pint = type("Quantity", (), {"units": "cm/s2", "__array__": lambda *_, **__: A})()
+    written = type("Quantity", (), {"units": "centimeter / second ** 2", "__array__": pint.__array__})()
+    assert rw.Record(0.01, written, unit="cm/s2") == plain
     for samples in (xarray.DataArray(A, attrs={"units": "cm/s2"}), pint, A.view(WithUnit)):
         assert rw.Record(0.01, samples, unit="cm/s2") == plain
         with pytest.raises(ValueError, match="a unit of their own, cm ?/ ?s2; convert them to m/s2"):

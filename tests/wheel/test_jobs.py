@@ -396,6 +396,7 @@ def test_a_tie_at_the_level_of_a_check(program, tmp_path):
     assert found.force.shape == (2, 6)
     for given, message in (
         ({"level": "SLC", "check": check}, "SLC is not stated; give its ag"),
+        ({"level": "SLX", "check": check}, "SLX is not stated; .* or another of SLD, SLV and SLC"),
         ({"level": "SLV"}, "level and check go together"),
     ):
         with pytest.raises(ValueError, match=message):

@@ -83,8 +83,8 @@ impl Quantity {
             return Some(Self::Frequency);
         }
         match word {
-            "g" | "g's" => return Some(Self::Acceleration(Unit::StandardGravity)),
-            "gal" | "gals" => return Some(Self::Acceleration(Unit::CentimetrePerSecondSquared)),
+            "g" | "g's" | "standard_gravity" => return Some(Self::Acceleration(Unit::StandardGravity)),
+            "gal" | "gals" | "galileo" => return Some(Self::Acceleration(Unit::CentimetrePerSecondSquared)),
             "mgal" | "milligal" => {
                 return Some(Self::OtherAcceleration(1e-3, Unit::CentimetrePerSecondSquared));
             }
@@ -158,7 +158,8 @@ fn is_other_unit(word: &str) -> bool {
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
 fn plain(text: &str) -> String {
     let text = text.to_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
-    let text = text.replace("second", "s").replace("sec", "s");
+    let text = text.replace("second", "s").replace("sec", "s").replace("metre", "meter");
+    let text = text.replace("centimeter", "cm").replace("millimeter", "mm").replace("meter", "m");
     let text = text.replace('²', "2").replace(['−', '–', '⁻'], "-");
     let text = text.replace('¹', "1").replace('⁄', "/");
     let is_mark = |c: char| c.is_whitespace() || matches!(c, '^' | '*' | '·' | '⋅' | '(' | ')');
@@ -185,7 +186,7 @@ fn parts(plain: &str) -> Option<(&str, u8)> {
 }
 
 /// Reads the usual spellings, in any case: `m/s2`, `m/s^2`, `m/s²`, `m/s**2`, `m/s/s`, `m/sec2`, `m/sec/sec`,
-/// `m s-2`, `m.s⁻²`, each of them with `cm` or `mm` too, and `gal` and `g`.
+/// `m s-2`, `m.s⁻²`, each of them with `cm` or `mm` too, `centimeter / second ** 2`, and `gal` and `g`.
 impl FromStr for Unit {
     type Err = GroundMotionError;
 

@@ -70,7 +70,7 @@ impl Reliability {
         let refused = |reason: String| Err(SceneError::Value { message: format!("{name}: {reason}") });
         let walls = loaded.study.walls().to_vec();
         // records have no part: those of a check that they decide are refused below
-        let codes = WallCodes::read(&CheckFile::parse(&name, loaded.text())?.without_records(), &walls)?;
+        let codes = WallCodes::read(&CheckFile::parse(&name, &loaded.text)?.without_records(), &walls)?;
         if !matches!(loaded.study.measure(), IntensityMeasure::Code { .. }) {
             return refused(
                 "a study of reliability needs a_g of the site as intensity; set intensity = { measure = \
@@ -117,7 +117,7 @@ impl Reliability {
             return refused(format!("no wall can be checked; wall {:?}: {}", walls[0].name, reasons[0]));
         }
         let title = loaded.title.clone();
-        Ok(Self { title, codes, walls, target: loaded.target() })
+        Ok(Self { title, codes, walls, target: loaded.target })
     }
 
     /// Asks how safe a wall is, given by its place, from its curves.

@@ -12,6 +12,7 @@ use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::codes::Codes;
 use crate::document::{ReportOptions, StudyFile, WallClass};
+use crate::fragility::FEWEST_RECORDS;
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use crate::uncertain::Uncertain;
 use report::counted;
@@ -36,11 +37,11 @@ pub struct LoadedStudy {
     /// Warnings of the walls and of a quick check of the records.
     pub warnings: Vec<String>,
     /// Text of the study file.
-    text: String,
+    pub text: String,
     /// Its walls where each of them stands for samples; empty of other studies.
     sampled: Vec<NamedWall>,
-    /// Probability of a fall for which the numbers of a code are sought \[-\].
-    target: f64,
+    /// Probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
+    pub target: f64,
 }
 
 /// A study as plain values, to send it to a machine without its files.
@@ -74,7 +75,7 @@ impl LoadedStudy {
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
-        open_hazard(&mut file, folder, &mut inputs, &mut warnings)?;
+        warnings.extend(open_hazard(&mut file, folder, &mut inputs)?);
         let study = Self::assemble(&name, text, file, all, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings: [study.warnings, warnings].concat(), ..study })
@@ -92,20 +93,9 @@ impl LoadedStudy {
     ) -> Result<Self, SceneError> {
         let name = "the study";
         let mut file = StudyFile::parse(name, &text, codes)?;
-        let mut warnings = Vec::new();
-        open_hazard(&mut file, Path::new(""), &mut Vec::new(), &mut warnings)?;
+        let warnings = open_hazard(&mut file, Path::new(""), &mut Vec::new())?;
         let study = Self::assemble(name, text, file, walls, records)?;
         Ok(Self { warnings: [warnings, study.warnings].concat(), ..study })
-    }
-
-    /// Returns the text of the study file.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Returns the probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
-    pub fn target(&self) -> f64 {
-        self.target
     }
 
     /// Returns the study as plain values, with the files that its table `[check]` names.
@@ -187,7 +177,12 @@ impl LoadedStudy {
             .with_polarity(file.polarity);
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         warnings.extend(alike(&study));
-        warnings.extend(copies(&study.given_records()));
+        let given = study.given_records();
+        warnings.extend(copies(&given));
+        let few = counted(given.len(), "record") + ": studentised intervals need";
+        let few =
+            format!("{few} {FEWEST_RECORDS}; those of θ, β and what follows from them are not determined");
+        warnings.extend((given.len() < FEWEST_RECORDS).then_some(few));
         Ok(Self { title, study, report, inputs: Vec::new(), warnings, text, target, sampled })
     }
 }
@@ -256,19 +251,16 @@ fn alike(study: &Study) -> Option<String> {
     })
 }
 
-/// Opens the hazard of a study for its report.
+/// Opens the hazard of a study for its report, and returns what is to be known of it.
 fn open_hazard(
     file: &mut StudyFile,
     folder: &Path,
     inputs: &mut Vec<PathBuf>,
-    warnings: &mut Vec<String>,
-) -> Result<(), SceneError> {
-    if let Some(entry) = file.hazard.take() {
-        let (hazard, told) = entry.open(&file.measure, folder, inputs)?;
-        file.report.hazard = Some(hazard);
-        warnings.extend(told);
-    }
-    Ok(())
+) -> Result<Vec<String>, SceneError> {
+    let Some(entry) = file.hazard.take() else { return Ok(Vec::new()) };
+    let (hazard, warnings) = entry.open(&file.measure, folder, inputs)?;
+    file.report.hazard = Some(hazard);
+    Ok(warnings)
 }
 
 /// Returns the parameters of a wall that are set and have no effect with any of the models.

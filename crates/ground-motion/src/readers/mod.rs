@@ -27,7 +27,7 @@ pub use csv::CSV_HEADER;
 use std::iter::Peekable;
 use std::path::Path;
 
-use crate::error::{Fault, UNEVEN};
+use crate::error::{Fault, UNEVEN, excerpt};
 use crate::fields::{Numbered, find, untrimmed_lines};
 use crate::format::Format;
 use crate::options::RecordOptions;
@@ -107,6 +107,11 @@ impl Format {
     /// Reads every channel of a text in this format.
     pub(crate) fn parse(self, text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
         let (.., parse) = KNOWN[self as usize];
+        if let Some(column) = options.column.as_ref().filter(|_| self != Self::Csv) {
+            let expected = format!("a table with the column {}", excerpt(column));
+            let found = format!("{}, a format without named columns", self.description());
+            return Err(Fault::new(1, expected, found, "state no column (on the command line --column)"));
+        }
         parse(text, options)
     }
 }

@@ -107,11 +107,24 @@ fn units_have_their_usual_spellings() {
     for (unit, spellings) in [
         (
             Unit::MetrePerSecondSquared,
-            &["m/s2", "m/s^2", "m/s²", "M/S/S", "m/sec^2", "m/s**2", "m s-2", " m/sec/sec "][..],
+            &[
+                "m/s2",
+                "m/s^2",
+                "m/s²",
+                "M/S/S",
+                "m/sec^2",
+                "m/s**2",
+                "m s-2",
+                " m/sec/sec ",
+                "meter / second ** 2",
+            ][..],
         ),
-        (Unit::CentimetrePerSecondSquared, &["cm/s2", "cm/s^2", "CM/SEC/SEC", "cm/sec2", "gal", "Gal"]),
-        (Unit::MillimetrePerSecondSquared, &["mm/s2", "mm/s²", "MM/SEC**2"]),
-        (Unit::StandardGravity, &["g", "G", "(g)"]),
+        (
+            Unit::CentimetrePerSecondSquared,
+            &["cm/s2", "cm/s^2", "CM/SEC/SEC", "cm/sec2", "gal", "Gal", "galileo"],
+        ),
+        (Unit::MillimetrePerSecondSquared, &["mm/s2", "mm/s²", "MM/SEC**2", "millimetre per second squared"]),
+        (Unit::StandardGravity, &["g", "G", "(g)", "standard_gravity"]),
     ] {
         for spelling in spellings {
             assert_eq!(spelling.parse::<Unit>().unwrap(), unit, "{spelling}");

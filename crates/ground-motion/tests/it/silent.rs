@@ -78,6 +78,9 @@ fn the_unit_of_the_file_counts_wherever_it_stands() {
         refused(&at2(title, COUNT), &si(), &["line 3", "the stated unit m/s2, found g"]);
         assert_is_the_motion(&crate::read("x.AT2", &at2(title, COUNT), &RecordOptions::default()).unwrap());
     }
+    let of_column = RecordOptions { column: Some("a".into()), ..RecordOptions::default() };
+    let words = ["line 1", "the column `a`", "PEER AT2, a format without named columns", "--column"];
+    refused(&at2("ACCELERATION (g)", COUNT), &of_column, &words);
     // what is no unit of the samples
     for head in ["# recorded in Grottaminarda\n", "# depth (m)\n", "# Units of depth: m\n", "# max. in 3 s\n"]
     {

@@ -56,7 +56,7 @@ class Parameters(TypedDict, total=False):
     - tolerance: Relative tolerance of the adaptive solver; the tighter of this and the importer's applies, at
       least 1e-15, at most 0.01; where solver = adaptive, or solver = automatic and damping_model =
       constant_ratio or stiffness_proportional; default 1e-08.
-    - newmark_step: Integration step of the newmark solver [s], at least 1e-09, at most 1; where solver =
+    - newmark_step: Integration step of the newmark solver [s], at least 1e-06, at most 1; where solver =
       newmark; default 0.001.
     - tie_height: Height of the tie above the base, at most height [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.

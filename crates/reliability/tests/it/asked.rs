@@ -40,7 +40,7 @@ pub(crate) fn run_reported(name: &str, loaded: &LoadedStudy) -> (PathBuf, Report
 
 /// The codes of the walls of a study.
 pub(crate) fn code_of(loaded: &LoadedStudy) -> WallCodes {
-    WallCodes::read(&CheckFile::parse("a", loaded.text()).unwrap(), loaded.study.walls()).unwrap()
+    WallCodes::read(&CheckFile::parse("a", &loaded.text).unwrap(), loaded.study.walls()).unwrap()
 }
 
 const MEASURE: &str = "intensity = { measure = \"code\" }\n";

@@ -189,7 +189,7 @@ fn margins_under_pulses_are_those_of_closed_forms() {
 /// a_g with which the wall just passes SLV [m/s²]: d_SLV = 0.4 b/2 at mid-height, a = 0.6 a₀/FC, and S_De
 /// between T_C and T_D on soil A at 8 % damping.
 fn code(loaded: &LoadedStudy) -> f64 {
-    let statement = Statement::read(&CheckFile::parse("a", loaded.text()).unwrap()).unwrap();
+    let statement = Statement::read(&CheckFile::parse("a", &loaded.text).unwrap()).unwrap();
     let (d, a) = (0.2 * THICKNESS, 0.6 * G * THICKNESS / HEIGHT / statement.confidence_factor);
     let period = 1.68 * PI * (d / a).sqrt();
     assert!(period > 0.3 && period < 4.0 * 0.2 + 1.6, "{period}");

@@ -159,8 +159,10 @@ impl Row {
         let rates: Vec<Rate> = known.map(|[theta, beta]| hazard.curve.rate(*theta, *beta)).collect();
         let range = |of: fn(&Rate) -> f64| Interval::new(of(&rate), rates.iter().map(of), CONFIDENCE).range;
         let interval = range(Rate::within);
-        // without resamples the rate itself is what is known
-        let ends = [range(Rate::least)[0].min(rate.least()), range(Rate::most)[1].max(rate.most())];
+        // without resamples nothing is known
+        let [[least, _], [_, most]] = [range(Rate::least), range(Rate::most)];
+        let ends =
+            if least.is_nan() { [least, most] } else { [least.min(rate.least()), most.max(rate.most())] };
         let resamples = rates.len();
         Some(Self { model, fraction: *fraction, curve, rate, interval, ends, resamples, of_walls })
     }

@@ -32,7 +32,7 @@ mod normal;
 mod sample;
 mod term;
 
-pub use bootstrap::{Bootstrap, Interval, Resampled};
+pub use bootstrap::{Bootstrap, FEWEST_RECORDS, Interval, Resampled};
 pub use class::{ClassResamples, FragilityFunction, StateCurve};
 pub use cloud::{Cloud, Regression};
 pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};

@@ -18,6 +18,10 @@ pub struct HazardError {
     message: String,
 }
 
+/// What may be wrong with points whose columns make a curve the other way round.
+pub(super) const SWAPPED: &str =
+    "; are intensity and annual rate swapped? A point is [intensity, annual rate]";
+
 impl HazardCurve {
     /// Makes a curve of points: an intensity, in any unit, and its annual rate of exceedance \[1/year\].
     ///
@@ -45,8 +49,10 @@ impl HazardCurve {
                 continue;
             };
             if *x <= x_before {
+                let hint = if *rate > rate_before { SWAPPED } else { "" };
                 return refused(format!(
-                    "intensity {x} must be above {x_before}, that of the point before it; sort the points"
+                    "intensity {x} must be above {x_before}, that of the point before it; sort the \
+                     points{hint}"
                 ));
             }
             if *rate >= rate_before {
@@ -117,6 +123,7 @@ mod tests {
             (vec![[f64::NAN, 1e-2], [0.2, 1e-3]], "point 1: the intensity NaN"),
             (vec![[0.1, 1e-2], [0.2, 1e-3], [0.2, 1e-4]], "point 3: the intensity 0.2 must be above 0.2"),
             (vec![[0.1, 1e-2], [0.2, 1e-2]], "point 2: the annual rate 0.01 must be below 0.01"),
+            (vec![[3e-2, 0.05], [2e-3, 0.2], [1e-4, 0.8]], "sort the points; are intensity and annual rate"),
         ] {
             let told = HazardCurve::new(points).unwrap_err().to_string();
             assert!(told.contains(words), "{told}");

@@ -5,7 +5,7 @@ use rocking_wall::scene::{Place, SceneError};
 
 use crate::ida::IntensityMeasure;
 
-use super::curve::HazardCurve;
+use super::curve::{HazardCurve, SWAPPED};
 
 /// A curve, intensities in SI units, and what was left out or could not be checked.
 type Read = (HazardCurve, Vec<String>);
@@ -69,7 +69,13 @@ pub fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String
         return Some(format!("at a return period of {PERIOD} years, {warning}; state its unit"));
     }
     let often = at(SHORT_PERIOD);
-    let begins = curve.points()[0][1] >= 1.0 / SHORT_PERIOD;
+    let points = curve.points();
+    let lowest = points[points.len() - 1][1];
+    // walls fall more rarely than once in a hundred years
+    if lowest > 0.01 {
+        return Some(format!("the lowest annual rate is {lowest}{SWAPPED}"));
+    }
+    let begins = points[0][1] >= 1.0 / SHORT_PERIOD;
     (begins && often > LARGEST * usual.range[1]).then(|| {
         format!(
             "{} = {often:.3} {} every {SHORT_PERIOD} years is more than any site has; are these annual \
@@ -150,6 +156,8 @@ fn open_quake(
     let years = positive.ok_or_else(wrong)?;
     let warning = same_measure(stated("imt")?, measure).map_err(|message| (line, message))?;
     let mut warnings: Vec<_> = warning.into_iter().collect();
+    let statistic = stated("kind").ok().filter(|kind| *kind != "mean");
+    warnings.extend(statistic.map(|kind| format!("these are rates of {kind}; the mean is usual")));
     let (heading, count) = (columns.line(), rows.len());
     if count == 0 {
         let message = "the table has no row below its names; give one with at least one site";
@@ -249,6 +257,12 @@ mod tests {
         ] {
             assert!(read(site).unwrap_err().to_string().contains(words));
         }
+        for (kind, told) in [("quantile-0.95", true), ("mean", false)] {
+            let text = OPEN_QUAKE.replace("kind='mean'", &format!("kind='{kind}'"));
+            let (_, warnings) = super::read(&Place::new("oq.csv", &text), &measure, None, Some(2)).unwrap();
+            let words = format!("these are rates of {kind}; the mean is usual");
+            assert_eq!(warnings.contains(&words), told, "{warnings:?}");
+        }
         let empty = OPEN_QUAKE.split_inclusive('\n').take(2).collect::<String>();
         let told = super::read(&Place::new("oq.csv", &empty), &measure, None, None).unwrap_err().to_string();
         assert!(told.contains("line 2") && told.contains("has no row"), "{told}");
@@ -285,6 +299,8 @@ mod tests {
             assert_eq!(read(text).unwrap(), table, "{text}");
             assert_eq!(of(text, Some("g")).unwrap(), table, "{text}");
         }
+        let swapped = read("PGA,annual_rate\n1e-4,0.8\n2e-3,0.2\n3e-2,0.05\n").unwrap().1;
+        assert!(swapped[0].starts_with("the lowest annual rate is 0.05; are intensity and"), "{swapped:?}");
         let gal = "PGA [cm/s2],annual_rate\n98.0665,1e-2\n196.133,2e-3\n";
         for unit in [None, Some("gal")] {
             let points = of(gal, unit).unwrap().0.points().to_vec();

@@ -296,6 +296,24 @@ fn few_records_are_corrected_for() {
     assert_eq!(corrected.resamples, plain.resamples);
 }
 
+/// Of five records, or ten that are five with both signs, no interval of a curve is determined; of six it is.
+#[test]
+fn few_records_have_no_studentised_intervals() {
+    let ends = |count: u32, group: u32| {
+        let samples = (0..count).map(|k| Exceedance::At(1.0 + f64::from(k / group))).collect();
+        let bootstrap = Bootstrap::new(count as usize, 200, 3).in_groups(group as usize);
+        let estimator = Estimator::new(Dispersion::Own, &[1.0]);
+        let found =
+            compare(&[vec![Sample::of_records(samples)]], 0, &estimator, &bootstrap).remove(0).remove(0);
+        assert!(found.fitted.is_ok() && found.median.range.iter().all(|end| end.is_finite()));
+        [found.theta.range, found.beta.range].concat()
+    };
+    for few in [ends(5, 1), ends(10, 2)] {
+        assert!(few.iter().all(|end| end.is_nan()), "{few:?}");
+    }
+    assert!(ends(6, 1).iter().all(|end| end.is_finite()));
+}
+
 /// A study's report states what is counted; on a grid, by default, the fractions at its levels.
 #[test]
 fn a_study_file_states_the_estimator() {

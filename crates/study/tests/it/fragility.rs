@@ -302,10 +302,10 @@ fn a_common_dispersion_can_be_contradicted() {
 #[test]
 fn open_numbers_have_their_bounds() {
     use Exceedance::{Above, At};
-    let known: Vec<Exceedance> = [1.0, 2.0, 3.0, 4.0, 5.0].map(At).to_vec();
-    let open = vec![At(2.0), Above(5.0), Above(5.0), Above(5.0), Above(5.0)];
-    let never = vec![Above(5.0); 5];
-    let bootstrap = Bootstrap::new(5, 200, 1);
+    let known: Vec<Exceedance> = [1.0, 2.0, 3.0, 3.0, 4.0, 5.0].map(At).to_vec();
+    let open = vec![At(2.0), At(2.0), Above(5.0), Above(5.0), Above(5.0), Above(5.0)];
+    let never = vec![Above(5.0); 6];
+    let bootstrap = Bootstrap::new(6, 200, 1);
     let compared = |models: &[Vec<Exceedance>], reference: usize| -> Vec<Summary> {
         let models: Vec<_> = models.iter().map(|model| vec![Sample::of_records(model.clone())]).collect();
         compare(&models, reference, &Estimator::new(Dispersion::Own, &[1.0]), &bootstrap).remove(0)
@@ -327,7 +327,7 @@ fn open_numbers_have_their_bounds() {
     // at the lowest level, a record exceeds anywhere up to it
     let lowest = Exceedance::Between([0.0, 3.0]);
     let next = Exceedance::Between([3.0, 4.0]);
-    let summaries = compared(&[vec![lowest; 5], vec![lowest, lowest, next, next, next]], 0);
+    let summaries = compared(&[vec![lowest; 6], vec![lowest, lowest, next, next, next, next]], 0);
     for interval in [summaries[0].median, summaries[0].theta] {
         assert_eq!(texts(&interval), ["open <3.00", "open <3.00", "open <3.00"]);
     }

@@ -8,7 +8,7 @@ use check::{
     how_to_write, page, page_of_walls, read, with_assignments,
 };
 use clap::Args;
-use rocking_wall::scene::{Scene, read_text};
+use rocking_wall::scene::Scene;
 use run::parallel;
 use run::walls::read_walls;
 
@@ -46,14 +46,11 @@ pub(crate) struct Arguments {
     lang: Option<Language>,
 }
 
-/// Largest file that is looked into for its tables.
-pub(crate) const MAX_FILE_BYTES: u64 = 4 << 20;
-
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Some(path) = &arguments.scene.scene else {
         bail!("there is no file; give a scene or walls with a table [check]; {}", how_to_write());
     };
-    let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
+    let (name, text) = (path.display().to_string(), Scene::text(path)?);
     let (of_check, of_wall): (Vec<String>, Vec<String>) =
         arguments.scene.set.iter().cloned().partition(|set| set.trim_start().starts_with("check."));
     let extended = with_assignments(&text, &of_check).map_err(|message| anyhow!("--set {message}"))?;

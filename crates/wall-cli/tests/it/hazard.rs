@@ -11,7 +11,7 @@ const STUDY: &str = r#"
 models = ["CR", "CDC"]
 intensity = { measure = "code" }
 levels = { method = "hunt", first = 0.1, increase = 0.1, top = 4, gap = 0.3 }
-records = { synthetic = { count = 4, duration = 12, step = 0.01 } }
+records = { synthetic = { count = 6, duration = 12, step = 0.01 } }
 report = { fractions = [0.4, 1], resamples = 100 }
 hazard = { points = [[0.05, 3e-2], [0.2, 2e-3], [0.8, 1e-4]], years = 30, target = 1e-3 }
 
@@ -145,6 +145,7 @@ fn a_hazard_that_cannot_be_is_refused() {
         ("{ points = [[0.1, 1e-2]] }", &["line 7", "hazard.points needs at least 2 values, found 1"]),
         ("{ points = [[0.2, 1e-2], [0.1, 1e-3]] }", &["point 2", "0.1 must be above 0.2"]),
         ("{ points = [[0.1, 1e-3], [0.2, 1e-2]] }", &["point 2", "0.01 must be below 0.001"]),
+        ("{ points = [[1e-2, 0.1], [1e-3, 0.2]] }", &["0.001 must be above 0.01", "annual rate swapped?"]),
         ("{ points = [[0.1, -1], [0.2, 1e-2]] }", &["point 1", "-1 must be positive"]),
         ("{ points = [[0.1, 1e-2], [0.2, 1e-3]], site = 1 }", &["site belongs to a file of OpenQuake"]),
         ("{ points = [[0.1, 1e-2], [0.2, 1e-3]], unit = \"furlong\" }", &["furlong"]),

@@ -7,7 +7,7 @@ use rocking_wall::choices::Mechanism;
 use rocking_wall::scene::{Floors, StoreyTable, SupportsTable};
 
 use crate::command_line::{
-    assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed, text,
+    args, assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed, text,
 };
 
 #[test]
@@ -153,4 +153,16 @@ fn what_full_rotations_do_not_know_is_refused_with_the_remedy() {
     succeed(&folder, &["simulate", "good.toml", "--html", "page.html"]);
     let page = content(&folder, "page.html");
     assert!(page.contains("0.26 % short") && !page.contains("NaN"), "the error of small rotations");
+}
+
+#[test]
+fn a_file_that_says_nothing_is_no_scene() {
+    let folder = folder("nothing");
+    for nothing in ["", "# a comment\n\n  # and another\n"] {
+        fs::write(folder.join("empty.toml"), nothing).unwrap();
+        for command in ["simulate", "check", "study tie"] {
+            let words = ["empty.toml: is empty or has comments alone; state the wall, as in"];
+            refused(&folder, &args(&format!("{command} empty.toml")), &words);
+        }
+    }
 }

@@ -20,7 +20,7 @@ const SHORTEST: f64 = 0.15;
 pub(crate) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> Result<Level, CheckError> {
     let given = statement.states.iter().flatten().find(|given| given.state.key() == name);
     let Some(given) = given else {
-        let message = format!("{name} is not stated; give its ag, F0 and TC, or another limit state");
+        let message = format!("{name} is not stated; give its ag, F0 and TC, or another of SLD, SLV and SLC");
         return Err(CheckError::value(&[name], message));
     };
     if statement.records.named.is_empty() {

@@ -8,7 +8,7 @@ use check::{AtLevel, CheckFile, at_level, read};
 use clap::Args;
 use ground_motion::{RecordOptions, Unit};
 use report::{counted, number};
-use rocking_wall::scene::{Scene, read_text};
+use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use run::parallel;
@@ -19,7 +19,6 @@ use study::tie::figure::picture;
 use study::tie::{BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
 
 use crate::args::{SceneArguments, apply_set, read_record, short_name, svg_file};
-use crate::commands::check::MAX_FILE_BYTES;
 use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
@@ -135,7 +134,7 @@ fn of_check(
     state: &str,
 ) -> Result<AtLevel> {
     let path = arguments.scene.scene.as_ref().context("--level needs a scene with a table [check]")?;
-    let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
+    let (name, text) = (path.display().to_string(), Scene::text(path)?);
     let file = CheckFile::parse(&name, &text)?.with_records(named);
     let code = read(&file).map_err(|error| file.located(error))?;
     let assumed = file.assumed(&arguments.scene.set);
