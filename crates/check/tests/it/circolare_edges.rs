@@ -8,7 +8,7 @@ use check::{CheckFile, Deciding, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};
-use crate::circolare_second::{displaced, facade, negative, parapet, positive, strip};
+use crate::circolare_hinges::{displaced, facade, negative, parapet, positive, strip};
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
 

@@ -5,7 +5,7 @@ use check::{CheckFile, Found, Sought, find, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
-use crate::circolare_second::{facade, strip};
+use crate::circolare_hinges::{facade, strip};
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
 const STIFF: &str = "tie_stiffness = 5e6\ntie_strength = 10e3";

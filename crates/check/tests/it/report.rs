@@ -6,7 +6,7 @@ use rocking_wall::scene::Scene;
 use run::walls::{NamedWall, read_walls};
 
 use crate::circolare::PARAPET;
-use crate::circolare_second::palazzo;
+use crate::circolare_hinges::palazzo;
 
 /// A parapet, a strip whose hinges are searched and set back, and a façade with a tie, on one building.
 fn walls() -> String {

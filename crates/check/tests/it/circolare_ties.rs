@@ -1,5 +1,5 @@
-//! Worked examples of ties in the second edition of the check by Circolare 7/2019, which an independent
-//! program computed. Their numbers have six digits.
+//! Ties in the check by Circolare 7/2019: worked examples, which an independent program computed. Their
+//! numbers have six digits.
 #![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
 
 use check::circolare::SideVerdict;
@@ -7,7 +7,7 @@ use check::{CheckFile, Found, Sought, find, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};
-use crate::circolare_second::{displaced, facade, near_all, negative, parapet, positive};
+use crate::circolare_hinges::{displaced, facade, near_all, negative, parapet, positive};
 
 /// Examples 9 and 10: ties at the activation, and their required strength.
 #[test]

@@ -1,5 +1,5 @@
-//! The second edition of the check by Circolare 7/2019 beside an independent program: hinges that are
-//! searched, set-backs, ties at the activation, ties that yield, bars.
+//! The check by Circolare 7/2019 beside an independent program: hinges that are searched, set-backs, ties at
+//! the activation, ties that yield, bars.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,7 +17,7 @@ type Case<'a> = BTreeMap<&'a str, &'a str>;
 
 #[test]
 fn cases_of_an_independent_program() {
-    let mut lines = include_str!("../data/circolare_second.csv").lines();
+    let mut lines = include_str!("../data/circolare_hinges.csv").lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     let (mut cases, mut numbers) = (0, 0);
     for line in lines {

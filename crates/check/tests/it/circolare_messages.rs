@@ -1,12 +1,12 @@
-//! What the second edition of the check by Circolare 7/2019 refuses, warns of and says; walls of one
-//! building; assignments on the command line.
+//! What the check by Circolare 7/2019 says of hinges and ties, refuses and warns of; walls of one building;
+//! assignments on the command line.
 
 use check::{CheckFile, Subject, WallCodes, check_walls, read, with_assignments};
 use rocking_wall::scene::Scene;
 use run::walls::read_walls;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
-use crate::circolare_second::{facade, palazzo, positive, strip};
+use crate::circolare_hinges::{facade, palazzo, positive, strip};
 
 const LAW: &str = "before_activation = \"law\"";
 const YIELD: &str = "tie.at_activation = \"yield\"";

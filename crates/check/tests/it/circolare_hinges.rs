@@ -1,5 +1,5 @@
-//! Worked examples of the second edition of the check by Circolare 7/2019, which an independent program
-//! computed. Their numbers have six digits.
+//! Hinges that are searched or set back in the check by Circolare 7/2019: worked examples, which an
+//! independent program computed. Their numbers have six digits.
 #![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
 
 use check::circolare::{DisplacementCheck, Outcome, SideVerdict};
