@@ -1,4 +1,7 @@
 //! One instance of a unit, and what an importer keeps for it.
+//!
+//! It is generic: a program can have the exported C functions of one unit alone, which the importer of
+//! `fmu-export`'s tests calls. `tests/importer` loads a packed FMU by a crate that others wrote.
 
 use fmu_export::Model;
 use fmu_export::ffi::types::ValueReference;

@@ -103,6 +103,11 @@ fn the_frame_is_complete() {
         &format!("version=\"{}\"", env!("CARGO_PKG_VERSION")),
         "guid=\"{fingerprint}\"",
         "variableNamingConvention=\"structured\"",
+        "author=\"The rocking-wall authors\"",
+        "license=\"MIT OR Apache-2.0\"",
+        "generationTool=\"rocking-wall\"",
+        "numberOfEventIndicators=\"3\"",
+        "completedIntegratorStepNotNeeded=\"false\"",
         "needsExecutionTool=\"false\"",
         "canHandleVariableCommunicationStepSize=\"true\"",
         "canInterpolateInputs=\"true\"",
@@ -124,6 +129,14 @@ fn the_frame_is_complete() {
     }
     // A date would make every build a different FMU; the comment says so.
     assert!(XML.contains("generationDateAndTime is") && !XML.contains("generationDateAndTime="));
+}
+
+/// What importers show is the factor times the value: 1 m/s² is 1/9.80665 g.
+#[test]
+fn the_factor_of_g_is_that_of_standard_gravity() {
+    let behind = XML.split("<DisplayUnit name=\"g\" factor=\"").nth(1).unwrap();
+    let factor = behind.split('"').next().unwrap();
+    assert_eq!(factor.parse(), Ok(1.0 / ground_motion::STANDARD_GRAVITY));
 }
 
 /// Importers show the first display unit where a variable states none: -1 s, not -1000 ms.

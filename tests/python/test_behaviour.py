@@ -7,7 +7,6 @@ the C boundary: crates/fmu-export/tests/exported. Here is what is the wall's own
 import csv
 import json
 import math
-import pickle
 import random
 import shutil
 import subprocess
@@ -16,7 +15,6 @@ import threading
 from pathlib import Path
 
 import pytest
-from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 
 from conftest import ROOT
@@ -30,13 +28,6 @@ def unpacked(either):
 
 
 SHAKEN = {"u_start": 0.0, "a1": 0.02, "damping_model": "constant_ratio"}
-STRIP = {
-    "mechanism": "vertical_spanning",
-    "thickness": 0.1,
-    "height": 2.68,
-    "hinge_ratio": 0.57,
-    "overburden": 3000.0,
-}
 NAMES = ["u", "u_dot", "u_ddot", "u_ratio", "restoring_force", "damping_force",
          "reaction_bottom", "reaction_top", "impulse_bottom", "impulse_top",
          "overturn_time", "u_max", "overturned"]  # fmt: skip
@@ -135,52 +126,7 @@ def test_overturning_is_an_ordinary_state(unit):
     assert unit.get("u_dot", "u_ddot", "reaction_bottom", "impulse_bottom") == [0.0, 0.0, 0.0, 0.0]
 
 
-# --- states -------------------------------------------------------------------------------------------------
-
-
-RESUME = """
-import pickle, sys
-sys.path.insert(0, sys.argv[1])
-from test_behaviour import shake, values
-from unit import Unit
-saved, time = pickle.load(sys.stdin.buffer)
-with Unit.unpack(sys.argv[2]) as unpacked, Unit(unpacked) as unit:
-    unit.start()
-    unit.slave.setFMUState(unit.slave.deserializeFMUState(saved))
-    unit.time = time
-    shake(unit, 200, seed=3)
-    sys.stdout.buffer.write(pickle.dumps(values(unit)))
-"""
-
-
-def test_a_state_resumes_in_another_process(unpacked):
-    with Unit(unpacked) as unit:
-        unit.start(**STRIP, u_start=0.0)
-        shake(unit, 200)
-        saved = unit.slave.serializeFMUState(unit.slave.getFMUState())
-        sent = pickle.dumps((saved, unit.time))
-        shake(unit, 200, seed=3)
-        command = [sys.executable, "-c", RESUME, Path(__file__).parent, unpacked.path]
-        answer = subprocess.run(command, input=sent, check=True, capture_output=True)
-        assert pickle.loads(answer.stdout) == values(unit)
-
-
 # --- inputs, outputs, derivatives ---------------------------------------------------------------------------
-
-
-def test_input_derivatives(unit):
-    unit.start(u_start=0.0)
-    unit.set(a_bottom=0.5)
-    unit.rates(a_bottom=2.0)
-    unit.step(0.1)
-    assert unit.get("a_bottom") == pytest.approx(0.7, rel=1e-15), "extrapolated to the end of the step"
-    after = unit.get("a_bottom")
-    unit.step(0.1)
-    assert unit.get("a_bottom") == after, "the derivative held for one step"
-    unit.rates(a_bottom=2.0)
-    unit.set(a_bottom=0.5)
-    unit.step(0.1)
-    assert unit.get("a_bottom") == 0.5, "setting the input clears its derivative"
 
 
 @pytest.mark.parametrize("name, limit", [("a_bottom", 1e6), ("a_top", 1e6), ("drift", 1e3)])
@@ -201,79 +147,6 @@ def test_slopes_lead_inputs_to_their_limits_and_not_beyond(unpacked2, name, limi
             unit.slave.setFMUState(state)
 
 
-def test_feedthrough_without_a_step(unit):
-    unit.start(u_start=0.0)
-    unit.set(a_bottom=1.0)
-    # a parapet, elastic at u = 0: ü = −λ a, R = m (a + ü)
-    assert unit.get("u_ddot") == pytest.approx(-0.75, rel=1e-15)
-    assert unit.get("reaction_bottom") == pytest.approx(2880.0 * 0.25, rel=1e-15)
-    unit.set(a_g=1.0)
-    assert unit.get("u_ddot") == pytest.approx(-1.5, rel=1e-15), "a_g is added"
-
-
-@pytest.mark.parametrize("shape", [{}, STRIP | {"thickness": 0.2}])
-def test_directional_derivatives(unpacked, shape):
-    """Compares the derivative of every Real output by every input and state with a central difference;
-    tests/it/unit.rs has every model and branch.
-
-    The known changes by 1e-6. Outputs are linear in the inputs and smooth in the states there. The error of a
-    difference is rounding, 1e-10 over 1e-6, and 1e-12 of the curvature.
-    """
-    unknowns = [name for name in NAMES if name != "overturned"]
-    settings = {"xi": 0.05, "u_start": 0.08, "u_dot_start": 0.2} | shape
-    inputs = {"a_g": 0.1, "a_bottom": 0.2, "a_top": 0.3, "drift": 1e-3}
-
-    def outputs(**change):
-        with Unit(unpacked) as other:
-            return other.start(**(settings | inputs | change)).get(*unknowns)
-
-    with Unit(unpacked) as unit:
-        unit.start(**settings, **inputs)
-        for known in [*inputs, "u", "u_dot"]:
-            name = known if known in inputs else f"{known}_start"
-            start = (settings | inputs)[name]
-            above, below = outputs(**{name: start + 1e-6}), outputs(**{name: start - 1e-6})
-            for index, unknown in enumerate(unknowns):
-                found = unit.slave.getDirectionalDerivative(
-                    [unit.reference(unknown)], [unit.reference(known)], [1.0]
-                )[0]
-                expected = (above[index] - below[index]) / 2e-6
-                if unknown == "u_max":
-                    expected = 0.0  # it depends on the past, not on the present state
-                size = max(1.0, abs(expected), abs(above[index]))
-                assert found == pytest.approx(expected, abs=2e-6 * size), f"d {unknown} / d {known}"
-
-
-def test_directional_derivatives_know_the_couple(unpacked):
-    """On a branch reactions of a strip are linear in u and in the drift, so that only rounding remains."""
-    ends, at_rest = ["reaction_bottom", "reaction_top"], {"u_start": 0.0, "overburden": 1000.0}
-    with Unit(unpacked) as unit:
-        unit.start(**STRIP | at_rest)
-        unknowns = [unit.reference(name) for name in ends]
-
-        def slopes(known):
-            return list(unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0]))
-
-        assert unit.get(*ends) == [0.0, 0.0]
-        forward, backward = (unit.set(drift=drift).get(*ends) for drift in (1e-4, -1e-4))
-        expected = [(a - b) / 2e-4 for a, b in zip(forward, backward, strict=True)]
-        assert slopes("drift") == pytest.approx(expected, rel=1e-9)
-        by_u = slopes("u")
-        assert unit.set(drift=0.0).get(*ends) == [0.0, 0.0]
-        assert slopes("drift") == pytest.approx(expected, rel=1e-9)
-        assert slopes("u") == by_u
-    with Unit(unpacked) as unit:
-        unit.start(**STRIP | at_rest | {"u_start": 1e-5})
-        assert by_u == pytest.approx([force / 1e-5 for force in unit.get(*ends)], rel=1e-9)
-        # R_b contains -G and R_t contains G
-        names = ["effective_mass", "mass", "omega1", "F0", "u_ins", "height", "thickness", "hinge_ratio"]
-        effective, mass, omega, f0, u_ins, h, b, ratio = unit.get(*names)
-        toe = (mass * 9.81 + 1000.0) * b / 2 * (effective * omega**2 + f0 / u_ins) / f0
-        couple = (toe - mass * 9.81 / 2) / h
-        inertia = [mass * weight / 2 * -(omega**2) for weight in ((2 - ratio) / 3, (1 + ratio) / 3)]
-        assert by_u == pytest.approx([inertia[0] - couple, inertia[1] + couple], rel=1e-9)
-
-
 def test_the_tighter_tolerance_applies(unpacked):
     def end(tolerance, parameter):
         with Unit(unpacked) as unit:
@@ -288,42 +161,7 @@ def test_the_tighter_tolerance_applies(unpacked):
     assert end(1e-3, 1e-12) == fine
 
 
-def test_a_tolerance_below_rounding_is_the_least(unpacked):
-    """A smaller tolerance is raised to the lower limit of the parameter; a step would else take minutes."""
-
-    def end(tolerance):
-        with Unit(unpacked) as unit:
-            return unit.start(importer_tolerance=tolerance).step(0.1).get("u", "u_dot")
-
-    assert end(1e-300) == end(1e-15)
-
-
 # --- log ----------------------------------------------------------------------------------------------------
-
-
-def test_a_parapet_says_once_that_it_has_no_top(unpacked):
-    with Unit(unpacked, logging=True) as unit:
-        unit.start(u_start=0.0)
-        shake(unit, 50)
-        told = [
-            text for _, category, text in unit.messages if category == "logStatusWarning" and "a_top" in text
-        ]
-        assert len(told) == 1
-
-
-def test_a_given_damping_ratio_counts(unpacked):
-    """`fmpy simulate wall.fmu --start-values xi 0.05`: C is proportional to xi, and history follows."""
-    given = simulate_fmu(str(unpacked.path), start_values={"xi": 0.05}, output=["u"], stop_time=3.0)
-    default = simulate_fmu(str(unpacked.path), output=["u"], stop_time=3.0)
-    assert max(abs(given["u"] - default["u"])) > 0.01
-    for xi in (0.05, -1.0):
-        with Unit(unpacked) as unit:
-            # on the elastic branch, where C = 2 m_eff omega1 xi; Eq. (21) with the calibrated e
-            unit.start(u_start=0.0, u_dot_start=0.001, xi=xi)
-            used = -0.350 * 0.03**0.074 * math.log(unit.get("restitution_used")) if xi < 0.0 else xi
-            assert unit.get("xi_used") == pytest.approx(used, rel=1e-14)
-            force = 2.0 * unit.get("effective_mass") * unit.get("omega1") * used * 0.001
-            assert unit.get("damping_force") == pytest.approx(force, rel=1e-12)
 
 
 def test_log_of_starts_and_events(unpacked):
@@ -349,12 +187,6 @@ def test_the_log_names_the_solver(unpacked, settings, text):
     with Unit(unpacked, logging=True) as unit:
         unit.start(damping_model="none", **settings)
         assert [found for _, _, found in unit.messages if "solver" in found] == [text]
-
-
-def test_doubtful_choices_are_warned_of(unpacked):
-    with Unit(unpacked, logging=True) as unit:
-        unit.start(a1=0.2)
-        assert any("0.005" in text for _, category, text in unit.messages if category == "logStatusWarning")
 
 
 # --- many instances -----------------------------------------------------------------------------------------

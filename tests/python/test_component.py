@@ -20,7 +20,7 @@ import test_cases
 from component import Host, HostedExchange, HostedUnit, Loaded, Slave
 from conftest import ROOT, of_fmi3
 from exchange import Exchange
-from test_fmi3 import OVERTURNING, until_overturning
+from test_fmi3 import until_overturning
 from unit import Unit
 
 MANIFEST = Path(fmpy.__file__).parent / "schema/fmi3/fmi3LayeredStandardManifest.xsd"

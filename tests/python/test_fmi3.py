@@ -34,17 +34,6 @@ def test_fmpy_finds_nothing(units):
     assert validate_fmu(str(units[1])) == []
 
 
-def test_every_number_has_its_unit_and_nominal_value_in_its_type(units):
-    """fmi-schema 0.8 refuses them on variables."""
-    old, new = ({v.name: v for v in read_model_description(str(path)).modelVariables} for path in units)
-    for name, variable in old.items():
-        if variable.type == "Real":
-            kind = new[name].declaredType
-            assert new[name].unit is new[name].nominal is None
-            assert (kind.unit, kind.nominal) == (variable.unit, variable.nominal), name
-            assert kind.displayUnit == variable.declaredType.displayUnit, name
-
-
 def test_terminals_are_valid_and_join_variables_that_fit(fmu, floor_fmu):
     schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
     found = {}
@@ -135,23 +124,6 @@ def until_overturning(unpacked, settings, step, early, kind=Unit):
         raise AssertionError("it does not overturn")
 
 
-@pytest.mark.parametrize(
-    "settings",
-    [{}, {"damping_model": "none"}, {"damping_model": "stiffness_proportional"}],
-    ids=["default", "exact", "adaptive"],
-)
-@pytest.mark.parametrize("step", [0.01, 0.3])
-def test_a_step_ends_early_where_the_wall_overturns(unpacked3, settings, step):
-    _, _, expected, *_ = until_overturning(unpacked3, settings, step, False)
-    returned, time, located, u, u_ins, now = until_overturning(unpacked3, settings, step, True)
-    assert returned
-    assert located == pytest.approx(expected, abs=1e-9)
-    assert 0.0 <= time - expected <= 1e-9
-    assert now == time
-    # at 0.3 m/s or more, 1e-9 s is 1e-9 m
-    assert abs(u) == pytest.approx(u_ins, abs=1e-8)
-
-
 @pytest.mark.parametrize("step", [0.01, 0.3])
 def test_newmark_ends_early_where_its_own_steps_allow(unpacked3, step):
     """A step that ends elsewhere has other steps of Newmark inside, so that overturning moves: by less than
@@ -174,32 +146,6 @@ def test_a_run_with_early_return_goes_on(fmu3):
     assert 0 < at < 1
     assert np.abs(result["time"] - at).min() < 1e-9, "overturning is one of the samples"
     assert result["time"][-1] == pytest.approx(3.0) and result["u"][-1] == pytest.approx(2.0)
-
-
-def test_intermediate_variables_that_are_no_inputs_are_named(unpacked3):
-    names = {variable.name: variable.valueReference for variable in unpacked3.description.modelVariables}
-    wanted = [names["a_bottom"], names["u"]]
-    with Unit(unpacked3, logging=True, requiredIntermediateVariables=wanted) as unit:
-        assert any("u takes no derivative" in message for _, _, message in unit.messages)
-        unit.start()
-        unit.step(0.01)
-
-
-def test_the_adjoint_is_the_transposed(unpacked3):
-    unknowns = ["u_ddot", "restoring_force", "reaction_bottom"]
-    knowns = ["u", "u_dot", "a_g", "a_bottom"]
-    with Unit(unpacked3) as unit:
-        unit.start(u_start=0.12, u_dot_start=0.1)
-        rows, columns = ([unit.reference(name) for name in names] for names in (unknowns, knowns))
-        directional = np.array(
-            [unit.slave.getDirectionalDerivative(rows, [known], [1.0]) for known in columns]
-        ).T
-        adjoint = np.array(
-            [unit.slave.getAdjointDerivative([unknown], columns, [1.0], 4) for unknown in rows]
-        )
-        assert np.array_equal(directional, adjoint)
-        both = unit.slave.getAdjointDerivative(rows, columns, [1.0, -2.0, 0.5], 4)
-        assert both == pytest.approx([1.0, -2.0, 0.5] @ directional, rel=1e-14)
 
 
 @pytest.mark.parametrize(

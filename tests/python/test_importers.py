@@ -8,11 +8,9 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 
 from conftest import ROOT, of_fmi3
-from exchange import Exchange
 from unit import Unit
 
 STEP, END = 0.005, 6.0
-WARNING = 1
 UNKNOWN = 4242
 
 
@@ -68,17 +66,6 @@ def test_event_mode_takes_a_record(fmu3):
     assert 0.1 < plain["u_max"][-1] < 0.2, "it rocks"
 
 
-def test_event_mode_changes_a_record_in_event_mode_alone(unpacked3):
-    with Unit(unpacked3, eventModeUsed=True) as unit:
-        unit.start(u_start=0.0, a_g=1.5)
-        unit.slave.updateDiscreteStates()
-        unit.slave.enterStepMode()
-        unit.set(a_g=1.5).step(0.01)
-        with pytest.raises(FMICallException):
-            unit.set(a_g=1.6)
-        assert "a_g (Input, Discrete) cannot be set in step mode" in unit.messages[-1][-1]
-
-
 def test_a_boolean_is_read_as_a_number(running):
     unit, name = running
     before = warnings(unit)
@@ -92,17 +79,6 @@ def test_a_boolean_is_read_as_a_number(running):
     assert found == ({0.0, 1.0} if unit.description.modelName == "rocking-wall" else {0.0})
     (warning,) = warnings(unit)[len(before) :]
     assert f"{name} is a Boolean, read as 0 or 1" in warning
-
-
-def test_a_boolean_is_read_as_a_number_in_model_exchange(unpacked2):
-    with Exchange(unpacked2, logging=True) as unit:
-        unit.run()
-        reference = [unit.reference("overturned")]
-        assert [unit.slave.getReal(reference) for _ in range(2)] == [[0.0], [0.0]]
-        assert len([text for text in warnings(unit) if "overturned is a Boolean" in text]) == 1
-        with pytest.raises(FMICallException):
-            unit.slave.getReal([UNKNOWN])
-        unit.at(0.01, unit.states())
 
 
 def test_a_getter_that_fails_does_not_end_the_run(running):
@@ -128,16 +104,3 @@ def test_a_step_of_length_0_changes_nothing(running, version):
     unit.step(0.1)
     with pytest.raises(FMICallException):
         unit.slave.doStep(unit.time, -1e-9)
-
-
-def test_an_input_derivative_outlives_a_step_of_length_0(unpacked2):
-    ends = []
-    for empty_steps in (0, 3):
-        with Unit(unpacked2) as unit:
-            unit.start(u_start=0.0, a_bottom=2.0)
-            unit.rates(a_bottom=30.0)
-            for _ in range(empty_steps):
-                unit.slave.doStep(unit.time, 0.0)
-            unit.step(0.1)
-            ends.append(unit.get("u", "a_bottom"))
-    assert ends[0] == ends[1] and ends[0][1] == pytest.approx(5.0) and ends[0][0] != 0.0

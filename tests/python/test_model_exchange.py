@@ -1,11 +1,9 @@
 """Tests Model Exchange: other solvers agree with co-simulation, and corners do not slow them down."""
 
 import contextlib
-import csv
 import math
 import random
 import subprocess
-import sys
 
 import casadi
 import numpy as np
@@ -205,21 +203,6 @@ def test_corners_do_not_slow_the_solver(unpacked):
         assert run.evaluations < 200 * run.events
 
 
-def test_restitution_ends_in_rest(unpacked):
-    run, steps = agree(
-        unpacked.folder,
-        unpacked.description,
-        {**RIGID, "restitution": 0.7},
-        20.0,
-    )
-    last = run.history[-1]
-    assert (last["u"], last["u_dot"]) == (0.0, 0.0)
-    # bounces below 4e-12 u_ins count as rest: u_start e^n, and a few that depend on the solver's error
-    assert run.events < 60
-    still = [float(history["time"][np.flatnonzero(history["u_dot"])[-1]]) for history in (run.history, steps)]
-    assert still[0] == pytest.approx(still[1], abs=0.02), "at rest by the same sample but one"
-
-
 @pytest.mark.parametrize(
     "settings", [{}, {"overburden": 5000.0, "overburden_eccentricity": 0.05}], ids=["alike", "two sides"]
 )
@@ -241,42 +224,11 @@ def record():
     return time, 5.0 * shape
 
 
-def test_a_record_through_a_g(unpacked, tmp_path, fmu):
+def test_a_record_through_a_g(unpacked):
     time, motion = record()
     signal = np.array(list(zip(time, motion, strict=True)), dtype=[("time", float), ("a_g", float)])
-    run, steps = agree(unpacked.folder, unpacked.description, {"u_start": 0.0, "a1": 0.1}, 8.0, input=signal)
+    _, steps = agree(unpacked.folder, unpacked.description, {"u_start": 0.0, "a1": 0.1}, 8.0, input=signal)
     assert np.abs(steps["u"]).max() > 0.01, "it rocks"
-    # compare with the command line
-    path = tmp_path / "record.csv"
-    np.savetxt(
-        path, np.column_stack([time, motion]), delimiter=",", header="time,a_g", comments="", fmt="%.17g"
-    )
-    command = [
-        sys.executable,
-        "-m",
-        "fmpy",
-        "simulate",
-        str(fmu),
-        "--interface-type",
-        "ModelExchange",
-        "--stop-time",
-        "8",
-    ]
-    command += [
-        "--input-file",
-        str(path),
-        "--output-file",
-        str(tmp_path / "out.csv"),
-        "--start-values",
-        "u_start",
-        "0",
-        "a1",
-        "0.1",
-    ]
-    subprocess.run(command, check=True, capture_output=True)
-    with open(tmp_path / "out.csv", newline="") as file:
-        last = list(csv.DictReader(file))[-1]
-    assert float(last["u_max"]) == pytest.approx(steps["u_max"][-1], rel=1e-4)
 
 
 @pytest.fixture(scope="module")
@@ -362,54 +314,6 @@ def test_supports_that_move(unpacked):
         assert 0.01 < steps.get("u_max") < 0.1, "it rocks and stands"
 
 
-def test_impulses_are_those_of_the_impact(unpacked):
-    with Exchange(unpacked) as exchange:
-        exchange.run(**RIGID, u_start=0.001)
-        e, mass = exchange.get("restitution_used", "mass")
-        while True:
-            exchange.integrate(exchange.time + 0.01, 1e-10)
-            impulse = exchange.get("impulse_bottom")
-            if impulse:
-                break
-        # an impact changes v to e v
-        before = math.sqrt(2 * 0.001 * exchange.get("F0") / exchange.get("effective_mass"))
-        assert impulse == pytest.approx(mass * (1 - e) * before, rel=0.01)
-        exchange.event()
-        assert exchange.get("impulse_bottom", "impulse_top") == [0.0, 0.0]
-
-
-def test_the_derivative_is_smooth_beyond_the_corner(unpacked):
-    """The branch continues until the event: value, slope and curvature do not jump at the corner."""
-    for settings in ({}, {"damping_model": "stiffness_proportional"}):
-        with Exchange(unpacked) as exchange:
-            exchange.run(**settings)
-            corner = exchange.get("u_ins") * 0.03
-
-            def acceleration(u):
-                return exchange.at(0.0, [u, 0.3]).derivatives()[1]
-
-            h = 1e-5
-            inside, outside = (
-                [acceleration(corner + sign * k * h) for k in (1, 2, 3, 4)] for sign in (1, -1)
-            )
-            # extrapolated from three points on either side; the remainder is the third derivative times h³
-            first, second = (3 * a[0] - 3 * a[1] + a[2] for a in (inside, outside))
-            assert first == pytest.approx(second, abs=1e-6 * abs(first))
-            slopes = [
-                (-2.5 * a[0] + 4 * a[1] - 1.5 * a[2]) / h * sign for a, sign in ((inside, 1), (outside, -1))
-            ]
-            assert slopes[0] == pytest.approx(slopes[1], rel=1e-3)
-            # far beyond, on the other side of u = 0, its size stays the same
-            assert abs(acceleration(-20 * corner)) < 10 * abs(acceleration(corner)) + 10
-            here = -20 * corner
-            difference = (acceleration(here + h) - acceleration(here - h)) / (2 * h)
-            exchange.at(0.0, [here, 0.3])
-            known, unknown = exchange.reference("u"), exchange.reference("u_ddot")
-            assert exchange.slave.getDirectionalDerivative([unknown], [known], [1.0])[0] == pytest.approx(
-                difference, rel=1e-5
-            )
-
-
 def test_no_indicator_stays_at_zero_after_an_event(unpacked):
     """After an event at a random point, every indicator is away from zero and time and states are as set."""
     noise = random.Random(5)
@@ -431,26 +335,6 @@ def test_no_indicator_stays_at_zero_after_an_event(unpacked):
                 assert not exchange.event(), "a second event finds nothing to change"
                 assert exchange.states() == before
             assert all(map(math.isfinite, exchange.states() + exchange.derivatives()))
-
-
-def test_a_saved_state_resumes_bit_for_bit(scenes):
-    shaken = scenes("shaken_parapet")
-    with Exchange(shaken) as first, Exchange(shaken) as second:
-        first.run()
-        first.integrate(3.003, 1e-8)
-        state = first.slave.getFMUState()
-        stored = first.slave.serializeFMUState(state)
-        copy = second.slave.deserializeFMUState(stored)
-        second.slave.setFMUState(copy)
-        second.time, second.next_event = first.time, first.next_event
-        for instance in (first, second):
-            instance.integrate(4.0, 1e-8)
-        assert first.states() == second.states()
-        assert first.indicators() == second.indicators()
-        names = ["u_max", "overturn_time", "reaction_bottom", "u_ddot"]
-        assert first.get(*names) == second.get(*names)
-        for instance, saved in ((first, state), (second, copy)):
-            instance.slave.freeFMUState(saved)
 
 
 def test_a_g_acts_at_once(unpacked):

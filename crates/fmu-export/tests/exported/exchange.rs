@@ -226,42 +226,6 @@ fn a_library_of_one_kind_refuses_the_other() {
     }
 }
 
-/// Random calls in any order: an answer each time, and never a state that is not finite.
-#[test]
-fn no_order_of_calls_does_harm() {
-    let mut seed = 1_u64;
-    let mut next = |below: u64| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 33) % below
-    };
-    let mut served = 0;
-    for _ in 0..400 {
-        let importer = Exchange::in_event_mode();
-        let c = importer.component;
-        for _ in 0..30 {
-            let number = next(2000) as f64 / 1000.0 - 1.0;
-            // SAFETY: the instance lives; arrays are as long as stated.
-            let status = unsafe {
-                match next(9) {
-                    0 => fmi2EnterEventMode(c),
-                    1 => fmi2NewDiscreteStates(c, &mut EventInfo::default()),
-                    2 => fmi2EnterContinuousTimeMode(c),
-                    3 => fmi2CompletedIntegratorStep(c, 1, &mut 0, &mut 0),
-                    4 => set_time(&importer, number),
-                    5 => set_states(&importer, [number, 1.0 - number]),
-                    6 => fmi2GetDerivatives(c, [0.0; 2].as_mut_ptr(), 2),
-                    7 => importer.set(Real::Force, number),
-                    _ => fmi2GetEventIndicators(c, [0.0].as_mut_ptr(), 1),
-                }
-            };
-            served += u32::from(status == OK);
-            assert!(status == OK || status == ERROR);
-        }
-        assert!(numbers::<2>(&importer, fmi2GetContinuousStates).iter().all(|value| value.is_finite()));
-    }
-    assert!(served > 1000, "{served} calls were in turn");
-}
-
 #[test]
 fn nothing_is_allocated_between_events() {
     let importer = Exchange::in_continuous_time_mode();

@@ -3,7 +3,7 @@
 use crate::fmi2::*;
 use crate::fmi3::fmi3InstantiateModelExchange;
 use crate::importer::{Importer, Journal, SILENT, expect_error, instantiate, write_down_3};
-use crate::spring::{GUID, Real, Spring, Text};
+use crate::spring::{GUID, Spring, Text};
 use fmu_export::ffi::types::{CO_SIMULATION, CallbackFunctions, ERROR, OK};
 use fmu_export::{Model, fnv1a_128};
 use std::ffi::CString;
@@ -225,12 +225,4 @@ fn an_environment_may_be_null_while_there_is_a_logger() {
         assert_eq!(fmi2DoStep(c, 0.0, 0.1, 1), ERROR);
         fmi2FreeInstance(c);
     }
-}
-
-#[test]
-fn instances_do_not_share_anything() {
-    let (one, two) = (Importer::swinging(), Importer::in_step_mode());
-    assert_eq!(one.step(0.0, 0.1), OK);
-    assert_eq!(two.step(0.0, 0.1), OK);
-    assert_eq!((one.get(Real::X) == 0.0, two.get(Real::X)), (false, 0.0));
 }

@@ -37,21 +37,6 @@ fn swing(importer: &Importer, from: u32, to: u32) {
     }
 }
 
-#[test]
-fn eight_threads_swing_alike() {
-    let alone = Importer::swinging();
-    swing(&alone, 0, 2000);
-    let expected = alone.get(Real::X).to_bits();
-    let threads = [(); 8].map(|()| {
-        thread::spawn(|| {
-            let importer = Importer::swinging();
-            swing(&importer, 0, 2000);
-            importer.get(Real::X).to_bits()
-        })
-    });
-    assert_eq!(threads.map(|thread| thread.join().unwrap()), [expected; 8]);
-}
-
 /// Two instances of each version, in two threads that take their steps at the same time.
 #[test]
 fn two_instances_in_two_threads_do_not_meet() {

@@ -188,20 +188,6 @@ fn a_boolean_is_read_as_a_real_with_one_warning() {
 }
 
 #[test]
-fn other_types_are_not_read_as_reals() {
-    for (reference, message) in [
-        (Integer::Law.reference(), "reference 20; law has it"),
-        (Integer::Count.reference(), "reference 23; count has it"),
-        (Text::Label.reference(), "reference 40; label has it"),
-        (UNKNOWN, "no variable of this type has the value reference 999"),
-    ] {
-        let importer = Importer::swinging();
-        assert_eq!(unsafe { fmi2GetReal(importer.component, &reference, 1, &mut 0.0) }, ERROR);
-        importer.expect_error(&["fmi2GetReal: ", message]);
-    }
-}
-
-#[test]
 #[rustfmt::skip]
 fn a_function_of_another_type_names_the_variable() {
     let calls: [(Call, &str); 11] = [
