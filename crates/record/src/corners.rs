@@ -232,9 +232,9 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn arrive<N: Number>(&mut self, token: N::Token, first: usize, arrival: &Arrival<N>) {
         let Arrival { lanes, end, branch, corners, impacts, left } = *arrival;
         let (rows, zero) = (&mut self.rows, N::splat(token, 0.0));
-        let share = -(left * (1.0 / self.solvers[first].step)) + 1.0;
+        let step_taken = -(left * (1.0 / self.solvers[first].step)) + 1.0;
         // a remainder below the rounding of the share counts as none
-        let whole = left.at_most(zero) | N::splat(token, 1.0).at_most(share);
+        let whole = left.at_most(zero) | N::splat(token, 1.0).at_most(step_taken);
         let put = |row: &mut LaneRow, value: N| {
             N::select(lanes, value, N::load(token, row, first)).store(row, first);
         };
@@ -246,7 +246,7 @@ impl<O: Observer> Lanes<'_, O> {
         let lowest = N::load(token, &rows.lowest, first).min(end[0]);
         put(&mut rows.lowest, lowest);
         put(&mut rows.branch, branch);
-        put(&mut rows.share, N::select(whole, zero, share));
+        put(&mut rows.step_taken, N::select(whole, zero, step_taken));
         let index = N::load(token, &rows.index, first);
         put(&mut rows.index, N::select(whole, index + 1.0, index));
         let counted = N::load(token, &rows.corners, first) + corners;
@@ -260,13 +260,13 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn rest<N: Number>(&self, token: N::Token, first: usize) -> Part<N> {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solvers[first]);
         let load = |row| N::load(token, row, first);
-        let (branch, share) = (load(&rows.branch), load(&rows.share));
+        let (branch, step_taken) = (load(&rows.branch), load(&rows.step_taken));
         let line = LinearBranch::look_up(token, &self.branches(first, branch));
         let samples = self.records[first].forcing.from(index(rows.index[first]), 2);
         let [p0, p1] = [load(&rows.factor) * samples[0], load(&rows.factor) * samples[1]];
-        let (length, rate) = (load(&rows.share) * -step + *step, (p1 - p0) * (1.0 / step));
+        let (length, rate) = (load(&rows.step_taken) * -step + *step, (p1 - p0) * (1.0 / step));
         let now = [load(&rows.u), load(&rows.v)];
-        let forcing = p0 + (p1 - p0) * share;
+        let forcing = p0 + (p1 - p0) * step_taken;
         let from = [now[0], now[1], line.acceleration(now, forcing)];
         let [u, v, _] = line.after(table.terms, length, from, rate);
         let (lanes, zero) = (N::mask(token, 1), N::splat(token, 0.0));
@@ -282,11 +282,11 @@ impl<O: Observer> Lanes<'_, O> {
         let mut arrival = self.pass_corners(token, first, Part { lanes: leaves, ..part });
         arrival.take(stays, &part, part.to, 0, zero);
         self.arrive(token, first, &arrival);
-        let stuck = 1 & !N::bits(arrival.lanes);
-        if O::SEES && self.rows.share[first] == 0.0 && stuck == 0 {
+        let to_resolve = 1 & !N::bits(arrival.lanes);
+        if O::SEES && self.rows.step_taken[first] == 0.0 && to_resolve == 0 {
             self.see_now(first);
         }
-        Waiting { ended: 0, stuck }
+        Waiting { ended: 0, to_resolve }
     }
 }
 

@@ -12,19 +12,19 @@ use crate::run::Observer;
 use crate::solver::RecordSolver;
 use crate::table::{BranchTable, Law, end_kind, get};
 
-/// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a
-/// series fall fast enough to end at its order.
-const STRIDE: f64 = 0.2;
-/// Factors on the next stride where the series reached, and where it did not: of eight lanes, and of one.
+/// The largest change of u in a part, over |u|, of eight lanes. Up to it the terms of a series fall fast
+/// enough to end at its order.
+const LARGEST_CHANGE: f64 = 0.2;
+/// Factors on the next change where the series reached, and where it did not: of eight lanes, and of one.
 const LONGER: [f64; 2] = [1.1, 1.3];
 const SHORTER: [f64; 2] = [0.7, 0.6];
-/// The stride at and below which a lane waits for its run to go on by itself.
+/// The change at and below which a lane waits for its run to go on by itself.
 const SHORTEST: f64 = 1e-3;
 /// Most lanes that wait while the others go on.
 const WAITING: u32 = 1;
 /// Most parts before lanes that wait are served.
 const MOST_PARTS: usize = 256;
-/// The stride from which on a regularised series costs less, as measured.
+/// The change from which on a regularised series costs less, as measured.
 const FAST: f64 = 0.1;
 /// Lengths of a part within which its corner is looked for.
 const MOST_TIME: f64 = 2.0;
@@ -35,7 +35,7 @@ const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.
 pub(crate) trait OneLane: SecantLaw {
-    /// The largest stride of one series.
+    /// The largest change of u over |u| of one series.
     const FARTHEST: f64;
 
     /// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part; `None` where no series reaches.
@@ -169,9 +169,9 @@ struct Reached<N> {
     lowest: N,
     fastest: N,
     /// The share of the step taken already.
-    share: N,
-    /// The stride of the next part.
-    stride: N,
+    step_taken: N,
+    /// The change of u in the next part, over |u|.
+    next_change: N,
 }
 
 impl<N: Number> Reached<N> {
@@ -184,8 +184,8 @@ impl<N: Number> Reached<N> {
             highest: load(&rows.highest).max(u),
             lowest: load(&rows.lowest).min(u),
             fastest: load(&rows.fastest),
-            share: load(&rows.share),
-            stride: load(&rows.stride),
+            step_taken: load(&rows.step_taken),
+            next_change: load(&rows.next_change),
         }
     }
 
@@ -196,8 +196,8 @@ impl<N: Number> Reached<N> {
         self.highest.store(&mut rows.highest, first);
         self.lowest.store(&mut rows.lowest, first);
         self.fastest.store(&mut rows.fastest, first);
-        self.share.store(&mut rows.share, first);
-        self.stride.store(&mut rows.stride, first);
+        self.step_taken.store(&mut rows.step_taken, first);
+        self.next_change.store(&mut rows.next_change, first);
     }
 }
 
@@ -244,10 +244,10 @@ impl<O: Observer> Lanes<'_, O> {
         let (farthest, longer, shorter) = if N::LANES == 1 {
             (L::FARTHEST, LONGER[1], SHORTER[1])
         } else {
-            (STRIDE, LONGER[0], SHORTER[0])
+            (LARGEST_CHANGE, LONGER[0], SHORTER[0])
         };
         let farthest = N::splat(token, farthest);
-        reached.stride = reached.stride.min(farthest);
+        reached.next_change = reached.next_change.min(farthest);
         // p at both ends of the step
         let mut ends = [[0.0; WIDTH]; 2];
         let mut ended = 0;
@@ -256,33 +256,36 @@ impl<O: Observer> Lanes<'_, O> {
         }
         let mut goes = N::mask(token, busy & !ended);
         for _ in 0..MOST_PARTS {
-            let Reached { now: [u, v], share, stride, .. } = reached;
-            let (rest, speed) = (-share + 1.0, v.abs());
+            let Reached { now: [u, v], step_taken, next_change, .. } = reached;
+            let (rest, speed) = (-step_taken + 1.0, v.abs());
             // the share of u by which it changes in all of the step
             let whole = speed * h / u.abs();
-            let most = rest.min(stride / whole.max(N::splat(token, f64::MIN_POSITIVE)));
+            let most = rest.min(next_change / whole.max(N::splat(token, f64::MIN_POSITIVE)));
             let length = most * h;
             let fits = bounds.hold([u, v], length);
             let [p0, p1] = [N::load(token, &ends[0], 0), N::load(token, &ends[1], 0)];
-            let forcing = [p0 + (p1 - p0) * share, (p1 - p0) * most];
+            let forcing = [p0 + (p1 - p0) * step_taken, (p1 - p0) * most];
             let (start, inverse) = law.start::<L>([u, v], forcing, length);
             let (end, within) = end_of_part::<N, L>(token, start, tolerances.over(inverse, length));
             let taken = goes & fits & within;
             // also where the sum rounds to the whole step
-            let finished = taken & (rest.at_most(most) | one.at_most(share + most));
+            let finished = taken & (rest.at_most(most) | one.at_most(step_taken + most));
             let now = [N::select(taken, u + u * end[0], u), N::select(taken, u / length * end[1], v)];
-            let next_stride =
-                N::select(taken, (stride * longer).min(farthest), stride.min(whole * most) * shorter);
+            let change_then = N::select(
+                taken,
+                (next_change * longer).min(farthest),
+                next_change.min(whole * most) * shorter,
+            );
             reached = Reached {
                 now,
                 highest: reached.highest.max(now[0]),
                 lowest: reached.lowest.min(now[0]),
                 fastest: reached.fastest.max(N::select(taken, speed, zero)),
-                share: N::select(taken, N::select(finished, zero, share + most), share),
+                step_taken: N::select(taken, N::select(finished, zero, step_taken + most), step_taken),
                 // a lane that waits is as it was
-                stride: N::select(goes, next_stride, stride),
+                next_change: N::select(goes, change_then, next_change),
             };
-            goes = goes & fits & N::splat(token, SHORTEST).below(reached.stride);
+            goes = goes & fits & N::splat(token, SHORTEST).below(reached.next_change);
             for lane in each(N::bits(finished)) {
                 self.rows.index[first + lane] += 1.0;
                 if O::SEES {
@@ -296,7 +299,7 @@ impl<O: Observer> Lanes<'_, O> {
             }
         }
         reached.store(&mut self.rows, first);
-        Waiting { ended, stuck: busy & !N::bits(goes) & !ended }
+        Waiting { ended, to_resolve: busy & !N::bits(goes) & !ended }
     }
 
     /// Enters p at both ends of a lane's step; returns whether its block has one more step.
@@ -347,23 +350,23 @@ impl<O: Observer> Lanes<'_, O> {
     fn follow_to_corner<L: OneLane>(&mut self, lane: usize) -> Option<()> {
         let (rows, solver) = (&self.rows, self.solvers[lane]);
         let RecordSolver { table, step, .. } = solver;
-        let (u, v, share) = (rows.u[lane], rows.v[lane], rows.share[lane]);
+        let (u, v, step_taken) = (rows.u[lane], rows.v[lane], rows.step_taken[lane]);
         let branch = rows.branch[lane].branches();
         let side = usize::from(v > 0.0);
         let corner = get(&table.ends[side], branch);
         if (corner - u).abs() > L::FARTHEST * u.abs() {
             return None;
         }
-        let rest = (1.0 - share) * step;
+        let rest = (1.0 - step_taken) * step;
         let samples = self.records[lane].forcing.from(index(rows.index[lane]), 2);
         let [p0, p1] = [samples[0], samples[1]].map(|p| rows.factor[lane] * p);
         let law = law(|row| get(row(table), branch));
-        let (forcing, rate) = (p0 + (p1 - p0) * share, (p1 - p0) / step);
+        let (forcing, rate) = (p0 + (p1 - p0) * step_taken, (p1 - p0) / step);
         let (start, inverse) = law.start::<L>([u, v], [forcing, rate * rest], rest);
         let tolerance = solver.motion.tolerances().over(inverse, rest);
         let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
-        let share = share + part * (1.0 - share);
-        let (end, finished) = if share < 1.0 {
+        let step_taken = step_taken + part * (1.0 - step_taken);
+        let (end, finished) = if step_taken < 1.0 {
             ([corner, u / rest * velocity], false)
         } else {
             let [rise, velocity] = L::end(start, tolerance)?;
@@ -377,10 +380,10 @@ impl<O: Observer> Lanes<'_, O> {
         let rows = &mut self.rows;
         [rows.u[lane], rows.v[lane]] = end;
         if finished {
-            (rows.share[lane], rows.index[lane]) = (0.0, rows.index[lane] + 1.0);
+            (rows.step_taken[lane], rows.index[lane]) = (0.0, rows.index[lane] + 1.0);
             self.see_now(lane);
         } else {
-            rows.share[lane] = share;
+            rows.step_taken[lane] = step_taken;
             rows.branch[lane] += if side == 1 { 1.0 } else { -1.0 };
             rows.corners[lane] += 1.0;
         }

@@ -25,7 +25,7 @@ pub(crate) struct Block {
     pub(crate) state: State,
     /// The sample, and the share of the step from there that is taken already.
     pub(crate) first: usize,
-    pub(crate) share: f64,
+    pub(crate) step_taken: f64,
     pub(crate) end: usize,
     pub(crate) highest: f64,
     pub(crate) lowest: f64,
@@ -37,9 +37,9 @@ pub(crate) struct Block {
 impl Block {
     /// Returns the block that stands for a run before its first one.
     pub(crate) fn new(number: usize, factor: f64, state: State) -> Self {
-        let (first, share, end) = (0, 0.0, 0);
+        let (first, step_taken, end) = (0, 0.0, 0);
         let (highest, lowest, fastest, forcing) = (0.0, 0.0, 0.0, 0.0);
-        Self { number, factor, state, first, share, end, highest, lowest, fastest, forcing }
+        Self { number, factor, state, first, step_taken, end, highest, lowest, fastest, forcing }
     }
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct Rows {
     /// The sample, the share of the step from there that is taken already, and the first sample at which no
     /// plain steps begin.
     pub(crate) index: LaneRow,
-    pub(crate) share: LaneRow,
+    pub(crate) step_taken: LaneRow,
     pub(crate) limit: LaneRow,
     /// The factor of the forcing.
     pub(crate) factor: LaneRow,
@@ -78,6 +78,7 @@ pub(crate) struct Rows {
     pub(crate) rest_speed: LaneRow,
     pub(crate) u: LaneRow,
     pub(crate) v: LaneRow,
+    /// The number of the branch: a whole number, as that of the sample is, in a row of f64 as the rest.
     pub(crate) branch: LaneRow,
     /// Extremes of u at the ends of the block's steps \[m\], and the largest |u̇| on curved branches \[m/s\].
     pub(crate) highest: LaneRow,
@@ -94,7 +95,7 @@ pub(crate) struct Rows {
     pub(crate) corners: LaneRow,
     pub(crate) impacts: LaneRow,
     /// The change of u in the next part on a curved branch, as a share of u.
-    pub(crate) stride: LaneRow,
+    pub(crate) next_change: LaneRow,
 }
 
 /// What a pass over the runs computes.
@@ -111,8 +112,8 @@ pub(crate) enum Pass {
 pub(crate) struct Waiting {
     /// Lanes at the end of a block.
     pub(crate) ended: u8,
-    /// Lanes whose run must go on by itself.
-    pub(crate) stuck: u8,
+    /// Lanes that cannot go on by the steps of all: `resolve` takes them further.
+    pub(crate) to_resolve: u8,
 }
 
 /// Runs in lanes.
@@ -195,12 +196,12 @@ impl<O: Observer> Lanes<'_, O> {
             Pass::Extremes => run.last,
         };
         let forcing = self.records[lane].largest(first) * rows.factor[lane].abs();
-        run.block = Block { state, first, share: rows.share[lane], end, forcing, ..run.block };
+        run.block = Block { state, first, step_taken: rows.step_taken[lane], end, forcing, ..run.block };
         // the last plain steps may go beyond the block, but not beyond the record
         rows.limit[lane] = end.min((run.last + 1).saturating_sub(MOST_AT_ONCE)) as f64;
         rows.forcing[lane] = forcing;
         (rows.highest[lane], rows.lowest[lane]) = (f64::NEG_INFINITY, f64::INFINITY);
-        (rows.fastest[lane], rows.stride[lane]) = (0.0, f64::INFINITY);
+        (rows.fastest[lane], rows.next_change[lane]) = (0.0, f64::INFINITY);
         self.bound_force(lane);
     }
 

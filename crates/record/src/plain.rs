@@ -13,7 +13,7 @@ use crate::table::{BranchTable, get};
 
 /// The number of lanes at which plain steps stop, so that the lanes that wait are served. Serving them costs
 /// as much as some thirty plain steps, however few they are.
-const FEW: u32 = 1;
+const STOP_AT: u32 = 1;
 
 /// Where plain steps may start and end: u from `low` to `high`, |u̇| up to `speed`.
 #[derive(Clone, Copy)]
@@ -92,14 +92,14 @@ fn respond<N: Number>(by: &[[N; 2]; MOST_AT_ONCE + 1], part: usize, p: [N; MOST_
 #[derive(Clone, Copy)]
 struct Ready {
     lanes: u8,
-    few: u32,
+    stop_at: u32,
 }
 
 impl<O: Observer> Lanes<'_, O> {
     /// Takes steps of the lanes from `first` on, until some wait for what is not done here; returns these.
     #[inline(always)]
     pub(crate) fn affine_steps<N: Number>(&mut self, token: N::Token, first: usize, busy: u8) -> Waiting {
-        if N::LANES == 1 && self.rows.share[first] > 0.0 {
+        if N::LANES == 1 && self.rows.step_taken[first] > 0.0 {
             return self.rest_of_step::<N>(token, first);
         }
         let branch = N::load(token, &self.rows.branch, first);
@@ -111,14 +111,14 @@ impl<O: Observer> Lanes<'_, O> {
             & Range { low: bounds.within[0], high: bounds.within[1], ..range }.holds([u, v]);
         let open = |rows: &Rows| N::load(token, &rows.index, first).below(N::load(token, &rows.limit, first));
         let mut ready = N::bits((range.holds([u, v]) | steady) & open(&self.rows)) & busy;
-        let few = FEW.min(busy.count_ones() - 1);
-        if ready.count_ones() > few {
+        let stop_at = STOP_AT.min(busy.count_ones() - 1);
+        if ready.count_ones() > stop_at {
             let goes = if N::LANES == 1 {
                 self.plain_alone(token, first, &range, ready)
             } else if N::ONE_TABLE {
-                self.plain_in_lanes(token, first, &range, Ready { lanes: ready, few })
+                self.plain_in_lanes(token, first, &range, Ready { lanes: ready, stop_at })
             } else {
-                self.plain_by_samples(token, first, &range, Ready { lanes: ready, few })
+                self.plain_by_samples(token, first, &range, Ready { lanes: ready, stop_at })
             };
             ready = N::bits(goes & open(&self.rows)) & busy;
         }
@@ -128,8 +128,8 @@ impl<O: Observer> Lanes<'_, O> {
         let ended =
             if N::LANES > 1 { busy & !N::bits(open(&self.rows)) } else { self.is_at_end(first).into() };
         let waiting = busy & !(ready | grown | ended);
-        let stuck = if waiting == 0 { 0 } else { self.single_steps(token, first, &bounds, waiting) };
-        Waiting { ended, stuck: grown & !ended | stuck }
+        let to_resolve = if waiting == 0 { 0 } else { self.single_steps(token, first, &bounds, waiting) };
+        Waiting { ended, to_resolve: grown & !ended | to_resolve }
     }
 
     /// Finds where plain steps may start and end, and A L, the most by which u̇ changes over those taken at
@@ -223,7 +223,7 @@ impl<O: Observer> Lanes<'_, O> {
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
         let p = record.forcing.from(sample, (count - 1) * at_once + MOST_AT_ONCE + 1);
-        self.plain_steps(token, first, range, Ready { lanes: ready, few: 0 }, count, |row| {
+        self.plain_steps(token, first, range, Ready { lanes: ready, stop_at: 0 }, count, |row| {
             let response = map.respond(&p[row * at_once..][..=MOST_AT_ONCE]);
             N::unzip(token, |_| response)
         })
@@ -237,7 +237,7 @@ impl<O: Observer> Lanes<'_, O> {
         token: N::Token,
         first: usize,
         range: &Range<N>,
-        Ready { lanes: ready, few }: Ready,
+        Ready { lanes: ready, stop_at }: Ready,
         count: usize,
         mut response: impl FnMut(usize) -> [N; 2],
     ) -> N::Mask {
@@ -266,7 +266,7 @@ impl<O: Observer> Lanes<'_, O> {
             }
             steps = steps + at_once as f64;
             reached.take(goes, [u, v], steps);
-            if N::bits(goes).count_ones() <= few {
+            if N::bits(goes).count_ones() <= stop_at {
                 break;
             }
         }
@@ -312,7 +312,7 @@ impl<O: Observer> Lanes<'_, O> {
             let arrival = self.pass_corners(token, first, part);
             self.arrive(token, first, &arrival);
             none &= !N::bits(arrival.lanes);
-            if O::SEES && N::bits(arrival.lanes) != 0 && self.rows.share[first] == 0.0 {
+            if O::SEES && N::bits(arrival.lanes) != 0 && self.rows.step_taken[first] == 0.0 {
                 self.see_now(first);
             }
         }

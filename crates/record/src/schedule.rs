@@ -1,4 +1,14 @@
 //! The one scheduler: of runs by themselves, in one lane, and of runs side by side.
+//!
+//! A **lane** is a place in a vector and holds one run at a time. Its run goes through these phases:
+//!
+//! 1. `start_next` puts the next run into the lane; `alone` follows it until it comes to a branch of the kind
+//!    on which the lanes step together.
+//! 2. A `round` takes steps of all lanes at once: on branches with constant damping `affine_steps`, on others
+//!    `take_parts`. It ends where a lane has ended its block, or cannot go on by these steps.
+//! 3. `resolve` takes the run of such a lane past that point: it bounds the forces anew, passes a corner or a
+//!    turn, or searches the rest of the step as the general solver does.
+//! 4. A second pass follows the blocks again in which an extreme between samples may exceed those known.
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Level, Simd};
@@ -33,9 +43,9 @@ impl<O: Observer> Lanes<'_, O> {
             self.pass = pass;
             let mut busy = (0..WIDTH).fold(0, |busy, lane| busy | u8::from(self.fill(lane)) << lane);
             while busy != 0 {
-                let Waiting { ended, stuck } = round(&mut self, busy);
-                for lane in each(ended | stuck) {
-                    let goes = stuck >> lane & 1 == 0 || self.resolve(lane);
+                let Waiting { ended, to_resolve } = round(&mut self, busy);
+                for lane in each(ended | to_resolve) {
+                    let goes = to_resolve >> lane & 1 == 0 || self.resolve(lane);
                     if !(goes && self.alone(lane) || self.fill(lane)) {
                         busy &= !(1 << lane);
                     }
@@ -99,7 +109,7 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Starts a run in a lane, over some samples.
     fn start(&mut self, lane: usize, block: Block, last: usize) {
-        let Block { state, factor, number, first, share, .. } = block;
+        let Block { state, factor, number, first, step_taken, .. } = block;
         let run = Run {
             block,
             last,
@@ -123,7 +133,7 @@ impl<O: Observer> Lanes<'_, O> {
         let rows = &mut self.rows;
         rows.passage_factor[lane] = solver.passage_factor;
         rows.rest_speed[lane] = solver.motion.rest_speed();
-        (rows.index[lane], rows.share[lane], rows.factor[lane]) = (first as f64, share, factor);
+        (rows.index[lane], rows.step_taken[lane], rows.factor[lane]) = (first as f64, step_taken, factor);
         (rows.u[lane], rows.v[lane], rows.branch[lane]) =
             (state.displacement, state.velocity, state.branch as f64);
         (rows.corners[lane], rows.impacts[lane]) = (0.0, 0.0);
@@ -155,9 +165,9 @@ impl<O: Observer> Lanes<'_, O> {
             let waiting = match stepping {
                 Stepping::Affine => self.affine_steps::<f64>((), lane, 1),
                 Stepping::Curved => self.take_parts_by_law(lane),
-                Stepping::General => Waiting { ended: 0, stuck: u8::from(!self.rest_on(lane)) },
+                Stepping::General => Waiting { ended: 0, to_resolve: u8::from(!self.rest_on(lane)) },
             };
-            if waiting.stuck != 0 && !self.resolve(lane) {
+            if waiting.to_resolve != 0 && !self.resolve(lane) {
                 return false;
             }
         }
@@ -190,7 +200,7 @@ impl<O: Observer> Lanes<'_, O> {
             self.bound_force(lane);
             return true;
         }
-        self.rows.stride[lane] = f64::INFINITY;
+        self.rows.next_change[lane] = f64::INFINITY;
         let taken = match self.stepping(lane) {
             Stepping::Affine => self.follow_turns(lane),
             Stepping::Curved => self.pass_curved_corner(lane),
@@ -230,21 +240,21 @@ impl<O: Observer> Lanes<'_, O> {
     /// Takes what is left of a step by the general search for events.
     fn search(&mut self, lane: usize) -> Result<(), SolverError> {
         self.include_ends(lane);
-        let (sample, share) = (self.sample(lane), self.rows.share[lane]);
+        let (sample, step_taken) = (self.sample(lane), self.rows.step_taken[lane]);
         let [from, to] = [0, 1].map(|n| self.rows.factor[lane] * self.records[lane].forcing.at(sample + n));
-        let p = [from + (to - from) * share, to];
+        let p = [from + (to - from) * step_taken, to];
         let (solver, step) = (self.solvers[lane], self.solvers[lane].step);
         let mut state = self.state(lane);
         let run = &mut self.runs[lane];
         // parts of the step that were taken before count as the one piece of a step that is not searched
-        run.steps += u64::from(share == 0.0);
-        let report = solver.motion.advance_under(&mut state, (1.0 - share) * step, p, &mut run.memo)?;
+        run.steps += u64::from(step_taken == 0.0);
+        let report = solver.motion.advance_under(&mut state, (1.0 - step_taken) * step, p, &mut run.memo)?;
         run.searched.add(report.work);
         run.put_to_rest |= report.put_to_rest;
         run.state = state;
         run.is_stretched = state.tie != *solver.motion.wall().tie_memory();
         if let (Some(offset), None) = (report.overturning, run.overturning) {
-            run.overturning = Some((sample as f64 + share) * step + offset);
+            run.overturning = Some((sample as f64 + step_taken) * step + offset);
             if matches!(self.pass, Pass::Motion(end) if end != RunEnd::OfRecord) {
                 run.last = sample + 1;
                 run.block.end = run.last;
@@ -252,7 +262,7 @@ impl<O: Observer> Lanes<'_, O> {
         }
         let rows = &mut self.rows;
         (rows.u[lane], rows.v[lane]) = (state.displacement, state.velocity);
-        (rows.index[lane], rows.share[lane]) = ((sample + 1) as f64, 0.0);
+        (rows.index[lane], rows.step_taken[lane]) = ((sample + 1) as f64, 0.0);
         rows.branch[lane] = state.branch as f64;
         self.see_now(lane);
         self.bound_force(lane);

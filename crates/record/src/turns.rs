@@ -110,12 +110,12 @@ impl<O: Observer> Lanes<'_, O> {
             arrival.take(true, &part, [part.from[0], part.from[1]], corners, part.length);
         }
         self.arrive((), lane, &arrival);
-        if self.rows.share[lane] > 0.0 && !is_curved {
+        if self.rows.step_taken[lane] > 0.0 && !is_curved {
             // each part so far ended at a corner, which counts
             self.runs[lane].steps += 1;
             return false;
         }
-        if self.rows.share[lane] == 0.0 {
+        if self.rows.step_taken[lane] == 0.0 {
             self.see_now(lane);
         }
         true

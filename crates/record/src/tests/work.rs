@@ -16,7 +16,7 @@ struct Counts {
     /// Calls that take steps side by side, until lanes wait.
     rounds: u32,
     /// Times that a lane has to go on by itself.
-    stuck: u32,
+    to_resolve: u32,
     pieces: u64,
     corners: u64,
     overturned: usize,
@@ -33,10 +33,10 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     let given = |start: &RunStart| BatchRun { solver: &solver, record: &record, start: *start };
     let given: Vec<_> = starts.iter().map(given).collect();
     let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
-    let (rounds, stuck) = (Cell::new(0), Cell::new(0));
+    let (rounds, to_resolve) = (Cell::new(0), Cell::new(0));
     let count = |waiting: Waiting| {
         rounds.set(rounds.get() + 1);
-        stuck.set(stuck.get() + waiting.stuck.count_ones());
+        to_resolve.set(to_resolve.get() + waiting.to_resolve.count_ones());
         waiting
     };
     let outcomes = match record.common(&solver).expect("a wall for lanes") {
@@ -56,7 +56,7 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {
         rounds: rounds.get(),
-        stuck: stuck.get(),
+        to_resolve: to_resolve.get(),
         pieces: sum(|outcome| outcome.work.pieces),
         corners: sum(|outcome| outcome.work.corners),
         overturned: outcomes.iter().filter(|outcome| outcome.overturning.is_some()).count(),
@@ -66,13 +66,13 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
 #[test]
 fn the_work_of_batches_is_known() {
     let [none, restitution] = [Impact::None, Impact::Restitution];
-    for (model, impact, [rounds, stuck], [pieces, corners], overturned) in [
+    for (model, impact, [rounds, to_resolve], [pieces, corners], overturned) in [
         (DampingModel::ConstantCoefficient, none, [319, 231], [126_805, 838], 12),
         (DampingModel::None, restitution, [492, 247], [127_541, 1572], 10),
         (DampingModel::ConstantRatio, none, [412, 616], [127_017, 852], 12),
         (DampingModel::StiffnessProportional, none, [421, 630], [126_836, 867], 11),
     ] {
-        let known = Counts { rounds, stuck, pieces, corners, overturned };
+        let known = Counts { rounds, to_resolve, pieces, corners, overturned };
         assert_eq!(counts(model, impact), known, "{model:?}");
     }
 }
