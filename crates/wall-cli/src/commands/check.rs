@@ -155,16 +155,13 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
 }
 
 fn language(name: &str) -> Result<Language, String> {
-    let names = Language::ALL.map(Language::name);
     let found = Language::ALL.into_iter().find(|language| language.name() == name);
-    found.ok_or_else(|| format!("expected {}", names.join(" or ")))
+    found.ok_or_else(|| format!("expected {}", Language::ALL.map(Language::name).join(" or ")))
 }
 
 fn sought(name: &str) -> Result<Sought, String> {
-    Sought::ALL
-        .into_iter()
-        .find(|sought| sought.name() == name)
-        .ok_or_else(|| format!("expected {}", Sought::ALL.map(Sought::name).join(", ")))
+    let found = Sought::ALL.into_iter().find(|sought| sought.name() == name);
+    found.ok_or_else(|| format!("expected {}", Sought::ALL.map(Sought::name).join(", ")))
 }
 
 #[cfg(test)]
