@@ -26,9 +26,7 @@ pub(crate) fn wall(
     hazard: Option<&HazardCurve>,
 ) -> Table {
     let rows = found.answers.iter().map(|one| (one, &found.checks[one.check], &found.events[one.event]));
-    let interval = |of: Option<Interval>, part: usize| -> Cell<'static> {
-        of.map(|of| [of.estimate, of.range[0], of.range[1]][part]).into()
-    };
+    let interval = |of: Option<Interval>, part: usize| -> Cell<'static> { determined(of, part).into() };
     let mut table = Table::over(rows)
         .text("wall", "wall", |_| name.to_owned())
         .text("model", "model", |(one, ..)| models[one.model].to_owned())
@@ -51,11 +49,10 @@ pub(crate) fn wall(
     }
     for (part, end) in ["", "_low", "_high"].into_iter().enumerate() {
         let heading = ["P", "from", "to"][part];
-        let ends = |of: Interval| [of.estimate, of.range[0], of.range[1]];
         table = table
             .value(format!("probability{end}"), move |(one, ..)| interval(one.probability, part))
             .number("", heading, THREE, |(one, ..)| {
-                one.probability.map(|of| probability(ends(of)[part], found.least))
+                determined(one.probability, part).map(|value| probability(value, found.least))
             });
     }
     if let Some(hazard) = hazard {
@@ -72,6 +69,11 @@ pub(crate) fn wall(
             (event.check == Some(check.check) && dynamic.is_finite()).then(|| dynamic / check.site)
         })
         .done()
+}
+
+/// The estimate of an interval, its lower or its upper end; `None` of what is not determined.
+fn determined(of: Option<Interval>, part: usize) -> Option<f64> {
+    of.map(|of| [of.estimate, of.range[0], of.range[1]][part]).filter(|value| !value.is_nan())
 }
 
 /// The numbers of the code that give the target, of a wall with every model.

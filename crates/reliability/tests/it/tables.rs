@@ -111,6 +111,20 @@ fn every_row_follows_from_curves_and_check() {
     }
 }
 
+/// Of fewer than six records no interval is determined: its cells are empty, and the estimate stands.
+#[test]
+fn an_interval_that_is_not_determined_is_empty() {
+    let loaded = load("few_records", &text("", 4, WALLS)).unwrap();
+    let table = rows(&run("few_records", &loaded).join(FILES[0]));
+    let filled = |name: &str| table.iter().filter(|row| !row[name].is_empty()).count();
+    for name in ["margin", "probability"] {
+        assert!(filled(name) > 0, "{name}");
+        for end in ["low", "high"] {
+            assert_eq!(filled(&format!("{name}_{end}")), 0, "{name}_{end}");
+        }
+    }
+}
+
 /// How many sides of a wall a code tells apart.
 fn sides(code: &dyn Code, parameters: &rocking_wall::wall::Parameters) -> usize {
     let verdict = code.check(Subject::new(parameters)).unwrap();
