@@ -182,7 +182,8 @@ impl LoadedStudy {
         let few = counted(given.len(), "record") + ": studentised intervals need";
         let few =
             format!("{few} {FEWEST_RECORDS}; those of θ, β and what follows from them are not determined");
-        warnings.extend((given.len() < FEWEST_RECORDS).then_some(few));
+        // one record has no dispersion to bound
+        warnings.extend((2..FEWEST_RECORDS).contains(&given.len()).then_some(few));
         Ok(Self { title, study, report, inputs: Vec::new(), warnings, text, target, sampled })
     }
 }

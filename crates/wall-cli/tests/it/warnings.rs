@@ -252,13 +252,13 @@ fn a_study_warns_of_much_work() {
     let study = |wall: &str| {
         format!(
             "models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [50] }}\n\
-             records = {{ synthetic = {{ count = 1, duration = 10 }} }}\n\
+             records = {{ synthetic = {{ count = 2, duration = 10 }} }}\n\
              [[walls]]\nname = \"slow\"\n{wall}\n"
         )
     };
     let message = warned_of_study("work_stiff", &study("force_law = { a1 = 1e-9 }"));
     assert_has(&message, &["warning: wall \"slow\": omega1 = ", "computing takes as much longer than usual"]);
-    assert_has(&message, &["warning: 1 record: studentised intervals need 6; those of θ, β and what"]);
+    assert_has(&message, &["warning: 2 records: studentised intervals need 6; those of θ, β and what"]);
 }
 
 /// A ratio in per cent is unusual in a study, too.
