@@ -9,7 +9,9 @@
 //! and, unless assertions slow it down, a call that takes over a second.
 
 use fmu_export::ModelExchange;
+use rocking_wall::scene::{self, Scene};
 use rocking_wall_fuzz::driver::{Figures, Instance};
+use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -27,22 +29,27 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let folder = std::env::temp_dir().join(format!("rocking-wall-calls-{}", std::process::id()));
-    let scene = write_scene(&folder);
-    let scene = scene.as_ref().map(|(guid, folder)| (guid.as_str(), folder.as_str()));
+    let guid = match write_scene(&folder) {
+        Ok(guid) => guid,
+        Err(error) => {
+            eprintln!("{}: the scene cannot be written: {error}", folder.display());
+            return ExitCode::FAILURE;
+        }
+    };
+    let resources = folder.display().to_string();
     let mut sound = drive::<rocking_wall::unit::Unit>("wall", None, count, seed);
-    sound &= drive::<rocking_wall::unit::Unit>("scene", scene.ok(), count, seed + 1);
+    sound &= drive::<rocking_wall::unit::Unit>("scene", Some((&guid, &resources)), count, seed + 1);
     sound &= drive::<rocking_floor::unit::Unit>("floor", None, count, seed + 2);
     let removed = std::fs::remove_dir_all(&folder);
     if sound && removed.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Writes what a scene's FMU holds, and returns its guid and the folder of its resources.
-fn write_scene(folder: &Path) -> std::io::Result<(String, String)> {
+/// Writes the resources of a scene's FMU into a folder, and returns its guid.
+fn write_scene(folder: &Path) -> Result<String, Box<dyn Error>> {
+    let payload = scene_fmu::payload(&Scene::parse("scene.toml", SCENE, folder)?)?;
     std::fs::create_dir_all(folder)?;
-    std::fs::write(folder.join("scene.toml"), SCENE)?;
-    let hash = fmu_export::fnv1a_128(SCENE.bytes());
-    let guid = rocking_wall::variables::GUID.replace('}', &format!("-{hash:032x}}}"));
-    Ok((guid, folder.display().to_string()))
+    std::fs::write(folder.join("scene.bin"), &payload)?;
+    Ok(rocking_wall::variables::GUID.replace('}', &format!("-{}}}", scene::fingerprint(&payload))))
 }
 
 /// Makes `count` calls of one unit, and prints what came of them. Returns whether all were sound.
