@@ -1,20 +1,15 @@
 //! The scene file as it is written: tables, keys, values, and where they stand.
 
-use std::path::Path;
-
+use files::{FileError, Place, fraction, one_of, tables};
 use fmu_export::VariableId;
-use ground_motion::columns::Fault;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
-use crate::tables;
 use crate::variables::RealVariable;
 
-use super::error::{Place, SceneError};
 use super::keys::Group;
 use super::motion::MotionTable;
 use super::parameter::input_names;
-use super::schema::{fraction, one_of};
 use super::storeys::{StoreyTable, SupportsTable};
 use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
 
@@ -90,7 +85,7 @@ impl Document {
     }
 
     /// The inputs the scene names.
-    pub(super) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, SceneError> {
+    pub(super) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, FileError> {
         let mut inputs = Vec::new();
         for name in self.inputs.iter().flatten() {
             let input = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
@@ -103,17 +98,4 @@ impl Document {
         }
         Ok(inputs)
     }
-}
-
-/// Reads a text file of at most `limit` bytes; `what` says in messages what it should be.
-///
-/// # Errors
-/// [`SceneError::File`], and [`SceneError::Line`] where the file is not UTF-8.
-pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneError> {
-    let file = ground_motion::shown_path(path);
-    let unread = |error| SceneError::File { file: file.clone(), reason: format!("cannot be read: {error}") };
-    let bytes = ground_motion::read_file(path, what, limit).map_err(unread)?;
-    let in_file =
-        |fault: Fault| SceneError::Line { file, line: fault.line(), key: None, message: fault.to_string() };
-    ground_motion::utf8_text(bytes, what).map_err(in_file)
 }

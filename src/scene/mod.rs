@@ -9,19 +9,16 @@
 mod document;
 mod error;
 mod keys;
-mod limits;
 mod motion;
-mod nearest;
 mod parameter;
 mod schema;
 mod storeys;
-mod syntax;
-mod toml_text;
 
 use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use files::{FileError, Place, check_value, parse_toml, read_text};
 use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
@@ -36,21 +33,11 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{input_names, parameter_text, set_names};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
-pub use document::read_text;
-pub use error::{Place, SceneError};
+pub use error::SceneError;
 use keys::{BAR, OF_BAR, TIE_GROUP};
-pub use limits::{Fault, check_value};
-pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits};
-pub use schema::{
-    Described, Schema, file_schema, fraction, names, object, one_of, parameter, parameters, positive, text,
-    variable, with,
-};
-#[doc(hidden)]
-pub use schema::{Field, describe_table};
+pub use schema::{parameter, parameters, variable};
 pub use storeys::read_floors;
-pub use syntax::{number, parse_document};
-pub use toml_text::{parse_toml, read_value};
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]
@@ -122,15 +109,15 @@ impl Scene {
     /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// [`SceneError`] of a file that cannot be read, is too large, is not UTF-8 or says nothing.
-    pub fn text(path: &Path) -> Result<String, SceneError> {
+    /// [`FileError`] of a file that cannot be read, is too large, is not UTF-8 or says nothing.
+    pub fn text(path: &Path) -> Result<String, FileError> {
         let text = read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)?;
         if text.lines().any(|line| !matches!(line.trim_ascii_start().bytes().next(), None | Some(b'#'))) {
             return Ok(text);
         }
         let reason = "is empty or has comments alone; state the wall, as in `geometry.height = 3`, or give \
                       no file for the default wall";
-        Err(SceneError::File { file: ground_motion::shown_path(path), reason: reason.into() })
+        Err(FileError::whole(ground_motion::shown_path(path), reason))
     }
 
     /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in
@@ -169,7 +156,7 @@ impl Scene {
         scene.stop_time = document.stop_time.unwrap_or(scene.stop_time);
         scene.output_step = document.output_step.unwrap_or(scene.output_step);
         match (&document.motion, scene.moved_apart(scene.excitation.as_ref())) {
-            (Some(table), Some(message)) => Err(place.error(table.span(), message)),
+            (Some(table), Some(message)) => Err(place.error(table.span(), message).into()),
             _ => Ok(scene),
         }
     }
@@ -198,17 +185,18 @@ impl Scene {
         output_step: Option<f64>,
         thresholds: Option<Vec<f64>>,
     ) -> Result<(), SceneError> {
+        let refused = |message| SceneError::Value { message };
         for (key, given, own) in [
             ("stop_time", stop_time, &mut self.stop_time),
             ("output_step", output_step, &mut self.output_step),
         ] {
             if let Some(given) = given {
-                check_value::<Document>(key, given)?;
+                check_value::<Document>(key, given).map_err(refused)?;
                 *own = given;
             }
         }
         if let Some(given) = thresholds {
-            check_value::<Document>("thresholds", given.clone())?;
+            check_value::<Document>("thresholds", given.clone()).map_err(refused)?;
             self.thresholds = given;
         }
         Ok(())

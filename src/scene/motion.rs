@@ -3,16 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-use toml::Spanned;
-
-use crate::simulation::Excitation;
-use crate::tables;
+use files::{Place, tables};
 use ground_motion::{
     Acceleration, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion,
     Unit, read,
 };
+use toml::Spanned;
 
-use super::error::{Place, SceneError};
+use crate::simulation::Excitation;
+
+use super::error::SceneError;
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -148,7 +148,7 @@ pub(super) fn load(
     has_floors: bool,
 ) -> Result<Loaded, SceneError> {
     loaded(table.get_ref(), folder, has_floors).map_err(|problem| match problem {
-        Problem::Table(message) => place.error(table.span(), message),
+        Problem::Table(message) => place.error(table.span(), message).into(),
         Problem::Motion(source) => SceneError::Motion {
             file: place.name().to_owned(),
             line: place.line(table.span()),

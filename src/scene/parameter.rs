@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use files::{FileError, NUMBER, Place, number, parse_document, read_value, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
@@ -9,13 +10,9 @@ use toml::{Spanned, Value};
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
-use super::error::{Place, SceneError};
-use super::keys::{
-    BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, unknown_key,
-};
-use super::nearest::suggestion;
-use super::syntax::{NUMBER, number, parse_document};
-use super::toml_text::read_value;
+use super::error::SceneError;
+use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
+use super::schema::groups;
 
 /// Returns the names of the inputs of the model description.
 pub fn input_names() -> impl Iterator<Item = &'static str> {
@@ -38,16 +35,16 @@ pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
 /// Applies one table.
 ///
 /// # Errors
-/// [`SceneError::Line`] for a key or a value that cannot be used.
+/// [`FileError`] of a key or a value that cannot be used.
 pub fn apply_group(
     parameters: &mut Parameters,
     group: &str,
     entries: &Group,
     place: &Place<'_>,
-) -> Result<(), SceneError> {
+) -> Result<(), FileError> {
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
     let (mut law, mut points, mut bar) = (None, None, None);
-    for (key, value) in entries {
+    for (key, value) in entries.iter() {
         let own = value.get_ref();
         match (group, key.get_ref().as_str()) {
             ("force_law", POINTS) => points = Some(value),
@@ -56,7 +53,7 @@ pub fn apply_group(
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
             }
-            (_, name) => return Err(place.error(key.span(), unknown_key(name, group, names))),
+            (_, name) => return Err(place.error(key.span(), unknown_key(name, group, names, &groups()))),
         }
     }
     match (law, points) {

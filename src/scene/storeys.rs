@@ -5,15 +5,15 @@
 
 use std::f64::consts::TAU;
 
+use files::{FileError, Place, tables};
 use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
 use toml::Spanned;
 
 use crate::choices::Mechanism;
 use crate::simulation::Excitation;
-use crate::tables;
 use crate::wall::{Usual, Wall, Warning};
 
-use super::error::{Place, SceneError};
+use super::error::SceneError;
 
 /// Damping ratio of a storey that states none (-).
 const DAMPING: f64 = 0.05;
@@ -249,12 +249,12 @@ impl Floors {
 /// Reads `[[storeys]]` and `[supports]` of a scene or a study; `None` where there are none.
 ///
 /// # Errors
-/// [`SceneError::Line`] with the line of the storey.
+/// [`FileError`] with the line of the storey.
 pub fn read_floors(
     tables: &[Spanned<StoreyTable>],
     supports: Option<&Spanned<SupportsTable>>,
     place: &Place<'_>,
-) -> Result<Option<Floors>, SceneError> {
+) -> Result<Option<Floors>, FileError> {
     let storeys: Vec<_> = tables.iter().map(|table| *table.get_ref()).collect();
     match (tables, supports) {
         ([], None) => Ok(None),

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::{Document, Scene, check_value};
+use files::check_value;
+use rocking_wall::scene::{Document, Scene};
 
 use crate::broken::walk;
 
@@ -92,18 +93,18 @@ fn a_value_by_itself_is_checked_by_the_limits_of_its_key() {
         ("stop_time", f64::INFINITY, "stop_time = inf must be above 0 and at most 1e7: "),
         ("Stop_Time", 1.0, "unknown key \"Stop_Time\" (did you mean \"stop_time\"?)"),
     ] {
-        let error = check_value::<Document>(key, value).unwrap_err().to_string();
+        let error = check_value::<Document>(key, value).unwrap_err();
         assert!(error.starts_with(message), "{error}");
     }
     // 2³² is beyond a whole number of 32 bits
-    let error = check_value::<Large>("count", 4_294_967_297_u64).unwrap_err().to_string();
+    let error = check_value::<Large>("count", 4_294_967_297_u64).unwrap_err();
     assert!(
         error.starts_with("count = 4294967297 must be at least 0 and at most 4294967296: A count"),
         "{error}"
     );
 }
 
-rocking_wall::tables! {
+files::tables! {
     /// A table with a large limit.
     struct Large {
         /// A count.

@@ -4,11 +4,12 @@
 //! algebraic loop. At each communication point Newton's method closes it, by the directional derivatives of
 //! the units (docs/coupling.md). Over a step, inputs are then linear, by the derivatives of the outputs.
 
+use files::check_value;
 use fmu_export::{Step, VariableId};
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
-use rocking_wall::scene::{MotionTable, SceneError, check_value};
+use rocking_wall::scene::MotionTable;
 use rocking_wall::variables::RealVariable as WallVariable;
 use run::parallel::stop_if_asked;
 
@@ -39,12 +40,12 @@ impl Settings {
     /// Settings of a run through a motion of the ground and a tail \[s\] of free vibration.
     ///
     /// # Errors
-    /// [`BuildingError::Document`] for a tail or a tolerance out of range.
+    /// [`BuildingError::Value`] for a tail or a tolerance out of range.
     pub fn new(ground: &GroundMotion, tail: f64, tolerance: f64) -> Result<Self, BuildingError> {
-        check_value::<MotionTable>("tail", tail)?;
+        check_value::<MotionTable>("tail", tail).map_err(|message| BuildingError::Value { message })?;
         if !(1e-6..=1.0).contains(&tolerance) {
             let message = format!("tolerance = {tolerance} must be from 1e-6 to 1");
-            return Err(SceneError::Value { message }.into());
+            return Err(BuildingError::Value { message });
         }
         Ok(Self { end: ground.duration() + tail, tolerance })
     }

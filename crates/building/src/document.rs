@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use files::{
+    FileError, Place, Schema, file_schema, number, object, parse_toml, read_text, tables, text, with,
+};
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
-use rocking_wall::scene::{
-    self, Group, LONGEST_RUN, Place, SceneError, Schema, file_schema, number, object, parse_toml, read_text,
-    text, with,
-};
-use rocking_wall::tables;
+use rocking_wall::scene::{self, Group, LONGEST_RUN};
 use toml::{Spanned, Value};
 
 /// The name that stands for the ground where a storey's would.
@@ -148,7 +147,7 @@ fn floor_schema() -> Schema {
     with(object(keys), "required", vec!["name"])
 }
 
-type Result<T> = std::result::Result<T, SceneError>;
+type Result<T> = std::result::Result<T, FileError>;
 
 impl Building {
     /// Returns the JSON schema of building files.
@@ -159,7 +158,7 @@ impl Building {
     /// Reads the file of a building.
     ///
     /// # Errors
-    /// [`SceneError`] with file, line and remedy.
+    /// [`FileError`] with file, line and remedy.
     pub fn read(path: &Path) -> Result<Self> {
         Self::parse(path, &read_text(path, "a building (TOML)", MAX_FILE_BYTES)?)
     }
@@ -167,7 +166,7 @@ impl Building {
     /// Reads a building from the text of a file; scenes are looked up beside `path`.
     ///
     /// # Errors
-    /// [`SceneError`] with file, line and remedy.
+    /// [`FileError`] with file, line and remedy.
     pub fn parse(path: &Path, text: &str) -> Result<Self> {
         let file = path.display().to_string();
         let place = Place::new(&file, text);
@@ -184,7 +183,7 @@ impl Building {
         let step = step.map(Spanned::into_inner);
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
             let reason = format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members");
-            return Err(SceneError::File { file: place.name().to_owned(), reason });
+            return Err(FileError::whole(place.name(), reason));
         }
         let mut names = Vec::new();
         let mut floors: Vec<Floor> = Vec::new();
@@ -240,7 +239,7 @@ fn read_floor(table: &Group, before: &[Floor], place: &Place<'_>) -> Result<(Spa
     let mut name = None;
     let mut base = Support::Ground;
     let mut parameters = Vec::new();
-    for (key, value) in table {
+    for (key, value) in table.iter() {
         let text = || match value.get_ref() {
             Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
             _ => Err(place.error(value.span(), format!("{} is a name in quotes", key.get_ref()))),

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use rocking_wall::scene::SceneError;
+use files::FileError;
 
 /// Why a building cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -10,7 +10,10 @@ use rocking_wall::scene::SceneError;
 pub enum BuildingError {
     /// The file of the building.
     #[error(transparent)]
-    Document(#[from] SceneError),
+    Document(#[from] FileError),
+    /// A value given on its own.
+    #[error("{message}")]
+    Value { message: String },
     /// A wall, a storey, or the file of the FMU that they are made of.
     #[error("{part}: {reason}")]
     Part { part: String, reason: String },

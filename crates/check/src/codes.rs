@@ -1,6 +1,6 @@
 //! The codes, and which of them a file names.
 
-use rocking_wall::scene::{Described, Schema, suggestion};
+use files::{Described, Schema, Tables, suggestion};
 
 use crate::code::Code;
 use crate::error::CheckError;
@@ -13,7 +13,7 @@ use crate::{circolare, fractions};
 struct Listed {
     entry: Entry,
     /// Describes the keys of the table for a JSON schema.
-    describe: fn(&str, &mut Schema) -> Schema,
+    describe: fn(&str, &mut Tables) -> Schema,
     read: fn(&CheckFile<'_>) -> Result<Box<dyn Code>, CheckError>,
 }
 
@@ -70,10 +70,10 @@ pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
 /// Describes the table `[check]`, that of any code, in the schema of a file, which leaves it to who checks.
 pub fn complete(schema: &mut Schema) {
     let Some(toml::Value::Table(check)) = schema["properties"].get_mut("check") else { return };
-    let mut tables = Schema::new();
+    let mut tables = Tables::default();
     let codes = LISTED.map(|code| (code.describe)("check", &mut tables)).to_vec();
     check.insert("anyOf".to_owned(), codes.into());
     if let Some(all) = schema["$defs"].as_table_mut() {
-        all.extend(tables);
+        all.extend(tables.schemas);
     }
 }

@@ -1,5 +1,6 @@
 //! Why a check is impossible, and which key of the table `[check]` that is about.
 
+use files::FileError;
 use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{ParameterError, Warning};
@@ -21,7 +22,10 @@ pub enum CheckError {
     /// A record or a spectrum.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
-    /// A scene, a file or a run.
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A scene or a run.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The parameters of the wall.
@@ -63,7 +67,7 @@ impl CheckError {
     /// Adds the numbers that may be the cause; a wall that is refused has named its own.
     pub(crate) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
         match self {
-            Self::Parameters(_) | Self::Scene(_) | Self::Motion(_) => self,
+            Self::Parameters(_) | Self::File(_) | Self::Scene(_) | Self::Motion(_) => self,
             _ if doubts.is_empty() => self,
             error => Self::Improbable { doubts, error: Box::new(error) },
         }

@@ -1,6 +1,7 @@
 //! The error of all comparisons.
 
 use check::CheckError;
+use files::FileError;
 use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
@@ -16,6 +17,8 @@ use study::spectrum::SpectrumError;
 #[non_exhaustive]
 #[allow(missing_docs, reason = "most are errors of other modules; the fields are the words of the message")]
 pub enum EvidenceError {
+    #[error(transparent)]
+    File(#[from] FileError),
     #[error(transparent)]
     Scene(#[from] SceneError),
     #[error(transparent)]

@@ -68,7 +68,7 @@ fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fault
     let scene = scene.map_err(|error| {
         let field = error.key().filter(|key| motion.contains_key(*key)).unwrap_or("motion").to_owned();
         let message = match error {
-            SceneError::Line { message, .. } => message,
+            SceneError::File(error) if error.line.is_some() => error.reason,
             SceneError::Motion { source, .. } => source.to_string(),
             other => other.to_string(),
         };

@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::Path;
 
+use files::FileError;
 use ground_motion::GroundMotionError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
@@ -40,7 +41,7 @@ pub(crate) fn of_motion(error: GroundMotionError) -> PyErr {
 /// Makes the exception of a scene or a study: `FileNotFoundError` where there is no such file.
 pub(crate) fn of_scene(error: SceneError) -> PyErr {
     match &error {
-        SceneError::File { file, .. } => of_file(&error, Path::new(file)),
+        SceneError::File(FileError { file, line: None, .. }) => of_file(&error, Path::new(file)),
         SceneError::Run(_) => failed(error),
         _ => refused(error),
     }

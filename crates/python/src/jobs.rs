@@ -70,6 +70,7 @@ pub(crate) fn check_report(
 
 fn of_check(error: CheckError) -> PyErr {
     match error {
+        CheckError::File(error) => of_scene(error.into()),
         CheckError::Scene(error) => of_scene(error),
         other => refused(other),
     }

@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
+use files::check_value;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
-use rocking_wall::scene::{MotionTable, check_value};
+use rocking_wall::scene::MotionTable;
 use rocking_wall::solver::Motion as Solved;
 use run::parallel;
 use run::shaking::{Shaken, Shaking, felt, together};
 
 use crate::arrays::{Motion, Numbers, samples};
-use crate::errors::{failed, of_motion, of_scene, refused};
+use crate::errors::{failed, of_motion, refused};
 use crate::walls::Wall;
 use crate::watch::{stoppable, threads_of};
 
@@ -74,7 +75,7 @@ pub(crate) fn simulate_many<'py>(
     tail: f64,
     threads: Option<i64>,
 ) -> PyResult<[Numbers<'py>; 3]> {
-    check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
+    check_value::<MotionTable>("tail", tail).map_err(refused)?;
     let (factors, threads) = (samples(factors)?, threads_of(threads)?.get());
     let walls = walls.iter().map(|wall| Prepared::new(wall.get())).collect::<PyResult<Vec<_>>>()?;
     let mut runs = Vec::with_capacity(factors.len());

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+use files::FileError;
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -49,7 +50,9 @@ impl Study {
         let records = named_records(records);
         let made = py.detach(|| LoadedStudy::of_parts(text, walls, records, &Codes));
         let mut loaded = made.map_err(|error| match error {
-            SceneError::Line { key, message, .. } => refused(of_argument(&key.unwrap_or_default(), &message)),
+            SceneError::File(FileError { line: Some(_), key, reason, .. }) => {
+                refused(of_argument(&key.unwrap_or_default(), &reason))
+            }
             other => refused(other),
         })?;
         loaded.warnings.splice(..0, warnings);

@@ -1,8 +1,9 @@
 //! The schemas of scenes and studies, and what follows from the parameters of a wall.
 
+use files::file_schema;
 use fmu_export::{Causality, VariableId};
 use pyo3::prelude::*;
-use rocking_wall::scene::{Document, file_schema};
+use rocking_wall::scene::Document;
 use rocking_wall::variables::RealVariable;
 use study::document::StudyFile;
 

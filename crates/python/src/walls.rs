@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use check::Subject;
+use files::check_value;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, check_value,
-    parameter_text, set_names, to_toml,
+    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, parameter_text,
+    set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
@@ -202,7 +203,7 @@ impl Wall {
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut scene = self.scene.clone();
         if let Some(Motion(record)) = record {
-            check_value::<MotionTable>("tail", tail).map_err(of_scene)?;
+            check_value::<MotionTable>("tail", tail).map_err(refused)?;
             scene.shake(Excitation::new(record, top.map(|Motion(top)| top)), tail, Vec::new());
             scene.parameters.u_start = self.start.unwrap_or(0.0);
         }

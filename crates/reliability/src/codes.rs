@@ -1,6 +1,7 @@
 //! What a study asks of the codes.
 
 use check::{CheckFile, read};
+use files::FileError;
 use rocking_wall::scene::SceneError;
 
 /// The codes that this program knows, for studies.
@@ -39,7 +40,7 @@ impl study::codes::Codes for Codes {
         Ok(code.spectral_shape(periods))
     }
 
-    fn self_contained(&self, name: &str, text: &str) -> Result<String, SceneError> {
+    fn self_contained(&self, name: &str, text: &str) -> Result<String, FileError> {
         CheckFile::parse(name, text)?.self_contained()
     }
 }

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use files::{FileError, Place, tables};
 use ground_motion::{
     Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, escapes, is_listed, read,
 };
-use rocking_wall::scene::{Place, SceneError};
-use rocking_wall::tables;
+use rocking_wall::scene::SceneError;
 use toml::Spanned;
 
 /// Most synthetic records of a study.
@@ -72,8 +72,8 @@ tables! {
 /// Reads the table `[records]`.
 ///
 /// # Errors
-/// [`SceneError`] with file, line, value and remedy.
-pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {
+/// [`FileError`] with file, line, value and remedy.
+pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, FileError> {
     let spec = table.get_ref();
     if spec.files.is_empty() && spec.synthetic.is_none() {
         return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));
@@ -108,17 +108,15 @@ pub struct RecordFile {
 /// Lists the record files of a study, in the order of its patterns.
 ///
 /// # Errors
-/// [`SceneError`] of a pattern that matches no file.
-pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<RecordFile>, SceneError> {
+/// [`FileError`] of a pattern that matches no file.
+pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<RecordFile>, FileError> {
     let mut listed: Vec<RecordFile> = Vec::new();
     for (pattern, line) in &entry.files {
         let place = folder.join(pattern);
         let is_named = place.is_file();
-        let found = files(folder, pattern).map_err(|reason| SceneError::Line {
-            key: None,
-            file: study.to_owned(),
-            line: *line,
-            message: format!("{pattern:?}: {reason}{}", escapes(pattern.as_ref())),
+        let found = files(folder, pattern).map_err(|reason| {
+            let reason = format!("{pattern:?}: {reason}{}", escapes(pattern.as_ref()));
+            FileError::on_line(study, *line, reason)
         })?;
         for path in found {
             // a file that two patterns match is one record
@@ -164,15 +162,12 @@ pub fn all_records(
         records.push(NamedRecord { name, motion });
     }
     if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
-        let reason =
-            "records: all are vertical, and records shake walls sideways; name horizontal ones".into();
-        return Err(SceneError::File { file: study.to_owned(), reason });
+        let reason = "records: all are vertical, and records shake walls sideways; name horizontal ones";
+        return Err(FileError::whole(study, reason).into());
     }
     for recipe in &entry.synthetic {
-        let motion = recipe.motion().map_err(|error| SceneError::File {
-            file: study.to_owned(),
-            reason: format!("synthetic records: {error}"),
-        })?;
+        let refused = |error| FileError::whole(study, format!("synthetic records: {error}"));
+        let motion = recipe.motion().map_err(refused)?;
         records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
     }
     Ok(records)

@@ -1,6 +1,7 @@
 //! The parameters of a wall that a study or a check may state.
 
-use rocking_wall::scene::{GROUPS, suggestion};
+use files::suggestion;
+use rocking_wall::scene::GROUPS;
 use rocking_wall::wall::Bar;
 
 /// Groups of parameters that a wall of a study may state.

@@ -3,8 +3,9 @@
 
 use std::path::Path;
 
+use files::{FileError, read_text};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
-use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text};
+use rocking_wall::scene::{KINEMATICS, Scene};
 use rocking_wall::wall::Parameters;
 
 use crate::named_wall::NamedWall;
@@ -24,15 +25,14 @@ const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
 
 /// Reads the walls of a table. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
 /// row without any content is skipped, and one with a name and no value refused.
-pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
+pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, FileError> {
     let file = path.display().to_string();
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
 }
 
 /// Reads the walls from the text of a table; `file` stands for it in messages.
-fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
-    let fail =
-        |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, key: None, message };
+fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
+    let fail = |line: usize, message: String| FileError::on_line(file, line, message);
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
     let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
     let forms = "a table of walls: a line of names with a column `name`, and a row for each wall";

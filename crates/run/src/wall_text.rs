@@ -1,8 +1,7 @@
 //! A wall as tables of a study file: what a study's folder keeps of it, and what another process gets.
 
-use rocking_wall::scene::{
-    Document, Place, Scene, SceneError, apply_group, parse_toml, read_floors, to_toml,
-};
+use files::{FileError, Place, parse_toml};
+use rocking_wall::scene::{Document, Scene, apply_group, read_floors, to_toml};
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
 use crate::named_wall::NamedWall;
@@ -39,8 +38,8 @@ pub fn wall_text(wall: &NamedWall) -> String {
 /// Reads a wall from its tables.
 ///
 /// # Errors
-/// [`SceneError`] with line and value.
-pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
+/// [`FileError`] with line and value.
+pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, FileError> {
     let place = &Place::new(&name, text);
     let wall: Document = parse_toml(place)?;
     let mut parameters = Parameters::default();

@@ -1,12 +1,15 @@
 //! Walls by their names: the tables `[[walls]]` of a study or a check, scenes, and tables of walls (CSV).
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{
-    Described, Floors, GROUPS, Group, Place, Scene, SceneError, Schema, StoreyTable, SupportsTable,
-    apply_group, object, parameters, parse_document, parse_toml, read_floors, suggestion,
+use files::{
+    Described, FileError, Place, Schema, Tables, object, parse_document, parse_toml, suggestion, tables,
 };
-use rocking_wall::tables;
+use rocking_wall::scene::{
+    Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parameters,
+    read_floors,
+};
 use rocking_wall::wall::{Bar, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -137,7 +140,7 @@ struct WallsDocument {
 }
 
 impl Described for WallsDocument {
-    fn describe(key: &str, tables: &mut Schema) -> Schema {
+    fn describe(key: &str, tables: &mut Tables) -> Schema {
         let storeys = Vec::<StoreyTable>::describe(key, tables);
         let walls = Vec::<WallTable>::describe(key, tables);
         let keys = [("storeys", storeys), ("walls", walls)];
@@ -148,8 +151,8 @@ impl Described for WallsDocument {
 /// Reads the walls of a text with walls, storeys and supports; other keys are those of a study or a check.
 ///
 /// # Errors
-/// [`SceneError`] with file, line, value and remedy.
-fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, SceneError> {
+/// [`FileError`] with file, line, value and remedy.
+fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, FileError> {
     let place = &Place::new(name, text);
     let known = || OTHER_KEYS.into_iter().chain(["storeys", "supports", "walls"]);
     let document = parse_document(place)?;
@@ -165,13 +168,13 @@ fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, SceneError> {
 /// Reads the walls of a text, each with its storeys.
 ///
 /// # Errors
-/// [`SceneError`] with file, line, value and remedy.
+/// [`FileError`] with file, line, value and remedy.
 pub fn entries(
     walls: &[Spanned<WallTable>],
     storeys: &[Spanned<StoreyTable>],
     supports: Option<&Spanned<SupportsTable>>,
     place: &Place<'_>,
-) -> Result<Vec<WallEntry>, SceneError> {
+) -> Result<Vec<WallEntry>, FileError> {
     let entry = |table: &Spanned<WallTable>| {
         let supports = table.get_ref().supports.as_ref().or(supports);
         Ok(WallEntry { floors: read_floors(storeys, supports, place)?, ..wall(table, place)? })
@@ -179,7 +182,7 @@ pub fn entries(
     walls.iter().map(entry).collect()
 }
 
-fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, SceneError> {
+fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, FileError> {
     let spec = table.get_ref();
     // crates/check reads it
     let _ = spec.check;
@@ -233,13 +236,13 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
 /// looked up beside its file. Adds the files that are read, and warnings about defaults.
 ///
 /// # Errors
-/// [`SceneError`], with file, line, value and remedy.
+/// [`FileError`], with file, line, value and remedy.
 pub fn read_walls(
     text: &str,
     path: &Path,
     inputs: &mut Vec<PathBuf>,
     warnings: &mut Vec<String>,
-) -> Result<Vec<NamedWall>, SceneError> {
+) -> Result<Vec<NamedWall>, FileError> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut walls = Vec::new();
@@ -251,7 +254,7 @@ pub fn read_walls(
     }
     warnings.extend(defaults(&name, walls.iter()));
     check_unique("walls", walls.iter().map(|wall| &wall.name))
-        .map_err(|reason| SceneError::File { file: name, reason })?;
+        .map_err(|reason| FileError::whole(name, reason))?;
     Ok(walls)
 }
 
@@ -259,20 +262,16 @@ pub fn read_walls(
 /// ignores of a scene.
 ///
 /// # Errors
-/// [`SceneError`], with file, line, value and remedy.
+/// [`FileError`], with file, line, value and remedy.
 pub fn walls(
     entry: WallEntry,
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
     warnings: &mut Vec<String>,
-) -> Result<Vec<NamedWall>, SceneError> {
-    let at = |line, what: &str, error: SceneError| SceneError::Line {
-        key: None,
-        file: study.to_owned(),
-        line,
-        message: format!("{what}: {error}"),
-    };
+) -> Result<Vec<NamedWall>, FileError> {
+    let at =
+        |line, what: &str, error: &dyn Display| FileError::on_line(study, line, format!("{what}: {error}"));
     match entry.source {
         WallSource::Inline(parameters, stated) => {
             let name = entry.name.unwrap_or_default();
@@ -280,7 +279,7 @@ pub fn walls(
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
-            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", &error))?;
             inputs.push(path);
             Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
         }
@@ -288,7 +287,7 @@ pub fn walls(
             let file = folder.join(&path);
             inputs.push(file.clone());
             let (scene, stated) =
-                scene_and_stated(&file).map_err(|error| at(line, "a wall's scene", error))?;
+                scene_and_stated(&file).map_err(|error| at(line, "a wall's scene", &error))?;
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {

@@ -1,5 +1,6 @@
 //! What a study asks of building codes. A study knows none: the crate that does answers.
 
+use files::FileError;
 use rocking_wall::scene::SceneError;
 
 /// Answers what a study asks of its table `[check]`. `name` stands for the file of the study in messages, and
@@ -16,8 +17,8 @@ pub trait Codes {
     /// Returns the text with the files in it that its table names.
     ///
     /// # Errors
-    /// [`SceneError`] of the table, or of a file.
-    fn self_contained(&self, name: &str, text: &str) -> Result<String, SceneError>;
+    /// [`FileError`] of the table, or of a file.
+    fn self_contained(&self, name: &str, text: &str) -> Result<String, FileError>;
 }
 
 /// No code: a table `[check]` is passed over, and `measure = "code"` refused.
@@ -29,7 +30,7 @@ impl Codes for NoCodes {
         Ok(None)
     }
 
-    fn self_contained(&self, _: &str, text: &str) -> Result<String, SceneError> {
+    fn self_contained(&self, _: &str, text: &str) -> Result<String, FileError> {
         Ok(text.to_owned())
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use files::{FileError, read_text};
 use ground_motion::{GroundMotion, GroundMotionError};
-use rocking_wall::scene::{SceneError, read_text};
+use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
 use run::records::{NamedRecord, all_records, copies, record_files};
@@ -147,8 +148,8 @@ impl LoadedStudy {
         mut file: StudyFile,
         given: Vec<NamedWall>,
         records: Vec<NamedRecord>,
-    ) -> Result<Self, SceneError> {
-        let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
+    ) -> Result<Self, FileError> {
+        let in_file = |reason: String| FileError::whole(name, reason);
         for class in &file.report.classes {
             class.check(given.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
         }
@@ -257,7 +258,7 @@ fn open_hazard(
     file: &mut StudyFile,
     folder: &Path,
     inputs: &mut Vec<PathBuf>,
-) -> Result<Vec<String>, SceneError> {
+) -> Result<Vec<String>, FileError> {
     let Some(entry) = file.hazard.take() else { return Ok(Vec::new()) };
     let (hazard, warnings) = entry.open(&file.measure, folder, inputs)?;
     file.report.hazard = Some(hazard);

@@ -7,11 +7,12 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use files::{Place, parse_document};
 use ground_motion::{
     Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
     parse, parse_channels, read,
 };
-use rocking_wall::scene::{Place, Scene, parse_document, set_names};
+use rocking_wall::scene::{Scene, set_names};
 use rocking_wall::simulation::Excitation;
 use run::record_facts;
 use run::records::folder_files;

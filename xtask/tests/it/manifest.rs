@@ -136,33 +136,40 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &str); 19] = [
+const KNOWN: [(&str, &str); 20] = [
     ("fmu-export", ""),
     ("fmu-component", "fmu-export"),
     ("fmu-export-build", "fmu-export"),
     ("rocking-oscillator", ""),
     ("rocking-report", ""),
     ("ground-motion", "rocking-oscillator"),
+    ("rocking-files", "ground-motion"),
     ("rocking-floor", "fmu-component fmu-export rocking-oscillator"),
-    ("rocking-wall", "fmu-component fmu-export ground-motion rocking-oscillator"),
+    ("rocking-wall", "fmu-component fmu-export ground-motion rocking-files rocking-oscillator"),
     ("rocking-record", "rocking-oscillator rocking-wall"),
-    ("rocking-run", "ground-motion rocking-record rocking-report rocking-wall"),
-    ("rocking-check", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
-    ("rocking-study", "fmu-export ground-motion rocking-record rocking-report rocking-run rocking-wall"),
+    ("rocking-run", "ground-motion rocking-files rocking-record rocking-report rocking-wall"),
+    (
+        "rocking-check",
+        "fmu-export ground-motion rocking-files rocking-record rocking-report rocking-run rocking-wall",
+    ),
+    (
+        "rocking-study",
+        "fmu-export ground-motion rocking-files rocking-record rocking-report rocking-run rocking-wall",
+    ),
     (
         "rocking-reliability",
-        "ground-motion rocking-check rocking-report rocking-run rocking-study rocking-wall",
+        "ground-motion rocking-check rocking-files rocking-report rocking-run rocking-study rocking-wall",
     ),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
         "rocking-building",
-        "fmu-export fmu-export-build ground-motion rocking-floor rocking-report rocking-run \
+        "fmu-export fmu-export-build ground-motion rocking-files rocking-floor rocking-report rocking-run \
          rocking-scene-fmu rocking-wall",
     ),
     (
         "rocking-evidence",
-        "fmu-export ground-motion rocking-check rocking-record rocking-report rocking-run rocking-study \
-         rocking-wall",
+        "fmu-export ground-motion rocking-check rocking-files rocking-record rocking-report rocking-run \
+         rocking-study rocking-wall",
     ),
     (
         "rocking-playground",
@@ -170,14 +177,15 @@ const KNOWN: [(&str, &str); 19] = [
     ),
     (
         "rocking-wall-python",
-        "fmu-export ground-motion rocking-building rocking-check rocking-evidence rocking-record \
-         rocking-reliability rocking-report rocking-run rocking-scene-fmu rocking-study rocking-wall",
+        "fmu-export ground-motion rocking-building rocking-check rocking-evidence rocking-files \
+         rocking-record rocking-reliability rocking-report rocking-run rocking-scene-fmu \
+         rocking-study rocking-wall",
     ),
     (
         "rocking-wall-cli",
         "fmu-export fmu-export-build ground-motion rocking-building rocking-check rocking-evidence \
-         rocking-floor rocking-reliability rocking-report rocking-run rocking-scene-fmu rocking-study \
-         rocking-wall",
+         rocking-files rocking-floor rocking-reliability rocking-report rocking-run rocking-scene-fmu \
+         rocking-study rocking-wall",
     ),
 ];
 

@@ -5,7 +5,8 @@ pub(crate) mod site;
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Described, Fault, Place, SceneError, parse_document, read_text, read_value};
+use files::{Described, Fault, FileError, Place, parse_document, read_text, read_value};
+use rocking_wall::scene::SceneError;
 use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
 use run::walls::assumed;
 use serde::Deserialize;
@@ -86,16 +87,16 @@ impl<'a> CheckFile<'a> {
     /// Parses a text; `name` stands for the file in messages. Files that it names are beside it.
     ///
     /// # Errors
-    /// [`SceneError::Line`] where the text is not TOML.
-    pub fn parse(name: &'a str, text: &'a str) -> Result<Self, SceneError> {
+    /// [`FileError`] where the text is not TOML.
+    pub fn parse(name: &'a str, text: &'a str) -> Result<Self, FileError> {
         Self::parse_with(name, text, text.len())
     }
 
     /// Parses a text that has `own` bytes of its own, and assignments behind them: see [`with_assignments`].
     ///
     /// # Errors
-    /// [`SceneError::Line`] where the text is not TOML.
-    pub fn parse_with(name: &'a str, text: &'a str, own: usize) -> Result<Self, SceneError> {
+    /// [`FileError`] where the text is not TOML.
+    pub fn parse_with(name: &'a str, text: &'a str, own: usize) -> Result<Self, FileError> {
         let place = Place::new(name, text);
         let mut document = parse_document(&Place::new(name, &text[..own]))?;
         let folder = Path::new(name).parent().unwrap_or(Path::new(".")).to_owned();
@@ -116,8 +117,8 @@ impl<'a> CheckFile<'a> {
     /// `building.height_ratio`; of `a|b` one replaces the other.
     ///
     /// # Errors
-    /// [`SceneError::Line`] of another key.
-    pub(crate) fn of_wall(&self, entry: usize, allowed: &[&str]) -> Result<Option<Self>, SceneError> {
+    /// [`FileError`] of another key.
+    pub(crate) fn of_wall(&self, entry: usize, allowed: &[&str]) -> Result<Option<Self>, FileError> {
         let walls = self.document.get("walls").and_then(|walls| walls.get_ref().as_array());
         let wall = walls.and_then(|walls| walls.get(entry)).and_then(|wall| wall.get_ref().as_table());
         let Some(own) = wall.and_then(|wall| wall.get("check")) else { return Ok(None) };
@@ -184,8 +185,8 @@ impl<'a> CheckFile<'a> {
     /// file, for a machine without that file.
     ///
     /// # Errors
-    /// [`SceneError`] of a grid that cannot be read.
-    pub fn self_contained(&self) -> Result<String, SceneError> {
+    /// [`FileError`] of a grid that cannot be read.
+    pub fn self_contained(&self) -> Result<String, FileError> {
         let grid = self.check().and_then(|check| check.get_ref().get("site")?.get_ref().get("grid"));
         let named = grid.and_then(|grid| Some((grid.span(), grid.get_ref().as_str()?)));
         let Some((span, grid)) = named else { return Ok(self.text().to_owned()) };
@@ -248,9 +249,9 @@ impl<'a> CheckFile<'a> {
     /// that it leaves out are those of `[check.site]`.
     ///
     /// # Errors
-    /// [`SceneError::Line`] of the first key that is not known, or whose value cannot be used, or differs
+    /// [`FileError`] of the first key that is not known, or whose value cannot be used, or differs
     /// from that of the site.
-    pub fn report(&self) -> Result<ReportTable, SceneError> {
+    pub fn report(&self) -> Result<ReportTable, FileError> {
         let is_study = self.document.contains_key("levels") || self.document.contains_key("models");
         // what is wrong with the site is told where the check is read
         let site = self.check().and_then(|check| check.get_ref().get("site")).cloned();
@@ -271,7 +272,7 @@ impl<'a> CheckFile<'a> {
     /// Reads the records that a table names, or takes those that were handed over.
     ///
     /// # Errors
-    /// [`CheckError::Scene`] of a file that cannot be read.
+    /// [`CheckError::File`] of what the table cannot state, [`CheckError::Scene`] of a record.
     pub(crate) fn records(&self, table: Option<&Spanned<RecordsTable>>) -> Result<Records, CheckError> {
         let (mut files, mut warnings, mut named) = (Vec::new(), Vec::new(), self.records.clone());
         if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
@@ -289,15 +290,16 @@ impl<'a> CheckFile<'a> {
         let reason = if error.keys().is_some() { format!("[check] {error}") } else { error.to_string() };
         let span = error.keys().filter(|_| self.check().is_some()).map(|keys| self.span(keys));
         match (span, error) {
+            (_, CheckError::File(error)) => error.into(),
             (_, CheckError::Scene(error)) => error,
             (Some(span), _) if span.start >= self.own && self.own < self.place.text().len() => {
                 let after = &self.place.text()[self.own..];
                 let line = after.get(..span.start - self.own).unwrap_or_default().matches('\n').count();
                 let line = after.lines().nth(line).unwrap_or_default();
-                SceneError::File { file: self.name().to_owned(), reason: format!("--set {line}: {reason}") }
+                FileError::whole(self.name(), format!("--set {line}: {reason}")).into()
             }
-            (Some(span), _) => self.place.error(span, reason),
-            (None, _) => SceneError::File { file: self.name().to_owned(), reason },
+            (Some(span), _) => self.place.error(span, reason).into(),
+            (None, _) => FileError::whole(self.name(), reason).into(),
         }
     }
 
@@ -315,7 +317,7 @@ impl<'a> CheckFile<'a> {
 }
 
 /// Returns the lines of a grid of the hazard: those of a file in a folder, or those that stand in its place.
-pub(crate) fn lines_of_grid(grid: &str, folder: &Path) -> Result<String, SceneError> {
+pub(crate) fn lines_of_grid(grid: &str, folder: &Path) -> Result<String, FileError> {
     if grid.contains('\n') {
         return Ok(grid.to_owned());
     }

@@ -1,8 +1,7 @@
 //! What a report says of the project: the table `[report]`.
 
 use ::report::number;
-use rocking_wall::scene::{Described, Schema};
-use rocking_wall::{choices, tables};
+use files::{Described, Schema, Tables, choices, tables};
 use serde::Deserialize;
 
 use super::site::{no_place, return_period};
@@ -55,9 +54,9 @@ choices!(Language);
 
 /// Describes the table for a JSON schema; it refers to no other.
 pub fn report_schema() -> Schema {
-    let mut tables = Schema::new();
+    let mut tables = Tables::default();
     let described = ReportTable::describe("report", &mut tables);
-    match tables.remove("ReportTable") {
+    match tables.schemas.remove("ReportTable") {
         Some(toml::Value::Table(table)) => table,
         _ => described,
     }

@@ -13,9 +13,9 @@ mod sides;
 
 use std::path::PathBuf;
 
+use files::{Described, Schema, Tables, with};
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{SpectrumFile, Unit};
-use rocking_wall::scene::{Described, Schema, with};
 use rocking_wall::wall::{Parameters, Wall};
 use run::records::RecordsTable;
 use serde::Deserialize;
@@ -58,7 +58,7 @@ pub const ENTRY: Entry = Entry {
     of_wall: &[],
 };
 
-rocking_wall::tables! {
+files::tables! {
     /// Check of the wall's capacity curve over a spectrum, which `wall check` reads.
     #[derive(Clone, Debug)]
     pub struct FractionsTable {
@@ -95,7 +95,7 @@ pub enum SpectrumTable {
 }
 
 impl Described for SpectrumTable {
-    fn describe(key: &str, tables: &mut Schema) -> Schema {
+    fn describe(key: &str, tables: &mut Tables) -> Schema {
         let forms = [PathBuf::describe(key, tables), Vec::<[f64; 2]>::describe(key, tables)];
         with(Schema::new(), "anyOf", forms.to_vec())
     }

@@ -11,7 +11,7 @@ use super::ground::{GroundSpectrum, damping_factor};
 const A: f64 = 0.8;
 const B: f64 = 1.1;
 
-rocking_wall::tables! {
+files::tables! {
     /// A mode of the building at the place of a wall.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mode {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rocking_wall::scene::{Described, Schema, with};
+use files::{Described, Schema, Tables, with};
 use serde::{Deserialize, Serialize};
 
 /// g of NTC 3.2.3.2.1 \[m/s²\].
@@ -95,7 +95,7 @@ impl Topography {
 }
 
 impl Described for Topography {
-    fn describe(key: &str, tables: &mut Schema) -> Schema {
+    fn describe(key: &str, tables: &mut Tables) -> Schema {
         let factor = with(with(f64::describe(key, tables), "minimum", 1), "maximum", 1.4);
         with(Schema::new(), "anyOf", vec![Category::describe(key, tables), factor])
     }

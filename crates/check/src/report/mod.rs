@@ -2,12 +2,13 @@
 
 mod walls;
 
+use files::FileError;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use ::report::escaped;
 use ::report::page::Page;
-use rocking_wall::scene::{SceneError, fingerprint};
+use rocking_wall::scene::fingerprint;
 
 use crate::code::verdict::{Section, Verdict};
 use crate::error::CheckError;
@@ -168,9 +169,9 @@ fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
     let own = file_name(Path::new(origin.file.name()));
     let mut files = vec![(own, fingerprint(origin.file.text().as_bytes()))];
     for path in &origin.records.files {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::File {
-            file: path.display().to_string(),
-            reason: format!("{error}; the file could be read earlier in this run"),
+        let bytes = std::fs::read(path).map_err(|error| {
+            let reason = format!("{error}; the file could be read earlier in this run");
+            FileError::whole(path.display().to_string(), reason)
         })?;
         files.push((file_name(path), fingerprint(&bytes)));
     }

@@ -4,10 +4,8 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use rocking_wall::scene::{
-    Group, Place, SceneError, apply_group, check_limits, parse_toml, read_text, variable,
-};
-use rocking_wall::tables;
+use files::{FileError, Place, parse_toml, read_text, tables};
+use rocking_wall::scene::{Group, apply_group, check_limits, variable};
 use rocking_wall::wall::Parameters;
 
 use super::decay::Decay;
@@ -62,8 +60,8 @@ impl PublishedTest {
     /// Reads a test and the points that it names, which lie beside it.
     ///
     /// # Errors
-    /// [`SceneError`] with file, line and what was expected.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
+    /// [`FileError`] with file, line and what was expected.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
         let (name, text) = (path.display().to_string(), text(path)?);
         let place = &Place::new(&name, &text);
         let document: TestDocument = parse_toml(place)?;
@@ -75,8 +73,7 @@ impl PublishedTest {
             (Some(table), None) => (table.span(), Test::Push(Push { points, ..table.into_inner() })),
             (None, Some(table)) => (table.span(), Test::Decay(Decay { points, ..table.into_inner() })),
             _ => {
-                let reason = "expected one table, [push] or [decay]".to_owned();
-                return Err(SceneError::File { file: name, reason });
+                return Err(FileError::whole(name, "expected one table, [push] or [decay]"));
             }
         };
         test.check().map_err(|message| place.error(span, message))?;
@@ -109,12 +106,12 @@ impl Test {
     }
 }
 
-fn text(path: &Path) -> Result<String, SceneError> {
+fn text(path: &Path) -> Result<String, FileError> {
     read_text(path, "a published test", MAX_FILE_BYTES)
 }
 
 /// Reads two columns of numbers that rise in the first one; the first line is their header.
-fn points(path: &Path) -> Result<Vec<[f64; 2]>, SceneError> {
+fn points(path: &Path) -> Result<Vec<[f64; 2]>, FileError> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     for (index, line) in text(path)?.lines().enumerate().skip(1) {
         let numbers: Vec<f64> = line.split(',').filter_map(|field| field.trim().parse().ok()).collect();
@@ -123,15 +120,14 @@ fn points(path: &Path) -> Result<Vec<[f64; 2]>, SceneError> {
                 points.push([x, y]);
             }
             _ => {
-                let message = "expected two numbers, the first above that of the line before".to_owned();
-                let file = path.display().to_string();
-                return Err(SceneError::Line { file, line: index + 1, key: None, message });
+                let reason = "expected two numbers, the first above that of the line before";
+                return Err(FileError::on_line(path.display().to_string(), index + 1, reason));
             }
         }
     }
     if points.len() < 3 {
-        let reason = "expected at least three points after a header".to_owned();
-        return Err(SceneError::File { file: path.display().to_string(), reason });
+        let reason = "expected at least three points after a header";
+        return Err(FileError::whole(path.display().to_string(), reason));
     }
     Ok(points)
 }

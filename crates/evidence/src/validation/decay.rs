@@ -1,7 +1,7 @@
 //! A wall released from a displacement, against restitution and equivalent damping.
 
+use files::tables;
 use rocking_wall::solver::{Memo, Motion, State};
-use rocking_wall::tables;
 use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use run::model::{RATIO_MODELS, label};

@@ -1,6 +1,6 @@
 //! A wall pushed slowly, against the force laws.
 
-use rocking_wall::tables;
+use files::tables;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Wall};
 

@@ -6,8 +6,7 @@ use toml::Spanned;
 
 use crate::hazard::{Hazard, HazardCurve, YEARS, read, unusual};
 use crate::ida::IntensityMeasure;
-use rocking_wall::scene::{Place, SceneError, read_text};
-use rocking_wall::tables;
+use files::{FileError, Place, read_text, tables};
 
 use super::levels::to_si;
 
@@ -56,13 +55,13 @@ impl HazardEntry {
     /// to the inputs.
     ///
     /// # Errors
-    /// [`SceneError`] if the file cannot be read, is of another measure, or holds no hazard curve.
+    /// [`FileError`] if the file cannot be read, is of another measure, or holds no hazard curve.
     pub fn open(
         self,
         measure: &IntensityMeasure,
         folder: &Path,
         inputs: &mut Vec<PathBuf>,
-    ) -> Result<(Hazard, Vec<String>), SceneError> {
+    ) -> Result<(Hazard, Vec<String>), FileError> {
         let Self { curve, years, target } = self;
         let (name, (curve, warnings)) = match curve {
             Source::Points(curve) => {
@@ -88,7 +87,7 @@ pub(super) fn hazard(
     table: &Spanned<HazardTable>,
     measure: &IntensityMeasure,
     place: &Place<'_>,
-) -> Result<HazardEntry, SceneError> {
+) -> Result<HazardEntry, FileError> {
     let HazardTable { points, file, site, unit, years, target } = table.get_ref();
     let to_si = to_si(measure, unit.as_ref(), place)?;
     let curve = match (points, file) {

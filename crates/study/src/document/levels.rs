@@ -4,8 +4,8 @@ use toml::Spanned;
 
 use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Levels, ToSi};
-use rocking_wall::scene::{Place, SceneError};
-use rocking_wall::tables;
+use files::{FileError, Place, tables};
+use rocking_wall::scene::SceneError;
 
 /// Names of the intensity measures.
 const MEASURES: [&str; 9] = ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
@@ -69,11 +69,11 @@ pub(super) fn measure(
 ) -> Result<IntensityMeasure, SceneError> {
     let Some(table) = table else { return Ok(IntensityMeasure::default()) };
     let spec = table.get_ref();
-    let refuse = |message: &str| Err(place.error(table.span(), message));
+    let refuse = |message: &str| Err(place.error(table.span(), message).into());
     if let Some(select) = spec.select.as_ref().filter(|_| spec.measure.get_ref() != "code") {
         let message =
             "select takes the records that fit the spectrum of the site; it needs measure = \"code\"";
-        return Err(place.error(select.span(), message));
+        return Err(place.error(select.span(), message).into());
     }
     let name = spec.measure.get_ref().as_str();
     let without_periods = [
@@ -104,7 +104,7 @@ pub(super) fn measure(
         ("code", ..) => refuse("code takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
             let message = format!("measure = {other:?} is not one of {}", MEASURES.join(", "));
-            Err(place.error(spec.measure.span(), message))
+            Err(place.error(spec.measure.span(), message).into())
         }
     }
 }
@@ -117,7 +117,7 @@ fn of_code(
     place: &Place<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
     if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
-        return Err(place.error(table.span(), format!("periods: {period} s must be above 0")));
+        return Err(place.error(table.span(), format!("periods: {period} s must be above 0")).into());
     }
     let missing = || {
         place.error(
@@ -134,7 +134,7 @@ pub(super) fn levels(
     table: &Spanned<LevelsTable>,
     measure: &IntensityMeasure,
     place: &Place<'_>,
-) -> Result<Levels, SceneError> {
+) -> Result<Levels, FileError> {
     let spec = table.get_ref();
     let to_si = to_si(measure, spec.unit.as_ref(), place)?;
     let method = spec.method.get_ref().as_str();
@@ -197,7 +197,7 @@ pub(super) fn to_si(
     measure: &IntensityMeasure,
     unit: Option<&Spanned<String>>,
     place: &Place<'_>,
-) -> Result<ToSi, SceneError> {
+) -> Result<ToSi, FileError> {
     let given = unit.map(|unit| unit.get_ref().as_str());
     measure.to_si(given).map_err(|message| match unit {
         Some(unit) => place.error(unit.span(), message),

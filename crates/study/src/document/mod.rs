@@ -22,10 +22,8 @@ mod model;
 mod report;
 mod uncertain;
 
-use rocking_wall::scene::{
-    DEFAULT_TAIL, Place, SceneError, Schema, StoreyTable, SupportsTable, file_schema, parse_toml, with,
-};
-use rocking_wall::tables;
+use files::{Place, Schema, file_schema, parse_toml, tables, with};
+use rocking_wall::scene::{DEFAULT_TAIL, SceneError, StoreyTable, SupportsTable};
 use run::model::Model;
 use run::records::{RecordsEntry, RecordsTable, records};
 use run::walls::{WallEntry, WallTable, entries};
@@ -151,7 +149,7 @@ impl StudyFile {
         for (index, model) in models.iter().enumerate() {
             if models[..index].iter().any(|other| other.name == model.name) {
                 let message = format!("the model {:?} is listed twice; give one another name", model.name);
-                return Err(place.error(document.models[index].span(), message));
+                return Err(place.error(document.models[index].span(), message).into());
             }
         }
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
@@ -163,7 +161,7 @@ impl StudyFile {
             let message = "collapse_is = \"falls\" has no part in a cloud: its regression takes a demand of \
                            u_ins and more as a collapse; leave it out, or give levels of another method, \
                            such as \"hunt\"";
-            return Err(place.error(word.span(), message));
+            return Err(place.error(word.span(), message).into());
         }
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),

@@ -2,10 +2,9 @@
 
 use toml::{Spanned, Value};
 
+use files::{FileError, Place, Schema, object, one_of, suggestion, text, with};
 use fmu_export::VariableId;
-use rocking_wall::scene::{
-    Place, SceneError, Schema, check_limits, object, one_of, parameters, suggestion, text, with,
-};
+use rocking_wall::scene::{check_limits, parameters};
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{COMPUTED, Damping, Ratio};
 use run::model::{EnergyLoss, Model, damping_models, label};
@@ -33,7 +32,7 @@ pub(super) fn model_schema() -> Schema {
     with(Schema::new(), "anyOf", vec![one_of(names.iter().map(String::as_str)), table])
 }
 
-pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {
+pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, FileError> {
     let refuse = |message: String| place.error(value.span(), message);
     let named = |short: &str| {
         let unknown = || refuse(format!("{short:?} is not a damping model; the models are {}", names()));

@@ -8,9 +8,9 @@ use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
 use crate::uncertain::Samples;
 
+use files::{FileError, Place, fraction, positive, suggestion, tables};
 use report::counted;
-use rocking_wall::scene::{DEFAULT_THRESHOLDS, Place, SceneError, fraction, positive, suggestion};
-use rocking_wall::tables;
+use rocking_wall::scene::DEFAULT_THRESHOLDS;
 use run::model::Model;
 
 /// Resamples of a bootstrap that states none.
@@ -184,7 +184,7 @@ pub(super) fn report(
     models: &[Model],
     levels: &Levels,
     place: &Place<'_>,
-) -> Result<ReportOptions, SceneError> {
+) -> Result<ReportOptions, FileError> {
     let usual = ReportTable::default();
     let spec = table.map_or(&usual, Spanned::get_ref);
     let fractions = spec.fractions.clone().unwrap_or(DEFAULT_THRESHOLDS.to_vec());
@@ -242,7 +242,7 @@ fn check_losses(fractions: &[f64], ratios: &[f64]) -> Result<(), String> {
     })
 }
 
-fn read_classes(tables: &[Spanned<ClassTable>], place: &Place<'_>) -> Result<Vec<WallClass>, SceneError> {
+fn read_classes(tables: &[Spanned<ClassTable>], place: &Place<'_>) -> Result<Vec<WallClass>, FileError> {
     let mut classes: Vec<WallClass> = Vec::new();
     for table in tables {
         let ClassTable { name, walls, weights } = table.get_ref();

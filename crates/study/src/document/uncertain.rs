@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use files::{Described, FileError, Place, Schema, Tables, object, suggestion, tables, with};
 use fmu_export::{Kind, VariableId};
 use report::counted;
-use rocking_wall::scene::{Described, Place, SceneError, Schema, object, suggestion, with};
-use rocking_wall::tables;
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{Bar, COMPUTED};
 use run::wall_parameters::wall_parameters;
@@ -66,11 +65,11 @@ tables! {
 struct Parameters(BTreeMap<Spanned<String>, Spanned<DistributionTable>>);
 
 impl Described for Parameters {
-    fn describe(key: &str, _tables: &mut Schema) -> Schema {
+    fn describe(key: &str, _tables: &mut Tables) -> Schema {
         // every parameter has the table itself, which the parameters of the Python package follow from
-        let mut own = Schema::new();
+        let mut own = Tables::default();
         DistributionTable::describe(key, &mut own);
-        let table = own.into_iter().next().map_or_else(|| Schema::new().into(), |(_, table)| table);
+        let table = own.schemas.into_iter().next().map_or_else(|| Schema::new().into(), |(_, table)| table);
         object(names().map(|name| (name.to_owned(), table.clone())).collect())
     }
 }
@@ -99,7 +98,7 @@ fn correlation() -> Schema {
 pub(super) fn uncertain(
     table: &Spanned<UncertainTable>,
     place: &Place<'_>,
-) -> Result<(Uncertain, Vec<String>), SceneError> {
+) -> Result<(Uncertain, Vec<String>), FileError> {
     let UncertainTable { samples, seed, parameters, correlation } = table.get_ref();
     let Parameters(given) = parameters.get_ref();
     if given.is_empty() {

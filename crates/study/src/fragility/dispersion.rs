@@ -1,6 +1,6 @@
 //! Dispersions of the limit states of the same runs, and curves that do not cross.
 
-use rocking_wall::choices;
+use files::choices;
 use serde::{Deserialize, Serialize};
 
 use super::fit::{FitError, Lognormal, fit_from};

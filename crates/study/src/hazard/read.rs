@@ -1,7 +1,7 @@
 //! Hazard curves from files: two columns, or a table of `OpenQuake`.
 
+use files::{FileError, Place};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, TextRow};
-use rocking_wall::scene::{Place, SceneError};
 
 use crate::ida::IntensityMeasure;
 
@@ -17,14 +17,14 @@ const FORMS: &str = "a line of names with a measure or `intensity` and `annual_r
 /// whose name states none, and `site` is the number from 1 of a site of `OpenQuake`, which alone has sites.
 ///
 /// # Errors
-/// [`SceneError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
+/// [`FileError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
 /// no such site, or the points are no hazard curve.
 pub fn read(
     file: &Place<'_>,
     measure: &IntensityMeasure,
     unit: Option<&str>,
     site: Option<u32>,
-) -> Result<Read, SceneError> {
+) -> Result<Read, FileError> {
     let text = file.text().trim_start_matches('\u{feff}');
     let read = || {
         let columns = Columns::of_texts(text, FORMS).map_err(in_file)?;

@@ -1,7 +1,7 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
+use files::choices;
 use record::{Outcome, RunEnd};
-use rocking_wall::choices;
 use rocking_wall::solver::{Motion, State};
 use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! The signs with which the records of a study are run.
 
-use rocking_wall::choices;
+use files::choices;
 use run::records::NamedRecord;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,8 @@
 use anyhow::Result;
 use building::Building;
 use clap::{Args, ValueEnum};
-use rocking_wall::scene::{Document, Schema, file_schema};
+use files::{Schema, file_schema};
+use rocking_wall::scene::Document;
 use study::document::StudyFile;
 
 use crate::output::Console;

@@ -1,8 +1,8 @@
 //! What limit states take from the site on a grid of the hazard: the table `[check.site]`.
 
+use files::FileError;
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::SceneError;
 use rocking_wall::wall::Usual;
 
 use crate::error::CheckError;
@@ -103,11 +103,9 @@ fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHaza
         return refused("coordinates", message);
     }
     let text = lines_of_grid(&site.grid, folder)?;
-    let grid = Grid::read(&text, ag_unit.in_g()).map_err(|(line, message)| SceneError::Line {
-        file: file.map_or_else(|| "grid of [check.site]".to_owned(), |file| file.display().to_string()),
-        line,
-        key: None,
-        message,
+    let grid = Grid::read(&text, ag_unit.in_g()).map_err(|(line, message)| {
+        let file = file.map_or_else(|| "grid of [check.site]".to_owned(), |file| file.display().to_string());
+        FileError::on_line(file, line, message)
     })?;
     let found = grid.at(*coordinates);
     found.or_else(|message| refused("coordinates", message))

@@ -1,8 +1,8 @@
 //! The table `[check]` of a scene or a study.
 
+use files::{choices, tables};
 use rocking_wall::variables::Rocking;
 use rocking_wall::wall::{Bar, Usual};
-use rocking_wall::{choices, tables};
 use run::records::RecordsTable;
 use serde::Deserialize;
 use toml::Spanned;

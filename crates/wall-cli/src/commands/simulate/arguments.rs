@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use clap::Args;
+use files::check_value;
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{
-    DEFAULT_TAIL, Floors, MotionTable, Scene, StoreyTable, SupportsTable, check_value,
-};
+use rocking_wall::scene::{DEFAULT_TAIL, Floors, MotionTable, Scene, StoreyTable, SupportsTable};
 use rocking_wall::simulation::Excitation;
 
 use crate::args::{RecordArguments, SceneArguments, apply_set};
@@ -79,7 +78,7 @@ impl Arguments {
             let of = if scene.floors.is_some() { "ground " } else { "" };
             let peak = format!("peak {of}acceleration {:.4} m/s²", motion.peak());
             let tail = self.tail.unwrap_or(DEFAULT_TAIL);
-            check_value::<MotionTable>("tail", tail).context("--tail")?;
+            check_value::<MotionTable>("tail", tail).map_err(Error::msg).context("--tail")?;
             scene.shake(Excitation::new(motion, None), tail, vec![note, peak]);
             if self.scene.scene.is_none() {
                 scene.title = "The default parapet, shaken".into();

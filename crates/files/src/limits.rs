@@ -9,12 +9,10 @@ use serde::Deserialize;
 use toml::de::{DeValue, ValueDeserializer};
 use toml::{Spanned, Value};
 
-use crate::variables::GROUPS;
-
-use super::error::{Place, SceneError};
-use super::keys::unknown_key;
-use super::schema::{Described, Schema};
-use super::syntax::{number, parse_document};
+use crate::names::unknown_key;
+use crate::place::Place;
+use crate::schema::{Described, Schema, Tables};
+use crate::syntax::{number, parse_document};
 
 /// What is wrong with a value of a file.
 #[derive(Debug)]
@@ -39,58 +37,61 @@ const OF_LIST: [(&str, &str); 2] = [("minItems", "at least"), ("maxItems", "at m
 /// Checks a number or a list of numbers, given by itself, against the limits of a key of `T`.
 ///
 /// # Errors
-/// [`SceneError::Value`] with the key, the value and its limits, and for a key that `T` does not hold.
+/// The key, the value and its limits; or that `T` does not hold the key.
 ///
 /// ```
-/// use rocking_wall::scene::{MotionTable, check_value};
-///
-/// let error = check_value::<MotionTable>("tail", -1.0).unwrap_err().to_string();
-/// assert!(error.starts_with("tail = -1 must be at least 0 and at most 1e6: Free vibration"), "{error}");
+/// files::tables! {
+///     /// A load.
+///     struct LoadTable {
+///         /// Force.
+///         #[key(minimum = 0)]
+///         force: f64,
+///     }
+/// }
+/// let error = files::check_value::<LoadTable>("force", -1.0).unwrap_err();
+/// assert_eq!(error, "force = -1 must be at least 0: Force");
 /// ```
-pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Result<(), SceneError> {
+pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Result<(), String> {
     let (schema, tables) = schema_of::<T>();
     let keys = declared(schema, tables).unwrap_or(schema).get("properties").and_then(Value::as_table);
     if keys.is_none_or(|keys| !keys.contains_key(key)) {
         let known: Vec<_> = keys.into_iter().flat_map(Schema::keys).map(String::as_str).collect();
-        return Err(SceneError::Value { message: unknown_key(key, "", &known) });
+        return Err(unknown_key(key, "", &known, &tables.groups));
     }
     // TOML writes NaN in small letters
     let text = format!("{key} = {}", format!("{value:?}").to_lowercase());
-    let table = Spanned::new(0..text.len(), DeValue::Table(parse_document(&Place::new(key, &text))?));
-    fault::<T>(&table).map_or(Ok(()), |Fault { message, .. }| Err(SceneError::Value { message }))
+    let table = parse_document(&Place::new(key, &text)).map_err(|error| error.reason)?;
+    let table = Spanned::new(0..text.len(), DeValue::Table(table));
+    fault::<T>(&table).map_or(Ok(()), |fault| Err(fault.message))
 }
 
 /// Finds the first value of a table that is outside the limits of the keys of `T`.
-pub(super) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault> {
-    // the scene inside an FMU was checked when it was packaged; its library does without the texts of keys
-    if cfg!(any(feature = "fmu", feature = "component")) {
-        return None;
-    }
+pub(crate) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault> {
     let (schema, tables) = schema_of::<T>();
     in_value(schema, "", tables, table, &[])
 }
 
 /// Returns the schema of `T` and the tables that it refers to, which are made once: many walls are read.
-fn schema_of<T: Described>() -> &'static (Value, Schema) {
-    static MADE: Mutex<Option<HashMap<TypeId, &'static (Value, Schema)>>> = Mutex::new(None);
+pub(crate) fn schema_of<T: Described>() -> &'static (Value, Tables) {
+    static MADE: Mutex<Option<HashMap<TypeId, &'static (Value, Tables)>>> = Mutex::new(None);
     // a schema that could not be made is not in the map
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     made.get_or_insert_default().entry(TypeId::of::<T>()).or_insert_with(|| {
-        let mut tables = Schema::new();
+        let mut tables = Tables::default();
         let schema = T::describe("", &mut tables).into();
         Box::leak(Box::new((schema, tables)))
     })
 }
 
 /// Returns the table that a schema refers to.
-fn declared<'a>(schema: &Value, tables: &'a Schema) -> Option<&'a Value> {
-    tables.get(schema.get("$ref")?.as_str()?.rsplit('/').next()?)
+fn declared<'a>(schema: &Value, tables: &'a Tables) -> Option<&'a Value> {
+    tables.schemas.get(schema.get("$ref")?.as_str()?.rsplit('/').next()?)
 }
 
 fn in_value(
     schema: &Value,
     about: &str,
-    tables: &Schema,
+    tables: &Tables,
     value: &Spanned<DeValue<'_>>,
     keys: &[String],
 ) -> Option<Fault> {
@@ -106,7 +107,7 @@ fn in_value(
             let key = key.get_ref().as_ref();
             // who applies a group of parameters checks them by the model description, but not their
             // distributions, which are tables
-            let is_parameter = || GROUPS.iter().any(|(_, names)| names.contains(&key));
+            let is_parameter = || tables.groups.values().any(|names| names.contains(&key));
             if declared.is_none() && !matches!(value.get_ref(), DeValue::Table(_)) && is_parameter() {
                 return None;
             }

@@ -7,27 +7,19 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::error::{Place, SceneError};
-use super::keys::unknown_key;
-use super::limits::{Fault, fault};
-use super::nearest::suggestion;
-use super::schema::Described;
-use super::syntax::{NUMBER, parse_document, shown};
+use crate::error::FileError;
+use crate::limits::{Fault, fault, schema_of};
+use crate::names::{suggestion, unknown_key};
+use crate::place::Place;
+use crate::schema::{Described, Tables};
+use crate::syntax::{NUMBER, parse_document, shown};
 
-/// Reads a TOML text: a scene, a study, a building, a table of them.
-///
-/// ```
-/// use rocking_wall::scene::{Document, Place, parse_toml};
-///
-/// let place = Place::new("scene.toml", "[geometry]\nthickness = 0,30\n");
-/// let error = parse_toml::<Document>(&place).unwrap_err().to_string();
-/// assert!(error.starts_with("scene.toml, line 2: cannot read `thickness = 0,30`: a line is key = value"));
-/// ```
+/// Reads a TOML text.
 ///
 /// # Errors
-/// [`SceneError::Line`] where the text is not such a document, or a value is outside its limits: key, line
+/// [`FileError`] where the text is not such a document, or a value is outside its limits: key, line
 /// and what is expected.
-pub fn parse_toml<T: DeserializeOwned + Described>(place: &Place<'_>) -> Result<T, SceneError> {
+pub fn parse_toml<T: DeserializeOwned + Described>(place: &Place<'_>) -> Result<T, FileError> {
     let document = parse_document(place)?;
     let whole = Spanned::new(0..place.text().len(), DeValue::Table(document.clone()));
     read_value(place, &document, &whole).map_err(|fault| place.error(fault.span, fault.message))
@@ -44,7 +36,8 @@ pub fn read_value<T: DeserializeOwned + Described>(
 ) -> Result<T, Fault> {
     let refused = |error: toml::de::Error| {
         let span = error.span().unwrap_or(value.span());
-        let message = Found::at(document, place.text(), &span).explained(error.message());
+        let message =
+            Found::at(document, place.text(), &span).explained(error.message(), &schema_of::<T>().1);
         let mut keys = Vec::new();
         in_value(value.get_ref(), &span, &mut keys);
         Fault { keys, span, message }
@@ -69,13 +62,13 @@ impl<'a> Found<'a> {
     }
 
     /// Translates a message of the reader. Those of this project's own types pass.
-    fn explained(&self, message: &str) -> String {
+    fn explained(&self, message: &str, tables: &Tables) -> String {
         let names: Vec<_> = message.split('`').skip(1).step_by(2).collect();
         let is = |start: &str| message.starts_with(start);
         if is("unknown field") {
             // the last key is the unknown one
             let table = self.keys[..self.keys.len().saturating_sub(1)].join(".");
-            return unknown_key(names[0], &table, &names[1..]);
+            return unknown_key(names[0], &table, &names[1..], &tables.groups);
         }
         if is("missing field") {
             return match self.keys.join(".").as_str() {

@@ -1,9 +1,26 @@
-//! The name that a mistyped one stands for.
+//! Names: the one that a mistyped one stands for, and where a key belongs.
+
+use std::collections::BTreeMap;
 
 use strsim::osa_distance;
 
 /// Longest name that is compared.
 const LONGEST: usize = 64;
+
+/// Groups of parameters: the keys of each table.
+pub type Groups = BTreeMap<&'static str, Vec<&'static str>>;
+
+/// Says of a key that a table does not hold in which group it belongs, or what the table holds; `table` is
+/// empty for the file itself.
+pub fn unknown_key(name: &str, table: &str, known: &[&str], groups: &Groups) -> String {
+    let group = groups.iter().find(|(_, names)| names.contains(&name));
+    if let Some((group, _)) = group.filter(|_| table.is_empty() || groups.contains_key(table)) {
+        return format!("{name:?} belongs in [{group}]");
+    }
+    let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
+    let meant = suggestion(name, known.iter().copied());
+    format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", "))
+}
 
 /// Returns words that suggest the name nearest to a mistyped one, or none.
 pub fn suggestion<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> String {

@@ -3,13 +3,14 @@
 use toml::de::DeTable;
 use toml::{Spanned, Value};
 
-use super::error::{Place, SceneError};
+use crate::error::FileError;
+use crate::place::Place;
 
 /// Parses a TOML text whose tables are read one by one.
 ///
 /// # Errors
-/// [`SceneError::Line`] where the text is not TOML.
-pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> {
+/// [`FileError`] where the text is not TOML.
+pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, FileError> {
     DeTable::parse(place.text()).map(Spanned::into_inner).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let text = place.text();
@@ -39,10 +40,10 @@ const SYNTAX: &str = "a line is key = value, [table] or # comment; a number has 
 const OPEN: &str = "a list, table or text above is not closed; close it with ], } or its quotes";
 
 /// What is expected where a number stands.
-pub(super) const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";
+pub const NUMBER: &str = "a number with a decimal point, without a unit and without quotes";
 
 /// Shortens a text for a message.
-pub(super) fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     text.trim().chars().take(60).collect()
 }
 
