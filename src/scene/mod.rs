@@ -18,7 +18,7 @@ use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use files::{FileError, Place, check_value, parse_toml, read_text};
+use files::{FileError, TomlFile, check_value, read_text};
 use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
@@ -126,12 +126,15 @@ impl Scene {
     /// # Errors
     /// [`SceneError`].
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
-        let place = Place::new(name, text);
-        let document: Document = parse_toml(&place)?;
-        Self::from_document(&document, &place, folder)
+        Self::of(&TomlFile::new(name, text)?, folder)
     }
 
-    fn from_document(document: &Document, place: &Place<'_>, folder: &Path) -> Result<Self, SceneError> {
+    /// Reads a scene from a file that is parsed already; records are looked up in `folder`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn of(file: &TomlFile<'_>, folder: &Path) -> Result<Self, SceneError> {
+        let (document, place): (Document, _) = (file.read()?, file.place());
         let floors = read_floors(&document.storeys, document.supports.as_ref(), place)?;
         let title = document.title.clone().unwrap_or_else(|| name_of(place.name()));
         let mut scene = Self { title, floors, ..Self::default() };
@@ -148,7 +151,7 @@ impl Scene {
             }
         }
         for (group, entries) in document.groups() {
-            apply_group(&mut scene.parameters, group, entries, place)?;
+            apply_group(&mut scene.parameters, group, entries, file)?;
         }
         if let Some(given) = &document.thresholds {
             scene.thresholds.clone_from(given);

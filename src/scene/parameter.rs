@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use files::{FileError, NUMBER, Place, number, parse_document, read_value, suggestion, unknown_key};
+use files::{FileError, NUMBER, TomlFile, number, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
@@ -32,7 +32,7 @@ pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
     items.iter().find(|item| item.value == value).map(|item| format!("{:?}", item.name))
 }
 
-/// Applies one table.
+/// Applies one table of a file.
 ///
 /// # Errors
 /// [`FileError`] of a key or a value that cannot be used.
@@ -40,8 +40,9 @@ pub fn apply_group(
     parameters: &mut Parameters,
     group: &str,
     entries: &Group,
-    place: &Place<'_>,
+    file: &TomlFile<'_>,
 ) -> Result<(), FileError> {
+    let place = file.place();
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
     let (mut law, mut points, mut bar) = (None, None, None);
     for (key, value) in entries.iter() {
@@ -79,9 +80,8 @@ pub fn apply_group(
         let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
         return Err(place.error(key.span(), message));
     }
-    let document = parse_document(place)?;
-    let own = find(&document, BAR, &bar.span());
-    let read = own.map(|own| read_value(place, &document, own)).transpose();
+    let own = find(file.table(), BAR, &bar.span());
+    let read = own.map(|own| file.read_value(own)).transpose();
     parameters.bar = read.map_err(|fault| place.error(fault.span, fault.message))?;
     follow_bar(parameters).map_err(|message| place.error(bar.span(), message))
 }

@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use files::{
-    FileError, Place, Schema, file_schema, number, object, parse_toml, read_text, tables, text, with,
-};
+use files::{FileError, Place, Schema, TomlFile, file_schema, number, object, read_text, tables, text, with};
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
 use rocking_wall::scene::{self, Group, LONGEST_RUN};
@@ -168,9 +166,9 @@ impl Building {
     /// # Errors
     /// [`FileError`] with file, line and remedy.
     pub fn parse(path: &Path, text: &str) -> Result<Self> {
-        let file = path.display().to_string();
-        let place = Place::new(&file, text);
-        Self::from_document(parse_toml(&place)?, &place, path)
+        let name = path.display().to_string();
+        let file = TomlFile::new(&name, text)?;
+        Self::from_document(file.read()?, file.place(), path)
     }
 
     fn from_document(document: Document, place: &Place<'_>, path: &Path) -> Result<Self> {

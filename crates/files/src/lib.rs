@@ -10,6 +10,7 @@
 //! | `text` | text files |
 //! | `names` | the name that a mistyped one stands for |
 //! | `syntax` | a text as TOML, or why it is none |
+//! | `overlay` | tables laid over others |
 //! | `schema` | JSON schemas of the structs that read |
 //! | `limits` | values within the limits of their schema |
 //! | `reader` | TOML as such a struct, or what is wrong with it |
@@ -17,6 +18,7 @@
 mod error;
 mod limits;
 mod names;
+mod overlay;
 mod place;
 mod reader;
 mod schema;
@@ -26,13 +28,14 @@ mod text;
 pub use error::FileError;
 pub use limits::{Fault, check_value};
 pub use names::{Groups, suggestion, unknown_key};
+pub use overlay::overlay;
 pub use place::Place;
-pub use reader::{parse_toml, read_value};
+pub use reader::TomlFile;
 pub use schema::{
     Described, Schema, Tables, file_schema, fraction, list, names, object, one_of, positive, several, text,
     with,
 };
 #[doc(hidden)]
 pub use schema::{Field, describe_table};
-pub use syntax::{NUMBER, number, parse_document};
+pub use syntax::{NUMBER, number};
 pub use text::read_text;

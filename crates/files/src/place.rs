@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::error::FileError;
 
 /// A file's name and text, to turn byte ranges into lines.
+#[derive(Clone, Copy)]
 pub struct Place<'a> {
     name: &'a str,
     text: &'a str,

@@ -10,40 +10,100 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use crate::error::FileError;
 use crate::limits::{Fault, fault, schema_of};
 use crate::names::{suggestion, unknown_key};
+use crate::overlay::{overlay, shift};
 use crate::place::Place;
 use crate::schema::{Described, Tables};
 use crate::syntax::{NUMBER, parse_document, shown};
 
-/// Reads a TOML text.
-///
-/// # Errors
-/// [`FileError`] where the text is not such a document, or a value is outside its limits: key, line
-/// and what is expected.
-pub fn parse_toml<T: DeserializeOwned + Described>(place: &Place<'_>) -> Result<T, FileError> {
-    let document = parse_document(place)?;
-    let whole = Spanned::new(0..place.text().len(), DeValue::Table(document.clone()));
-    read_value(place, &document, &whole).map_err(|fault| place.error(fault.span, fault.message))
+/// A TOML text, parsed once: its tables, with the places of keys and values.
+#[derive(Clone)]
+pub struct TomlFile<'a> {
+    place: Place<'a>,
+    /// The table of the whole text.
+    whole: Spanned<DeValue<'a>>,
 }
 
-/// Reads a value of a document, such as a table in it.
-///
-/// # Errors
-/// [`Fault`] of the first key that is not known, of a value of another kind, or outside its limits.
-pub fn read_value<T: DeserializeOwned + Described>(
-    place: &Place<'_>,
-    document: &DeTable<'_>,
-    value: &Spanned<DeValue<'_>>,
-) -> Result<T, Fault> {
-    let refused = |error: toml::de::Error| {
-        let span = error.span().unwrap_or(value.span());
-        let message =
-            Found::at(document, place.text(), &span).explained(error.message(), &schema_of::<T>().1);
-        let mut keys = Vec::new();
-        in_value(value.get_ref(), &span, &mut keys);
-        Fault { keys, span, message }
-    };
-    let read = T::deserialize(ValueDeserializer::from(value.clone())).map_err(refused)?;
-    fault::<T>(value).map_or(Ok(read), Err)
+impl<'a> TomlFile<'a> {
+    /// Parses a text; `name` stands for its file in messages.
+    ///
+    /// # Errors
+    /// [`FileError`] where the text is not TOML.
+    pub fn new(name: &'a str, text: &'a str) -> Result<Self, FileError> {
+        let place = Place::new(name, text);
+        let table = DeValue::Table(parse_document(&place)?);
+        Ok(Self { place, whole: Spanned::new(0..text.len(), table) })
+    }
+
+    /// Parses a text that has `own` bytes of its own, and behind them assignments, one a line, such as
+    /// `check.soil = "C"`: each is laid over what stands before it.
+    ///
+    /// # Errors
+    /// [`FileError`] where the own text is not TOML.
+    pub fn with_assignments(name: &'a str, text: &'a str, own: usize) -> Result<Self, FileError> {
+        let mut file = Self { place: Place::new(name, text), ..Self::new(name, &text[..own])? };
+        let mut from = own;
+        for line in text[own..].split_inclusive('\n') {
+            if let Ok(table) = DeTable::parse(line) {
+                let mut table = table.into_inner();
+                table.iter_mut().for_each(|(_, value)| shift(value, from));
+                overlay(file.table_mut(), &table);
+            }
+            from += line.len();
+        }
+        Ok(file)
+    }
+
+    /// Returns the text with its file's name.
+    pub fn place(&self) -> &Place<'a> {
+        &self.place
+    }
+
+    /// Returns the table of the whole text.
+    pub fn table(&self) -> &DeTable<'a> {
+        self.whole.get_ref().as_table().unwrap_or_else(|| unreachable!("a text is a table"))
+    }
+
+    /// Returns the table of the whole text, to change it.
+    pub fn table_mut(&mut self) -> &mut DeTable<'a> {
+        match self.whole.get_mut() {
+            DeValue::Table(table) => table,
+            _ => unreachable!("a text is a table"),
+        }
+    }
+
+    /// Returns the value to which keys lead from the outermost table on.
+    pub fn get(&self, keys: &[&str]) -> Option<&Spanned<DeValue<'a>>> {
+        keys.iter().try_fold(&self.whole, |value, key| value.get_ref().get(*key))
+    }
+
+    /// Reads the whole text.
+    ///
+    /// # Errors
+    /// [`FileError`] of the first key that is not known, of a value of another kind, or outside its limits:
+    /// key, line and what is expected.
+    pub fn read<T: DeserializeOwned + Described>(&self) -> Result<T, FileError> {
+        self.read_value(&self.whole).map_err(|fault| self.place.error(fault.span, fault.message))
+    }
+
+    /// Reads a value, such as a table.
+    ///
+    /// # Errors
+    /// [`Fault`] as of [`Self::read`].
+    pub fn read_value<T: DeserializeOwned + Described>(
+        &self,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Result<T, Fault> {
+        let refused = |error: toml::de::Error| {
+            let span = error.span().unwrap_or(value.span());
+            let found = Found::at(self.table(), self.place.text(), &span);
+            let message = found.explained(error.message(), &schema_of::<T>().1);
+            let mut keys = Vec::new();
+            in_value(value.get_ref(), &span, &mut keys);
+            Fault { keys, span, message }
+        };
+        let read = T::deserialize(ValueDeserializer::from(value.clone())).map_err(refused)?;
+        fault::<T>(value).map_or(Ok(read), Err)
+    }
 }
 
 /// What stands where a value cannot be used.

@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 
 use ground_motion::{Acceleration, Format, Unit};
-use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::de::{DeserializeOwned, Deserializer, Error, IgnoredAny, Visitor};
 use toml::{Spanned, Table, Value};
 
 use crate::names::Groups;
@@ -119,11 +119,11 @@ pub fn describe_table<T: DeserializeOwned>(
         for (key, field) in keys.iter().zip(fields) {
             let mut property = with((field.describe)(key, tables), "description", plain(field.text));
             property.extend((field.words)().into_iter().map(|(word, value)| (word.to_owned(), value)));
-            properties.insert(key.clone(), property.into());
+            properties.insert((*key).to_owned(), property.into());
         }
         let mut table = with(object(properties), "description", plain(about));
         let required = keys.iter().zip(fields).filter(|(_, field)| !field.optional);
-        let required: Vec<_> = required.map(|(key, _)| key.as_str()).collect();
+        let required: Vec<_> = required.map(|(key, _)| *key).collect();
         if !required.is_empty() {
             table.insert("required".into(), required.into());
         }
@@ -184,12 +184,48 @@ fn plain(comment: &str) -> String {
     comment.trim().replace(['\\', '`'], "")
 }
 
-/// Returns the names that serde reads: the keys of a struct, or the choices of an enumeration. Its refusal of
-/// another name lists them.
-pub fn names<T: DeserializeOwned>() -> Vec<String> {
-    let refusal = toml::from_str::<T>("'' = 0").err().map(|error| error.message().to_owned());
-    // unknown field ``, expected one of `a`, `b`
-    refusal.iter().flat_map(|text| text.split('`').skip(3).step_by(2)).map(str::to_owned).collect()
+/// Returns the names that serde reads, in the order of their declaration: the keys of a struct, or the choices
+/// of an enumeration.
+pub fn names<T: DeserializeOwned>() -> &'static [&'static str] {
+    let mut names: &[&str] = &[];
+    let _ = T::deserialize(Names(&mut names));
+    names
+}
+
+/// Takes the names that a type asks for, and has no value for them.
+struct Names<'a>(&'a mut &'static [&'static str]);
+
+impl<'de> Deserializer<'de> for Names<'_> {
+    type Error = serde::de::value::Error;
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Self::Error> {
+        *self.0 = fields;
+        self.deserialize_any(visitor)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Self::Error> {
+        *self.0 = variants;
+        self.deserialize_any(visitor)
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _visitor: V) -> Result<V::Value, Self::Error> {
+        Err(Self::Error::custom("only the names are asked for"))
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit
+        unit_struct newtype_struct seq tuple tuple_struct map identifier ignored_any
+    }
 }
 
 /// Describes enumerations that serde reads: their names are the choices.
@@ -198,7 +234,7 @@ macro_rules! choices {
     ($($type:ty),+) => {$(
         impl $crate::Described for $type {
             fn describe(_key: &str, _tables: &mut $crate::Tables) -> $crate::Schema {
-                $crate::one_of($crate::names::<Self>().iter().map(String::as_str))
+                $crate::one_of($crate::names::<Self>().iter().copied())
             }
         }
     )+};

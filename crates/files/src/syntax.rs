@@ -10,7 +10,7 @@ use crate::place::Place;
 ///
 /// # Errors
 /// [`FileError`] where the text is not TOML.
-pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, FileError> {
+pub(crate) fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, FileError> {
     DeTable::parse(place.text()).map(Spanned::into_inner).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let text = place.text();

@@ -1,7 +1,7 @@
 //! What a study asks of the codes.
 
 use check::{CheckFile, read};
-use files::FileError;
+use files::{FileError, TomlFile};
 use rocking_wall::scene::SceneError;
 
 /// The codes that this program knows, for studies.
@@ -29,13 +29,8 @@ use rocking_wall::scene::SceneError;
 pub struct Codes;
 
 impl study::codes::Codes for Codes {
-    fn spectral_shape(
-        &self,
-        name: &str,
-        text: &str,
-        periods: &[f64],
-    ) -> Result<Option<Vec<f64>>, SceneError> {
-        let file = CheckFile::parse(name, text)?.without_records();
+    fn spectral_shape(&self, file: &TomlFile<'_>, periods: &[f64]) -> Result<Option<Vec<f64>>, SceneError> {
+        let file = CheckFile::new(file.clone()).without_records();
         let code = read(&file).map_err(|error| file.located(error))?;
         Ok(code.spectral_shape(periods))
     }

@@ -1,6 +1,6 @@
 //! A wall as tables of a study file: what a study's folder keeps of it, and what another process gets.
 
-use files::{FileError, Place, parse_toml};
+use files::{FileError, TomlFile};
 use rocking_wall::scene::{Document, Scene, apply_group, read_floors, to_toml};
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
@@ -40,12 +40,12 @@ pub fn wall_text(wall: &NamedWall) -> String {
 /// # Errors
 /// [`FileError`] with line and value.
 pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, FileError> {
-    let place = &Place::new(&name, text);
-    let wall: Document = parse_toml(place)?;
+    let file = &TomlFile::new(&name, text)?;
+    let wall: Document = file.read()?;
     let mut parameters = Parameters::default();
     for (group, entries) in wall.groups() {
-        apply_group(&mut parameters, group, entries, place)?;
+        apply_group(&mut parameters, group, entries, file)?;
     }
-    let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
+    let floors = read_floors(&wall.storeys, wall.supports.as_ref(), file.place())?;
     Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })
 }

@@ -3,9 +3,7 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use files::{
-    Described, FileError, Place, Schema, Tables, object, parse_document, parse_toml, suggestion, tables,
-};
+use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
     Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parameters,
     read_floors,
@@ -38,12 +36,13 @@ pub fn read_scene(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneError>
 
 fn scene_and_stated(path: &Path) -> Result<(Scene, Vec<&'static str>), SceneError> {
     let (name, text) = (path.display().to_string(), Scene::text(path)?);
-    let scene = Scene::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))?;
-    let document = parse_document(&Place::new(&name, &text))?;
-    let group = |group: &str| document.get(group).and_then(|group| group.get_ref().as_table());
-    let bar = group("tie").and_then(|tie| tie.get("bar")?.get_ref().as_table());
-    let of = |name: &str| if name == "bar" { bar } else { group(name) };
-    Ok((scene, stated(|group, key| of(group).is_some_and(|group| group.contains_key(key)))))
+    let file = TomlFile::new(&name, &text)?;
+    let scene = Scene::of(&file, path.parent().unwrap_or(Path::new(".")))?;
+    let is_stated = |group: &str, key: &str| match group {
+        "bar" => file.get(&["tie", "bar", key]).is_some(),
+        group => file.get(&[group, key]).is_some(),
+    };
+    Ok((scene, stated(is_stated)))
 }
 
 /// A wall of a study.
@@ -113,23 +112,6 @@ fn without_model(group: &str) -> Schema {
     parameters
 }
 
-/// Keys of a study or a check other than those of its walls.
-const OTHER_KEYS: [&str; 13] = [
-    "title",
-    "check",
-    "models",
-    "tail",
-    "intensity",
-    "levels",
-    "records",
-    "polarity",
-    "report",
-    "hazard",
-    "reliability",
-    "classes",
-    "uncertain",
-];
-
 /// What a study or a check says of its walls.
 #[derive(Debug, Deserialize)]
 struct WallsDocument {
@@ -148,24 +130,22 @@ impl Described for WallsDocument {
     }
 }
 
-/// Reads the walls of a text with walls, storeys and supports; other keys are those of a study or a check.
+/// Reads the walls of a file with walls, storeys and supports; it may have other keys.
 ///
 /// # Errors
 /// [`FileError`] with file, line, value and remedy.
-fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, FileError> {
-    let place = &Place::new(name, text);
-    let known = || OTHER_KEYS.into_iter().chain(["storeys", "supports", "walls"]);
-    let document = parse_document(place)?;
-    if let Some(key) = document.keys().find(|key| known().all(|name| name != key.get_ref())) {
+fn walls_of(file: &TomlFile<'_>, others: &[&str]) -> Result<Vec<WallEntry>, FileError> {
+    let known = || names::<WallsDocument>().iter().chain(others).copied();
+    if let Some(key) = file.table().keys().find(|key| known().all(|name| name != key.get_ref())) {
         let meant = suggestion(key.get_ref(), known());
         let message = format!("{:?} is not a key of a file of walls{meant}; leave it out", key.get_ref());
-        return Err(place.error(key.span(), message));
+        return Err(file.place().error(key.span(), message));
     }
-    let WallsDocument { storeys, supports, walls } = parse_toml(place)?;
-    entries(&walls, &storeys, supports.as_ref(), place)
+    let WallsDocument { storeys, supports, walls } = file.read()?;
+    entries(&walls, &storeys, supports.as_ref(), file)
 }
 
-/// Reads the walls of a text, each with its storeys.
+/// Reads the walls of a file, each with its storeys.
 ///
 /// # Errors
 /// [`FileError`] with file, line, value and remedy.
@@ -173,17 +153,17 @@ pub fn entries(
     walls: &[Spanned<WallTable>],
     storeys: &[Spanned<StoreyTable>],
     supports: Option<&Spanned<SupportsTable>>,
-    place: &Place<'_>,
+    file: &TomlFile<'_>,
 ) -> Result<Vec<WallEntry>, FileError> {
     let entry = |table: &Spanned<WallTable>| {
         let supports = table.get_ref().supports.as_ref().or(supports);
-        Ok(WallEntry { floors: read_floors(storeys, supports, place)?, ..wall(table, place)? })
+        Ok(WallEntry { floors: read_floors(storeys, supports, file.place())?, ..wall(table, file)? })
     };
     walls.iter().map(entry).collect()
 }
 
-fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, FileError> {
-    let spec = table.get_ref();
+fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, FileError> {
+    let (spec, place) = (table.get_ref(), file.place());
     // crates/check reads it
     let _ = spec.check;
     let [geometry, force_law, damping, impact, tie, solver] = WALL_GROUPS;
@@ -219,7 +199,7 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, File
     }
     let mut parameters = Parameters::default();
     for (name, group) in groups {
-        apply_group(&mut parameters, name, group, place)?;
+        apply_group(&mut parameters, name, group, file)?;
     }
     let bar =
         spec.tie.iter().find(|(key, _)| key.get_ref() == "bar").and_then(|(_, bar)| bar.get_ref().as_table());
@@ -232,27 +212,28 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, File
     Ok(WallEntry { name: spec.name.clone(), source, floors: None })
 }
 
-/// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
-/// looked up beside its file. Adds the files that are read, and warnings about defaults.
+/// Reads the walls of a file, which may have `others` among its keys, those of a study or a check. Scenes and
+/// tables that it names are looked up beside it. Adds the files that are read, and warnings about defaults.
 ///
 /// # Errors
 /// [`FileError`], with file, line, value and remedy.
 pub fn read_walls(
-    text: &str,
-    path: &Path,
+    file: &TomlFile<'_>,
+    others: &[&str],
     inputs: &mut Vec<PathBuf>,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedWall>, FileError> {
-    let name = path.display().to_string();
+    let name = file.place().name();
+    let path = Path::new(name);
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut walls = Vec::new();
     inputs.push(path.to_owned());
-    for (place, entry) in walls_of(&name, text)?.into_iter().enumerate() {
+    for (place, entry) in walls_of(file, others)?.into_iter().enumerate() {
         // a check uses neither the motion nor the damping of a scene
-        let found = self::walls(entry, folder, &name, inputs, &mut Vec::new())?;
+        let found = self::walls(entry, folder, name, inputs, &mut Vec::new())?;
         walls.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
     }
-    warnings.extend(defaults(&name, walls.iter()));
+    warnings.extend(defaults(name, walls.iter()));
     check_unique("walls", walls.iter().map(|wall| &wall.name))
         .map_err(|reason| FileError::whole(name, reason))?;
     Ok(walls)

@@ -1,20 +1,19 @@
 //! What a study asks of building codes. A study knows none: the crate that does answers.
 
-use files::FileError;
+use files::{FileError, TomlFile};
 use rocking_wall::scene::SceneError;
 
-/// Answers what a study asks of its table `[check]`. `name` stands for the file of the study in messages, and
-/// `text` is its text.
+/// Answers what a study asks of its table `[check]`.
 pub trait Codes {
     /// Returns the spectrum of the ground over its acceleration, `S_e`(T)/`a_g` at 5 % damping, at some
     /// periods \[s\]; `None` where the table states no site.
     ///
     /// # Errors
     /// [`SceneError`] of the table.
-    fn spectral_shape(&self, name: &str, text: &str, periods: &[f64])
-    -> Result<Option<Vec<f64>>, SceneError>;
+    fn spectral_shape(&self, file: &TomlFile<'_>, periods: &[f64]) -> Result<Option<Vec<f64>>, SceneError>;
 
-    /// Returns the text with the files in it that its table names.
+    /// Returns the text of a study with the files in it that its table names; `name` stands for its file in
+    /// messages.
     ///
     /// # Errors
     /// [`FileError`] of the table, or of a file.
@@ -26,7 +25,7 @@ pub trait Codes {
 pub struct NoCodes;
 
 impl Codes for NoCodes {
-    fn spectral_shape(&self, _: &str, _: &str, _: &[f64]) -> Result<Option<Vec<f64>>, SceneError> {
+    fn spectral_shape(&self, _: &TomlFile<'_>, _: &[f64]) -> Result<Option<Vec<f64>>, SceneError> {
         Ok(None)
     }
 

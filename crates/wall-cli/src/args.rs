@@ -7,7 +7,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use files::{Place, parse_document};
+use files::TomlFile;
 use ground_motion::{
     Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
     parse, parse_channels, read,
@@ -110,9 +110,9 @@ impl SceneArguments {
 /// Finds the command of a file that has the keys of a study or of walls.
 fn command_of(path: &Path) -> Option<&'static str> {
     let text = std::fs::read_to_string(path).ok()?;
-    let document = parse_document(&Place::new("", &text)).ok()?;
+    let file = TomlFile::new("", &text).ok()?;
     let commands = [("models", "wall study ida"), ("walls", "wall check")];
-    commands.into_iter().find(|(key, _)| document.contains_key(*key)).map(|(_, command)| command)
+    commands.into_iter().find(|(key, _)| file.table().contains_key(*key)).map(|(_, command)| command)
 }
 
 /// Applies `--set` to a scene, after a motion may have changed the start.

@@ -5,10 +5,10 @@ pub(crate) mod site;
 
 use std::path::{Path, PathBuf};
 
-use files::{Described, Fault, FileError, Place, parse_document, read_text, read_value};
-use rocking_wall::scene::SceneError;
+use files::{Described, Fault, FileError, TomlFile, overlay, read_text};
+use rocking_wall::scene::{Scene, SceneError};
 use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
-use run::walls::assumed;
+use run::walls::{NamedWall, assumed, read_walls};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
@@ -18,6 +18,9 @@ use crate::error::CheckError;
 use project::ReportTable;
 use project::SiteOfProject;
 use site::Records;
+
+/// What a file with a table `[check]` has beside its wall or walls.
+const KEYS: &[&str] = &["title", "check", "report"];
 
 /// Largest grid of the hazard that is read.
 const MAX_GRID_BYTES: u64 = 64 << 20;
@@ -37,46 +40,22 @@ pub fn with_assignments(text: &str, set: &[String]) -> Result<String, String> {
         let written = format!("{key} = {value}");
         // a text needs no quotes here; one of JSON is one of TOML
         let quoted = || format!("{key} = {}", serde_json::Value::from(value));
-        let line = if written.parse::<toml::Table>().is_ok() { written } else { quoted() };
-        if let Err(error) = line.parse::<toml::Table>() {
-            return Err(format!("{assignment}: {}", error.message()));
-        }
-        lines.push(line);
+        let refused = |error: toml::de::Error| format!("{assignment}: {}", error.message());
+        lines.push(match written.parse::<toml::Table>() {
+            Ok(_) => written,
+            Err(_) => quoted().parse::<toml::Table>().map(|_| quoted()).map_err(refused)?,
+        });
     }
     Ok(lines.join("\n"))
 }
 
-/// Moves the places of a value by some bytes.
-fn shift(value: &mut Spanned<DeValue<'_>>, by: usize) {
-    let place = value.span();
-    match value.get_mut() {
-        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| shift(value, by)),
-        DeValue::Array(array) => array.iter_mut().for_each(|value| shift(value, by)),
-        _ => {}
-    }
-    let inner = std::mem::replace(value.get_mut(), DeValue::Boolean(false));
-    *value = Spanned::new(place.start + by..place.end + by, inner);
-}
-
-/// Lays a table over another, key by key.
-fn overlay<'a>(base: &mut DeTable<'a>, patch: &DeTable<'a>) {
-    for (key, value) in patch {
-        let below = base.get_mut(key).map(Spanned::get_mut);
-        if let (Some(DeValue::Table(below)), DeValue::Table(patch)) = (below, value.get_ref()) {
-            overlay(below, patch);
-        } else {
-            base.remove(key);
-            base.insert(key.clone(), value.clone());
-        }
-    }
-}
-
 /// A scene, or a file of walls, with a table `[check]`.
+#[derive(Clone)]
 pub struct CheckFile<'a> {
-    place: Place<'a>,
+    /// The file as it is parsed, with assignments over it.
+    file: TomlFile<'a>,
     /// Bytes of the text that are the file's own; assignments follow.
     own: usize,
-    document: DeTable<'a>,
     folder: PathBuf,
     records: Vec<NamedRecord>,
     /// Whether the records that the table names are read.
@@ -89,7 +68,13 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`FileError`] where the text is not TOML.
     pub fn parse(name: &'a str, text: &'a str) -> Result<Self, FileError> {
-        Self::parse_with(name, text, text.len())
+        Ok(Self::new(TomlFile::new(name, text)?))
+    }
+
+    /// Takes a file that is parsed already.
+    pub fn new(file: TomlFile<'a>) -> Self {
+        let folder = Path::new(file.place().name()).parent().unwrap_or(Path::new(".")).to_owned();
+        Self { own: file.place().text().len(), file, folder, records: Vec::new(), reads_records: true }
     }
 
     /// Parses a text that has `own` bytes of its own, and assignments behind them: see [`with_assignments`].
@@ -97,19 +82,29 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`FileError`] where the text is not TOML.
     pub fn parse_with(name: &'a str, text: &'a str, own: usize) -> Result<Self, FileError> {
-        let place = Place::new(name, text);
-        let mut document = parse_document(&Place::new(name, &text[..own]))?;
-        let folder = Path::new(name).parent().unwrap_or(Path::new(".")).to_owned();
-        let mut from = own;
-        for line in text[own..].split_inclusive('\n') {
-            if let Ok(table) = DeTable::parse(line) {
-                let mut table = table.into_inner();
-                table.iter_mut().for_each(|(_, value)| shift(value, from));
-                overlay(&mut document, &table);
-            }
-            from += line.len();
-        }
-        Ok(Self { place, own, document, folder, records: Vec::new(), reads_records: true })
+        Ok(Self { own, ..Self::new(TomlFile::with_assignments(name, text, own)?) })
+    }
+
+    /// Reads the scene of the file.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        Scene::of(&self.file, &self.folder)
+    }
+
+    /// Reads the walls of the file, which may have `others` among its keys, those of a study. Adds the files
+    /// that are read, and warnings about defaults.
+    ///
+    /// # Errors
+    /// [`FileError`] with file, line, value and remedy.
+    pub fn walls(
+        &self,
+        others: &[&str],
+        inputs: &mut Vec<PathBuf>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<NamedWall>, FileError> {
+        read_walls(&self.file, &[KEYS, others].concat(), inputs, warnings)
     }
 
     /// Returns the file with what one of its walls states of the check laid over the file's own statements;
@@ -119,15 +114,15 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`FileError`] of another key.
     pub(crate) fn of_wall(&self, entry: usize, allowed: &[&str]) -> Result<Option<Self>, FileError> {
-        let walls = self.document.get("walls").and_then(|walls| walls.get_ref().as_array());
+        let walls = self.file.get(&["walls"]).and_then(|walls| walls.get_ref().as_array());
         let wall = walls.and_then(|walls| walls.get(entry)).and_then(|wall| wall.get_ref().as_table());
         let Some(own) = wall.and_then(|wall| wall.get("check")) else { return Ok(None) };
         let Some(own) = own.get_ref().as_table() else {
             let message = "check of a wall is a table, such as { hinge = \"worst\" }";
-            return Err(self.place.error(own.span(), message));
+            return Err(self.file.place().error(own.span(), message));
         };
-        let mut document = self.document.clone();
-        let Some(DeValue::Table(check)) = document.get_mut("check").map(Spanned::get_mut) else {
+        let mut file = self.clone();
+        let Some(DeValue::Table(check)) = file.file.table_mut().get_mut("check").map(Spanned::get_mut) else {
             return Ok(None);
         };
         let has = |others: &str, path: &str| others.split('|').any(|other| other == path);
@@ -144,7 +139,7 @@ impl<'a> CheckFile<'a> {
                     "check.{path} is that of the building, not of a wall alone; state it in the file's \
                      [check]"
                 );
-                return Err(self.place.error(value.span(), message));
+                return Err(self.file.place().error(value.span(), message));
             }
             for other in allowed.iter().filter(|others| has(others, key)).flat_map(|others| others.split('|'))
             {
@@ -154,9 +149,7 @@ impl<'a> CheckFile<'a> {
             }
         }
         overlay(check, own);
-        let place = Place::new(self.place.name(), self.place.text());
-        let (folder, records) = (self.folder.clone(), self.records.clone());
-        Ok(Some(Self { place, document, folder, records, ..*self }))
+        Ok(Some(file))
     }
 
     /// Takes these records in place of those that the table names.
@@ -173,12 +166,12 @@ impl<'a> CheckFile<'a> {
 
     /// The name of the file.
     pub fn name(&self) -> &'a str {
-        self.place.name()
+        self.file.place().name()
     }
 
     /// The text of the file.
     pub fn text(&self) -> &'a str {
-        &self.place.text()[..self.own]
+        &self.file.place().text()[..self.own]
     }
 
     /// Returns the text of the file with the lines of the grid of `[check.site]` in place of the name of its
@@ -187,7 +180,7 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`FileError`] of a grid that cannot be read.
     pub fn self_contained(&self) -> Result<String, FileError> {
-        let grid = self.check().and_then(|check| check.get_ref().get("site")?.get_ref().get("grid"));
+        let grid = self.file.get(&["check", "site", "grid"]);
         let named = grid.and_then(|grid| Some((grid.span(), grid.get_ref().as_str()?)));
         let Some((span, grid)) = named else { return Ok(self.text().to_owned()) };
         let lines = lines_of_grid(grid, &self.folder)?;
@@ -204,17 +197,12 @@ impl<'a> CheckFile<'a> {
 
     /// Returns whether the file is one of walls, as a study is.
     pub fn has_walls(&self) -> bool {
-        self.document.contains_key("walls")
+        self.file.table().contains_key("walls")
     }
 
     /// Returns whether the file states a value.
     pub(crate) fn states(&self, keys: &[&str]) -> bool {
-        let mut table = Some(&self.document);
-        keys.iter().all(|key| {
-            let value = table.and_then(|table| table.get(*key));
-            table = value.and_then(|value| value.get_ref().as_table());
-            value.is_some()
-        })
+        self.file.get(keys).is_some()
     }
 
     /// Returns the parameters that decide verdicts, and that the file leaves to their start values; `set`
@@ -226,7 +214,7 @@ impl<'a> CheckFile<'a> {
     }
 
     fn check(&self) -> Option<&Spanned<DeValue<'a>>> {
-        self.document.get("check")
+        self.file.get(&["check"])
     }
 
     /// Returns the name of the code; `None` without a table `[check]`, and an empty one where it has none.
@@ -241,8 +229,7 @@ impl<'a> CheckFile<'a> {
     /// number outside the limits that its schema states.
     pub(crate) fn table<T: DeserializeOwned + Described>(&self) -> Result<T, CheckError> {
         let Some(check) = self.check() else { return Err(CheckError::wall("the table [check] is missing")) };
-        read_value(&self.place, &self.document, check)
-            .map_err(|Fault { keys, message, .. }| CheckError::Value { keys, message })
+        self.file.read_value(check).map_err(|Fault { keys, message, .. }| CheckError::Value { keys, message })
     }
 
     /// Reads the table `[report]`; that of a study says what the study shows. Coordinates, `V_N` and `C_U`
@@ -252,19 +239,20 @@ impl<'a> CheckFile<'a> {
     /// [`FileError`] of the first key that is not known, or whose value cannot be used, or differs
     /// from that of the site.
     pub fn report(&self) -> Result<ReportTable, FileError> {
-        let is_study = self.document.contains_key("levels") || self.document.contains_key("models");
+        let is_study = self.states(&["levels"]) || self.states(&["models"]);
         // what is wrong with the site is told where the check is read
-        let site = self.check().and_then(|check| check.get_ref().get("site")).cloned();
+        let site = self.file.get(&["check", "site"]).cloned();
         let site = site.and_then(|site| SiteOfProject::deserialize(ValueDeserializer::from(site)).ok());
         let site = site.unwrap_or_default();
-        let Some(given) = self.document.get("report").filter(|_| !is_study) else {
+        let Some(given) = self.file.get(&["report"]).filter(|_| !is_study) else {
             return Ok(ReportTable::of_site(&site));
         };
-        let mut table: ReportTable = read_value(&self.place, &self.document, given)
-            .map_err(|fault| self.place.error(fault.span, fault.message))?;
+        let place = self.file.place();
+        let mut table: ReportTable =
+            self.file.read_value(given).map_err(|fault| place.error(fault.span, fault.message))?;
         table.complete(&site).map_err(|(key, message)| {
             let value = given.get_ref().get(key);
-            self.place.error(value.map_or(given.span(), Spanned::span), format!("[report] {message}"))
+            place.error(value.map_or(given.span(), Spanned::span), format!("[report] {message}"))
         })?;
         Ok(table)
     }
@@ -276,7 +264,7 @@ impl<'a> CheckFile<'a> {
     pub(crate) fn records(&self, table: Option<&Spanned<RecordsTable>>) -> Result<Records, CheckError> {
         let (mut files, mut warnings, mut named) = (Vec::new(), Vec::new(), self.records.clone());
         if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
-            let entry = records(table, &self.place)?;
+            let entry = records(table, self.file.place())?;
             let found = record_files(&entry, &self.folder, self.name())?;
             named = all_records(&entry, &found, self.name(), &mut warnings)?;
             files = found.into_iter().map(|file| file.path).collect();
@@ -292,13 +280,13 @@ impl<'a> CheckFile<'a> {
         match (span, error) {
             (_, CheckError::File(error)) => error.into(),
             (_, CheckError::Scene(error)) => error,
-            (Some(span), _) if span.start >= self.own && self.own < self.place.text().len() => {
-                let after = &self.place.text()[self.own..];
+            (Some(span), _) if span.start >= self.own && self.own < self.file.place().text().len() => {
+                let after = &self.file.place().text()[self.own..];
                 let line = after.get(..span.start - self.own).unwrap_or_default().matches('\n').count();
                 let line = after.lines().nth(line).unwrap_or_default();
                 FileError::whole(self.name(), format!("--set {line}: {reason}")).into()
             }
-            (Some(span), _) => self.place.error(span, reason).into(),
+            (Some(span), _) => self.file.place().error(span, reason).into(),
             (None, _) => FileError::whole(self.name(), reason).into(),
         }
     }

@@ -3,7 +3,6 @@
 
 use check::{CheckFile, Subject, WallCodes, check_walls, read, with_assignments};
 use rocking_wall::scene::Scene;
-use run::walls::read_walls;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_hinges::{facade, palazzo, positive, strip};
@@ -255,8 +254,8 @@ fn building(more: &str) -> String {
 #[test]
 fn walls_of_one_building() {
     let of = |text: &str| {
-        let walls = read_walls(text, "building.toml".as_ref(), &mut Vec::new(), &mut Vec::new()).unwrap();
         let file = CheckFile::parse("building.toml", text).unwrap();
+        let walls = file.walls(&[], &mut Vec::new(), &mut Vec::new()).unwrap();
         let codes = WallCodes::read(&file, &walls).map_err(|error| error.to_string())?;
         let json = check_walls(&codes, &walls, 1).json();
         Ok::<_, String>(json)

@@ -3,7 +3,7 @@
 
 use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_walls, read};
 use rocking_wall::scene::Scene;
-use run::walls::{NamedWall, read_walls};
+use run::walls::NamedWall;
 
 use crate::circolare::PARAPET;
 use crate::circolare_hinges::palazzo;
@@ -41,8 +41,8 @@ pub(crate) fn report_of_walls(language: Language) -> String {
 }
 
 fn report_of_file(name: &str, text: &str, language: Language) -> String {
-    let walls = read_walls(text, name.as_ref(), &mut Vec::new(), &mut Vec::new()).unwrap();
     let file = CheckFile::parse(name, text).unwrap();
+    let walls = file.walls(&[], &mut Vec::new(), &mut Vec::new()).unwrap();
     let codes = WallCodes::read(&file, &walls).unwrap();
     let verdicts = check_walls(&codes, &walls, 1);
     let mut report = file.report().unwrap();

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use files::{FileError, Place, parse_toml, read_text, tables};
+use files::{FileError, TomlFile, read_text, tables};
 use rocking_wall::scene::{Group, apply_group, check_limits, variable};
 use rocking_wall::wall::Parameters;
 
@@ -63,20 +63,20 @@ impl PublishedTest {
     /// [`FileError`] with file, line and what was expected.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let (name, text) = (path.display().to_string(), text(path)?);
-        let place = &Place::new(&name, &text);
-        let document: TestDocument = parse_toml(place)?;
+        let file = TomlFile::new(&name, &text)?;
+        let document: TestDocument = file.read()?;
         let mut parameters = Parameters::default();
-        apply_group(&mut parameters, "geometry", &document.geometry, place)?;
+        apply_group(&mut parameters, "geometry", &document.geometry, &file)?;
         let points_path = path.with_file_name(&document.points);
         let points = points(&points_path)?;
         let (span, test) = match (document.push, document.decay) {
             (Some(table), None) => (table.span(), Test::Push(Push { points, ..table.into_inner() })),
             (None, Some(table)) => (table.span(), Test::Decay(Decay { points, ..table.into_inner() })),
             _ => {
-                return Err(FileError::whole(name, "expected one table, [push] or [decay]"));
+                return Err(FileError::whole(&name, "expected one table, [push] or [decay]"));
             }
         };
-        test.check().map_err(|message| place.error(span, message))?;
+        test.check().map_err(|message| file.place().error(span, message))?;
         let inputs = [path.to_owned(), points_path];
         Ok(Self { title: document.title, source: document.source, parameters, test, inputs })
     }

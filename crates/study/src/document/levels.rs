@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Levels, ToSi};
-use files::{FileError, Place, tables};
+use files::{FileError, Place, TomlFile, tables};
 use rocking_wall::scene::SceneError;
 
 /// Names of the intensity measures.
@@ -65,10 +65,10 @@ tables! {
 pub(super) fn measure(
     table: Option<&Spanned<IntensityTable>>,
     codes: &dyn Codes,
-    place: &Place<'_>,
+    file: &TomlFile<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
     let Some(table) = table else { return Ok(IntensityMeasure::default()) };
-    let spec = table.get_ref();
+    let (spec, place) = (table.get_ref(), file.place());
     let refuse = |message: &str| Err(place.error(table.span(), message).into());
     if let Some(select) = spec.select.as_ref().filter(|_| spec.measure.get_ref() != "code") {
         let message =
@@ -99,7 +99,7 @@ pub(super) fn measure(
         ("AvgSA", ..) => refuse("AvgSA takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         ("code", None, periods) => {
             let usual = || (2..=20).map(|tenth| f64::from(tenth) / 10.0).collect();
-            of_code(periods.clone().unwrap_or_else(usual), table, codes, place)
+            of_code(periods.clone().unwrap_or_else(usual), table, codes, file)
         }
         ("code", ..) => refuse("code takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
@@ -114,8 +114,9 @@ fn of_code(
     periods: Vec<f64>,
     table: &Spanned<IntensityTable>,
     codes: &dyn Codes,
-    place: &Place<'_>,
+    file: &TomlFile<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
+    let place = file.place();
     if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
         return Err(place.error(table.span(), format!("periods: {period} s must be above 0")).into());
     }
@@ -125,7 +126,7 @@ fn of_code(
             "measure = \"code\" needs the spectrum of the site: ag, F0 and TC of SLV in [check]",
         )
     };
-    let shape = codes.spectral_shape(place.name(), place.text(), &periods)?;
+    let shape = codes.spectral_shape(file, &periods)?;
     let shape = shape.filter(|shape| !shape.is_empty()).ok_or_else(missing)?;
     Ok(IntensityMeasure::Code { periods, shape })
 }

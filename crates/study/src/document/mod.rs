@@ -22,7 +22,7 @@ mod model;
 mod report;
 mod uncertain;
 
-use files::{Place, Schema, file_schema, parse_toml, tables, with};
+use files::{Schema, TomlFile, file_schema, names, tables, with};
 use rocking_wall::scene::{DEFAULT_TAIL, SceneError, StoreyTable, SupportsTable};
 use run::model::Model;
 use run::records::{RecordsEntry, RecordsTable, records};
@@ -135,6 +135,11 @@ impl StudyFile {
         with(file_schema::<Document>("Study of rocking-wall"), "required", required)
     }
 
+    /// Returns the keys of study files.
+    pub fn keys() -> &'static [&'static str] {
+        names::<Document>()
+    }
+
     /// Reads a study from its text; `name` stands for the file in messages, and `codes` answer what
     /// `measure = "code"` asks. Walls and records may be missing,
     /// since a program can supply them itself.
@@ -142,8 +147,8 @@ impl StudyFile {
     /// # Errors
     /// [`SceneError`] with file, line, value and remedy.
     pub fn parse(name: &str, text: &str, codes: &dyn Codes) -> Result<Self, SceneError> {
-        let place = &Place::new(name, text);
-        let document: Document = parse_toml(place)?;
+        let file = &TomlFile::new(name, text)?;
+        let (document, place): (Document, _) = (file.read()?, file.place());
         let models: Vec<Model> =
             document.models.iter().map(|value| model(value, place)).collect::<Result<_, _>>()?;
         for (index, model) in models.iter().enumerate() {
@@ -152,8 +157,8 @@ impl StudyFile {
                 return Err(place.error(document.models[index].span(), message).into());
             }
         }
-        let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
-        let measure = measure(document.intensity.as_ref(), codes, place)?;
+        let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), file)?;
+        let measure = measure(document.intensity.as_ref(), codes, file)?;
         let levels = levels(&document.levels, &measure, place)?;
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
             && *word.get_ref() == Collapse::Falls

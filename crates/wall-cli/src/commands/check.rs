@@ -10,7 +10,7 @@ use check::{
 use clap::Args;
 use rocking_wall::scene::Scene;
 use run::parallel;
-use run::walls::read_walls;
+use study::document::StudyFile;
 
 use crate::args::{SceneArguments, apply_set, refuse, svg_file};
 use crate::output::{Console, progress, written};
@@ -64,7 +64,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let many_walls = [("--html", arguments.html.is_some())];
     refuse(many_walls, "lists the walls of a file; a scene has one, and --report is its page")
         .context(name.clone())?;
-    let mut scene = Scene::parse(&name, &text, file.folder())?;
+    let mut scene = file.scene()?;
     apply_set(&of_wall, &mut scene)?;
     let Arguments { plot, csv, report, .. } = arguments;
     let outputs = || plot.iter().chain(csv).chain(report);
@@ -123,7 +123,8 @@ fn project(arguments: &Arguments, file: &CheckFile<'_>) -> Result<ReportTable> {
 /// Checks the walls of a file.
 fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> Result<()> {
     let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
-    let walls = read_walls(file.text(), file.name().as_ref(), &mut inputs, &mut warnings)?;
+    // a study is one of walls, too
+    let walls = file.walls(StudyFile::keys(), &mut inputs, &mut warnings)?;
     let codes = WallCodes::read(file, &walls)?;
     let code = codes.shared();
     let Arguments { csv, html, report, .. } = arguments;

@@ -378,5 +378,12 @@ fn many_walls_are_checked() {
     assert_has(&warned, &["walls.toml: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "the table [check] is missing"]);
+    // a study is a file of walls with more keys
+    let study = "models = [\"CR\"]\ncollapse_is = \"falls\"\nwalls = [{ table = \"walls.csv\" }]\n";
+    for (key, words) in [("", "the table [check] is missing"), ("recrods = 1\n", "did you mean \"records\"?")]
+    {
+        std::fs::write(folder.join("study.toml"), format!("{key}{study}")).unwrap();
+        refused(&folder, &["check", "study.toml"], &["study.toml", words]);
+    }
     refused(&folder, &["check", "walls.toml", "--find", "height"], &["takes one wall"]);
 }
