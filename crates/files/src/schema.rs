@@ -184,8 +184,8 @@ fn plain(comment: &str) -> String {
     comment.trim().replace(['\\', '`'], "")
 }
 
-/// Returns the names that serde reads, in the order of their declaration: the keys of a struct, or the choices
-/// of an enumeration.
+/// Returns the names that serde reads, in the order in which they are declared: the keys of a struct, or the
+/// choices of an enumeration.
 pub fn names<T: DeserializeOwned>() -> &'static [&'static str] {
     let mut names: &[&str] = &[];
     let _ = T::deserialize(Names(&mut names));
