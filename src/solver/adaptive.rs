@@ -156,12 +156,7 @@ impl<'a> Series<'a> {
         let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
         let reach = secant.reach(now, ends, remaining, tolerances);
         let law = Law { branch, forcing };
-        let mut series = Self::of(reach.polynomial(now, remaining), reach.horizon, Some(law));
-        // so that a step by itself has the bits of a calm one
-        if let Some([displacement, velocity]) = reach.end(now, remaining) {
-            series.end = KinematicState { displacement, velocity, ..series.end };
-        }
-        series
+        Self::of(reach.polynomial(now, remaining), reach.horizon, Some(law))
     }
 
     /// Makes the cubic motion with a constant d³u/dt³.

@@ -4,12 +4,11 @@
 //! of a step make sure of that (docs/record-path.md, §8): they are found once for many steps, so that
 //! such a step costs its motion and some comparisons. The wall has the state that a step by itself gives it.
 
-use oscillator::{KinematicState, Oscillator};
+use oscillator::KinematicState;
 
 use super::demand::{Demands, Extremes};
 use super::memo::{Memo, Propagators};
-use super::motion::{Method, Motion};
-use super::secant::Secant;
+use super::motion::Motion;
 use super::state::{Phase, State};
 use crate::wall::{Branch, Couple, Support, TieAction, Wall};
 
@@ -50,7 +49,7 @@ impl<'a> Calm<'a> {
         let branch = &wall.branches()[state.branch];
         let [lower, upper] = limits(branch, state, demands)?;
         let larger = |range: Bounds| range[0].abs().max(range[1].abs());
-        let [c, slope, bend] = branch.damping_bounds([lower, upper]);
+        let c = branch.damping.constant()?;
         let (force, stiffness) =
             (larger([lower, upper].map(|u| branch.restoring(u))), branch.stiffness.abs());
         let speed = larger(within(&demands.velocity, 0.0));
@@ -58,9 +57,8 @@ impl<'a> Calm<'a> {
         let forcing = larger(within(&demands.acceleration, 0.0)) + c * speed + force;
         let most = (forcing + force + c * speed) / (1.0 - c * step);
         let speed = speed + most * step;
-        let turn = slope * speed + stiffness;
-        let jerk = 2.0 * forcing / step + turn * speed + c * most;
-        let snap = bend * speed.powi(3) + (2.0 * slope * speed + turn) * most + c * jerk;
+        let jerk = 2.0 * forcing / step + stiffness * speed + c * most;
+        let snap = stiffness * most + c * jerk;
         // from the straight line u₀ + u̇₀ t
         let departure = 0.5 * step * step * most;
         let share = 0.125 * step * step;
@@ -112,13 +110,6 @@ fn limits(branch: &Branch, state: &State, demands: &Demands) -> Option<Bounds> {
     }
 }
 
-/// How steps on a branch are made.
-#[derive(Clone, Copy)]
-enum Way<'a> {
-    ClosedForm(&'a Oscillator),
-    Series(&'a Secant),
-}
-
 impl Motion {
     /// Moves `state` through the first steps of a record that are calm, with demands so far of which they
     /// change none. Returns the number of these steps.
@@ -165,7 +156,11 @@ impl Motion {
         demands: &Demands,
     ) -> Option<usize> {
         let (Samples { accelerations, step }, index) = (samples, state.branch);
-        let (way, branch) = (self.way(index, step)?, &self.wall.branches()[index]);
+        let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
+        let is_one_piece = step <= oscillator.longest_piece() && !oscillator.is_spread(step);
+        if !self.takes_closed_form(index) || !is_one_piece {
+            return None;
+        }
         let calm = Calm::new(&self.wall, state, demands, step)?;
         let forcing = |acceleration: f64| self.wall.body().forcing(Support::rigid(acceleration));
         let State { displacement, velocity, .. } = *state;
@@ -181,20 +176,8 @@ impl Motion {
             if !holds(calm.displacement, now.displacement + step * now.velocity) {
                 break;
             }
-            let (start, rate) = ([now.displacement, now.velocity], (to - from) / step);
-            let end = match way {
-                Way::ClosedForm(oscillator) => {
-                    now.acceleration = branch.acceleration(start[0], start[1], from);
-                    propagators.end(index, oscillator, now, rate, step)
-                }
-                Way::Series(secant) => {
-                    let ends = [from, from + rate * step];
-                    let reach = secant.reach(start, ends, step, self.tolerances);
-                    let Some([displacement, velocity]) = reach.end(start, step) else { break };
-                    let acceleration = branch.acceleration(displacement, velocity, to);
-                    KinematicState { displacement, velocity, acceleration }
-                }
-            };
+            now.acceleration = branch.acceleration(now.displacement, now.velocity, from);
+            let end = propagators.end(index, oscillator, now, (to - from) / step, step);
             if !calm.holds(&end, of_support) {
                 break;
             }
@@ -202,17 +185,6 @@ impl Motion {
         }
         (state.displacement, state.velocity) = (now.displacement, now.velocity);
         Some(passed)
-    }
-
-    /// Returns how whole steps on a branch are made at once; `None` where they have to be searched.
-    fn way(&self, index: usize, step: f64) -> Option<Way<'_>> {
-        let oscillator = &self.oscillators[index];
-        if self.takes_closed_form(index) {
-            let is_one_piece = step <= oscillator.longest_piece() && !oscillator.is_spread(step);
-            return is_one_piece.then_some(Way::ClosedForm(oscillator));
-        }
-        let is_by_series = matches!(self.method, Method::Adaptive { .. });
-        self.secants[index].as_ref().filter(|_| is_by_series).map(Way::Series)
     }
 }
 

@@ -164,18 +164,6 @@ impl Reach {
         coefficients[1] = now[1];
         Polynomial { coefficients, order: self.order }
     }
-
-    /// Returns u and u̇ at the end of the length; `None` where the series does not reach it.
-    #[inline(always)]
-    pub(super) fn end(&self, [u, _]: [f64; 2], length: f64) -> Option<[f64; 2]> {
-        let [rise, velocity] = match self.order {
-            8 => self.series.end::<8>(),
-            10 => self.series.end::<10>(),
-            12 => self.series.end::<12>(),
-            _ => self.series.end::<ORDER>(),
-        };
-        (self.horizon == length).then(|| [u + u * rise, u / length * velocity])
-    }
 }
 
 /// Adds terms until a series leaves out no more than `most` of u/u₀ and of L u̇/u₀ over its length. Returns
