@@ -26,12 +26,6 @@ const WAITING: u32 = 1;
 const MOST_PARTS: usize = 256;
 /// The change from which on a regularised series costs less, as measured.
 const FAST: f64 = 0.1;
-/// Lengths of a part within which its corner is looked for.
-const MOST_TIME: f64 = 2.0;
-/// Guesses of the time of a corner.
-const MOST_GUESSES: u32 = 8;
-/// Largest step between two guesses, over the time, after which the next one would be below rounding.
-const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.
 pub(crate) trait OneLane: SecantLaw {
@@ -40,10 +34,6 @@ pub(crate) trait OneLane: SecantLaw {
 
     /// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part; `None` where no series reaches.
     fn end(start: Start<f64>, most: f64) -> Option<[f64; 2]>;
-
-    /// Returns the time after which u/u₀ − 1 comes to `rise`, in lengths of the part and possibly beyond its
-    /// end, and L u̇/u₀ then; `None` where that is not found at once or u̇ may change its sign before.
-    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]>;
 }
 
 /// Returns the end of a part by order 8 or 10; `None` where these leave out too much.
@@ -69,10 +59,6 @@ impl OneLane for ByRatio {
         }
         Regularised::new(start).end(most)
     }
-
-    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]> {
-        Regularised::new(start).passage(rise, most)
-    }
 }
 
 impl OneLane for ByStiffness {
@@ -90,50 +76,6 @@ impl OneLane for ByStiffness {
         }
         series.extend_to_16::<Self>();
         (excess::<f64, ORDER>(series.last::<ORDER>(), most) <= 0.0).then(|| series.end::<ORDER>())
-    }
-
-    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]> {
-        let mut series = Scaled::new(start);
-        series.extend_to_8::<Self>();
-        series.extend_to_10::<Self>();
-        series.extend_to_12::<Self>();
-        series.extend_to_16::<Self>();
-        let x = &series.x;
-        let mut time = rise / x[1];
-        for _ in 0..MOST_GUESSES {
-            let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
-            for n in (1..=ORDER).rev() {
-                bend = bend * time + slope;
-                slope = slope * time + value;
-                value = value * time + x[n];
-            }
-            // Horner's rule has left out one factor of time
-            (bend, slope, value) = (2.0 * (bend * time + slope), slope * time + value, value * time - rise);
-            let first = -value / slope;
-            let turn = 0.5 * bend * first / slope;
-            let shift = first * (1.0 - turn);
-            if !(time + shift > 0.0 && time + shift < MOST_TIME) {
-                return None;
-            }
-            if shift.abs() < SMALL_STEP * time {
-                // the first term of u̇ outweighs all others
-                let others = (2..=ORDER).rev().fold(0.0, |sum, n| sum * time + n as f64 * x[n].abs()) * time;
-                if others >= x[1].abs() {
-                    return None;
-                }
-                // what the series leaves out at that time, not at the end of the part
-                let mut power = time * (time * time).powi(6);
-                let mut last = series.last::<ORDER>();
-                for term in &mut last {
-                    *term *= power;
-                    power *= time;
-                }
-                return (excess::<f64, ORDER>(last, most) <= 0.0)
-                    .then_some([time + shift, slope + shift * bend]);
-            }
-            time += shift;
-        }
-        None
     }
 }
 
@@ -337,39 +279,33 @@ impl<O: Observer> Lanes<'_, O> {
         (law(look_up), bounds)
     }
 
-    /// Takes a lane along a branch with secant damping to the end of the step or to the corner ahead, where
-    /// u̇ keeps its sign until then; returns whether it does.
+    /// Takes a lane along a branch with a constant ratio to the end of the step or to the corner ahead, where
+    /// u̇ keeps its sign until then; returns whether it does. With stiffness-proportional damping this would
+    /// save little: the general search takes such steps.
     pub(crate) fn pass_curved_corner(&mut self, lane: usize) -> bool {
-        match self.solvers[lane].table.law {
-            Law::Ratio => self.follow_to_corner::<ByRatio>(lane),
-            Law::Stiffness => self.follow_to_corner::<ByStiffness>(lane),
-        }
-        .is_some()
+        self.solvers[lane].table.law == Law::Ratio && self.follow_to_corner(lane).is_some()
     }
 
-    fn follow_to_corner<L: OneLane>(&mut self, lane: usize) -> Option<()> {
+    fn follow_to_corner(&mut self, lane: usize) -> Option<()> {
         let (rows, solver) = (&self.rows, self.solvers[lane]);
         let RecordSolver { table, step, .. } = solver;
         let (u, v, step_taken) = (rows.u[lane], rows.v[lane], rows.step_taken[lane]);
         let branch = rows.branch[lane].branches();
         let side = usize::from(v > 0.0);
         let corner = get(&table.ends[side], branch);
-        if (corner - u).abs() > L::FARTHEST * u.abs() {
-            return None;
-        }
         let rest = (1.0 - step_taken) * step;
         let samples = self.records[lane].forcing.from(index(rows.index[lane]), 2);
         let [p0, p1] = [samples[0], samples[1]].map(|p| rows.factor[lane] * p);
         let law = law(|row| get(row(table), branch));
         let (forcing, rate) = (p0 + (p1 - p0) * step_taken, (p1 - p0) / step);
-        let (start, inverse) = law.start::<L>([u, v], [forcing, rate * rest], rest);
+        let (start, inverse) = law.start::<ByRatio>([u, v], [forcing, rate * rest], rest);
         let tolerance = solver.motion.tolerances().over(inverse, rest);
-        let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
+        let [part, velocity] = Regularised::new(start).passage((corner - u) * inverse, tolerance)?;
         let step_taken = step_taken + part * (1.0 - step_taken);
         let (end, finished) = if step_taken < 1.0 {
             ([corner, u / rest * velocity], false)
         } else {
-            let [rise, velocity] = L::end(start, tolerance)?;
+            let [rise, velocity] = ByRatio::end(start, tolerance)?;
             ([u + u * rise, u / rest * velocity], true)
         };
         let known = rows.limits[0][lane] <= end[0] && end[0] <= rows.limits[1][lane];

@@ -15,7 +15,6 @@ use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
 use crate::solver::RecordSolver;
 use crate::together::in_lanes;
 
-mod passages;
 mod peaks;
 mod together;
 mod work;
