@@ -6,7 +6,6 @@ mod outputs;
 
 use std::sync::Arc;
 
-use crate::choices::Mechanism;
 use crate::solver::{Demands, Memo, Method, Motion, Phase, Samples, Segment, SolverError, State, Work};
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 
@@ -260,7 +259,7 @@ impl Simulation {
     ) -> Result<(), SolverError> {
         let body = self.first.wall().body();
         let Progress { time, state: State { velocity: velocity_before, departed, .. }, .. } = self.progress;
-        let with_couple = !departed && body.mechanism == Mechanism::VerticalSpanning;
+        let with_couple = !departed && body.is_strip();
         let watch = demands.as_deref_mut().map(|demands| (demands, time));
         let state = &mut self.progress.state;
         let report = self.first.advance_watched(state, segment, with_couple, &mut self.memo, watch)?;
@@ -275,8 +274,8 @@ impl Simulation {
             let (from, to) = (segment.from, segment.to);
             let supports = from.with(to, integrate);
             let Ends { bottom, top } =
-                body.reactions(supports, velocity - velocity_before, report.couple_impulse);
-            step.impulses.bottom += bottom;
+                body.reaction_changes(supports, velocity - velocity_before, report.couple_impulse);
+            step.impulses.bottom += bottom - body.contact.thrust * length;
             step.impulses.top += top;
         }
         self.progress.time += segment.duration;

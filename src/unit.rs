@@ -10,7 +10,6 @@ use std::sync::Arc;
 
 use fmu_export::{Experiment, Failure, Input, Kind, Log, Step as CommunicationStep, VariableId, check_real};
 
-use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
 use crate::solver::{Demands, Segment};
 use crate::variables::{RealVariable, real_calculated, real_local, real_output, real_parameter};
@@ -211,9 +210,9 @@ impl Unit {
 
     /// Marks warnings that do not apply to these parameters and scene as given.
     fn choose_warnings(&mut self) {
-        let is_parapet = self.parameters.mechanism == Mechanism::Parapet;
+        let is_strip = self.wall().body().is_strip();
         let is_start_value = self.parameters.u_start == Parameters::default().u_start;
-        self.warned = [!is_parapet, self.has_scene || !is_start_value];
+        self.warned = [is_strip, self.has_scene || !is_start_value];
     }
 
     /// Warns once where `a_top` is given to a wall without a top support, and once where an input shakes a
@@ -223,7 +222,7 @@ impl Unit {
         if !*top_warned && self.inputs.top != Input::default() {
             *top_warned = true;
             log.warning(format_args!(
-                "a_top is ignored: a parapet has no top support; give its base motion in a_bottom or a_g"
+                "a_top is ignored: the wall has no top support; give its base motion in a_bottom or a_g"
             ));
         }
         if !*start_warned && self.inputs != Inputs::default() {

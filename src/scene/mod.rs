@@ -6,6 +6,7 @@
 //! by whoever checks. An FMU made from a scene carries what its unit needs of it as bytes:
 //! [`UnitScene`](crate::unit::UnitScene).
 
+mod body;
 mod document;
 mod error;
 mod keys;
@@ -26,6 +27,7 @@ use crate::variables::{BooleanVariable, Mechanism, RealVariable};
 use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
+pub use body::{BodyTable, LoadTable, OpeningTable, PartTable};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
@@ -33,6 +35,7 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{input_names, parameter_text, set_names};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
+use body::{OF_RECTANGLE, profile_text};
 pub use error::SceneError;
 use keys::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits};
@@ -241,7 +244,9 @@ impl Scene {
     fn moved_apart(&self, motion: Option<&Excitation>) -> Option<&'static str> {
         motion?.top()?;
         match (self.parameters.mechanism, self.parameters.kinematics) {
-            (Mechanism::Parapet, _) => Some("a parapet has no top support; leave [motion.top] out"),
+            (Mechanism::Parapet | Mechanism::RigidBody, _) => {
+                Some("a parapet or rigid body has no top support; leave [motion.top] out")
+            }
             (_, Kinematics::Trigonometric) => Some(
                 "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or \
                  set kinematics = linear",
@@ -313,6 +318,9 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
         if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
             let _ = writeln!(text, "{KINEMATICS} = {:?}", scene.parameters.kinematics.name());
         }
+        if let ("geometry", Some(profile)) = (group, &scene.parameters.profile) {
+            text.push_str(&profile_text(profile));
+        }
         // a bar whose numbers have been changed since is none
         let bar = scene.parameters.bar.filter(|_| group == TIE_GROUP && is_of_bar);
         text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
@@ -323,6 +331,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
                     let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
                     let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
                 }
+                (_, name) if scene.parameters.profile.is_some() && OF_RECTANGLE.contains(&name) => {}
                 (_, name) if is_left_out(name) || (bar.is_some() && OF_BAR.contains(&name)) => {}
                 _ => {
                     if let Some(value) = parameter_text(&scene.parameters, name) {

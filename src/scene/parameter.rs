@@ -10,6 +10,7 @@ use toml::{Spanned, Value};
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
+use super::body::{BODY, LOAD, OF_RECTANGLE, OPENING, PART, apply_body};
 use super::error::SceneError;
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
 use super::schema::groups;
@@ -51,6 +52,7 @@ pub fn apply_group(
             ("force_law", POINTS) => points = Some(value),
             ("force_law", "force_law") if own.as_str() == Some(MULTILINEAR) => law = Some(value),
             (TIE_GROUP, BAR) => bar = Some(value),
+            ("geometry", PART | OPENING | LOAD | BODY) => {}
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
             }
@@ -75,6 +77,9 @@ pub fn apply_group(
         }
         (None, None) => {}
     }
+    if group == "geometry" {
+        apply_body(parameters, entries, place)?;
+    }
     let Some(bar) = bar else { return Ok(()) };
     if let Some(key) = entries.keys().find(|key| OF_BAR.contains(&key.get_ref().as_str())) {
         let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
@@ -87,7 +92,11 @@ pub fn apply_group(
 }
 
 /// Finds the value of a key in a document by its place.
-fn find<'a, 'b>(table: &'a DeTable<'b>, key: &str, span: &Range<usize>) -> Option<&'a Spanned<DeValue<'b>>> {
+pub(super) fn find<'a, 'b>(
+    table: &'a DeTable<'b>,
+    key: &str,
+    span: &Range<usize>,
+) -> Option<&'a Spanned<DeValue<'b>>> {
     fn inside<'a, 'b>(
         value: &'a Spanned<DeValue<'b>>,
         key: &str,
@@ -139,6 +148,10 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     };
     if name == "force_law" {
         parameters.multilinear = None;
+    }
+    if parameters.profile.is_some() && OF_RECTANGLE.contains(&name) {
+        let message = format!("{name} is that of a rectangle, and the wall has parts; change these");
+        return Err(SceneError::Value { message });
     }
     if OF_BAR.contains(&name) {
         parameters.bar = None;

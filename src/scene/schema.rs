@@ -7,6 +7,7 @@ use toml::Value;
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, BarNumber, Kinematics};
 
+use super::body::describe_body;
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
 
 /// Returns the keys of the groups that who applies a group checks, and knows the place of.
@@ -21,7 +22,11 @@ impl Described for Group {
 
     fn describe(key: &str, tables: &mut Tables) -> Schema {
         tables.groups.extend(groups());
-        object(parameters(key))
+        let mut members = parameters(key);
+        if key == KINEMATICS_GROUP {
+            describe_body(&mut members, tables);
+        }
+        object(members)
     }
 }
 

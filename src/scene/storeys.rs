@@ -140,8 +140,8 @@ impl Floors {
         let highest = self.storeys.storeys().len();
         let refused = |message: &str| Err(SceneError::Value { message: message.into() });
         match (mechanism, self.top) {
-            (Mechanism::Parapet, None) => Ok((self.bottom.unwrap_or(highest), None)),
-            (Mechanism::Parapet, Some(_)) => {
+            (Mechanism::Parapet | Mechanism::RigidBody, None) => Ok((self.bottom.unwrap_or(highest), None)),
+            (Mechanism::Parapet | Mechanism::RigidBody, Some(_)) => {
                 refused("[supports] top: a parapet has no top support; leave it out")
             }
             (Mechanism::VerticalSpanning, top) => {

@@ -57,7 +57,7 @@ impl Simulation {
         let impulses = if before.departed {
             Ends::default()
         } else {
-            body.reactions(Support::default(), event.velocity_jump, 0.0)
+            body.reaction_changes(Support::default(), event.velocity_jump, 0.0)
         };
         let motion =
             |state: State| (state.branch, state.phase, state.displacement, state.velocity, state.tie);

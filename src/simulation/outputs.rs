@@ -97,12 +97,12 @@ impl Simulation {
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
-        // dN/du = ±K 2y/h
+        // dN/du = ±K times the lever
         let tie_force = wall.tie_slope(branch) * displacement.signum() * du;
         let branch = &wall.branches()[branch];
         let mut tie_elongation = Sides::default();
         if let (Some(side), Some(tie)) = (branch.yielding_side(), wall.tie()) {
-            // dp/du = ±2y/h
+            // dp/du = ± the lever
             *tie_elongation.of_mut(side) = tie.lever * side * du;
         }
         let forcing = body.forcing(change);
@@ -120,10 +120,10 @@ impl Simulation {
         let reactions = match phase {
             Phase::Landed => Ends::default(),
             _ if departed => Ends::default(),
-            Phase::Moving => body.reactions(change, acceleration, branch.couple.slope * du),
+            Phase::Moving => body.reaction_changes(change, acceleration, branch.couple.slope * du),
             Phase::Resting => {
                 let couple = wall.couple_at_rest(body.forcing(support));
-                body.reactions(change, acceleration, couple.slope * forcing)
+                body.reaction_changes(change, acceleration, couple.slope * forcing)
             }
         };
         Outputs {

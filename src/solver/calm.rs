@@ -62,7 +62,8 @@ impl<'a> Calm<'a> {
         // from the straight line u₀ + u̇₀ t
         let departure = 0.5 * step * step * most;
         let share = 0.125 * step * step;
-        let by = |acceleration, couple| wall.body().reactions(Support::default(), acceleration, couple);
+        let by =
+            |acceleration, couple| wall.body().reaction_changes(Support::default(), acceleration, couple);
         let [by_a, by_u] = [by(1.0, 0.0), by(0.0, branch.couple.slope)];
         let reaction =
             |extremes, a: f64, u: f64| within(extremes, share * snap * a.abs() + share * most * u.abs());

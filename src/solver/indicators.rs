@@ -159,7 +159,7 @@ impl Motion {
     /// corrected to that of an impact at u = 0. Without the correction each bounce would gain energy, and
     /// bounces would never become low.
     fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
-        let factor = self.wall.passage_factor();
+        let factor = self.wall.passage_factor(state.velocity);
         if let Some(side) = self.wall.free_side() {
             return self.rebound_from_walls(state, side, forcing);
         }
@@ -194,7 +194,7 @@ impl Motion {
         // acceleration towards the transverse walls at u = 0
         let pull = side * (self.wall.restoring(state.branch, 0.0) - forcing);
         let arriving = (state.velocity * state.velocity - 2.0 * pull * late).max(0.0);
-        let leaving = arriving * self.wall.passage_factor().powi(2);
+        let leaving = arriving * self.wall.passage_factor(state.velocity).powi(2);
         let lowest_bounce = REST_MARGINS * MARGIN * self.wall.displacement_scale();
         let stiffness = self.wall.branches()[state.branch].stiffness.max(0.0);
         let low = pull >= 0.0 && 0.5 * leaving <= (pull + 0.5 * stiffness * lowest_bounce) * lowest_bounce;
@@ -229,7 +229,7 @@ mod tests {
                 let mut state = motion.start(1e-3, 0.0, Support::default());
                 for side in [1.0, -1.0] {
                     (state.displacement, state.velocity) =
-                        (0.0, side * leaving / motion.wall().passage_factor());
+                        (0.0, side * leaving / motion.wall().passage_factor(side));
                     let rebound = motion.late_rebound(&state, 0.0);
                     assert_eq!(rebound.rests, rests, "{thickness} m, {margins} margins");
                     assert!((rebound.velocity - side * leaving).abs() <= 1e-15 * leaving.max(1e-3));
@@ -266,7 +266,7 @@ mod tests {
                     for (margins, rests) in [(3.9, true), (4.1, false)] {
                         let height = margins * height;
                         let leaving = (2.0 * (pull + 0.5 * stiffness * height) * height).sqrt();
-                        let arriving = leaving / wall.passage_factor();
+                        let arriving = leaving / wall.passage_factor(-side);
                         let late = 0.5 * MARGIN;
                         state.displacement = -side * late;
                         state.velocity = -side * (arriving * arriving + 2.0 * pull * late).sqrt();

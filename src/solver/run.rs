@@ -268,7 +268,7 @@ impl<'a> Run<'a> {
             && motion.wall.can_rest()
             && (lowest..=highest).contains(&forcing);
         let rebound = |state: &State| {
-            let velocity = state.velocity * motion.wall.passage_factor();
+            let velocity = state.velocity * motion.wall.passage_factor(state.velocity);
             Rebound { velocity, rests: too_many || velocity.abs() < motion.rest_speed }
         };
         let forcing = [forcing, self.rate];

@@ -64,7 +64,7 @@ impl Motion {
         let behind = self.wall.free_side().is_some_and(|side| displacement == 0.0 && velocity * side < 0.0);
         if behind {
             // the wall moves towards the transverse walls, so it starts with an impact
-            state.velocity *= self.wall.passage_factor();
+            state.velocity *= self.wall.passage_factor(velocity);
             if state.velocity.abs() < self.rest_speed {
                 settle(self, &mut state, [forcing, 0.0]);
             }

@@ -125,7 +125,7 @@ impl Watch<'_> {
     #[inline]
     fn slopes(&self, couple: Couple) -> [Ends; 2] {
         let (body, still) = (self.wall.body(), Support::default());
-        [body.reactions(still, 1.0, 0.0), body.reactions(still, 0.0, couple.slope)]
+        [body.reaction_changes(still, 1.0, 0.0), body.reaction_changes(still, 0.0, couple.slope)]
     }
 
     /// Includes a rest between two times within the segment. Forces are linear in between, but where the
@@ -212,7 +212,10 @@ impl Watch<'_> {
             let size = || {
                 let [most_u, most_a] =
                     [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
-                slope_a * (most_a + given) + slope_u * most_u + couple.at_zero.abs()
+                slope_a * (most_a + given)
+                    + slope_u * most_u
+                    + couple.at_zero.abs()
+                    + body.contact.thrust.abs()
             };
             search.raise(extremes, &Quantity { value, curvature, size })?;
         }

@@ -62,7 +62,7 @@ impl Model for Unit {
             V::UInsNegative => body.instability.negative,
             V::Omega1 => wall.omega1(),
             V::XiUsed => wall.damping_ratio(),
-            V::RestitutionUsed => wall.restitution(),
+            V::RestitutionUsed => wall.restitution().positive,
             real_output!() | real_local!() => output(&self.outputs(), variable).unwrap_or(f64::NAN),
             real_parameter!() => self.parameters.real(variable).unwrap_or(f64::NAN),
         }

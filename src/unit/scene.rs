@@ -6,10 +6,10 @@ use fmu_export::{Failure, StateCodec};
 use ground_motion::GroundMotion;
 
 use crate::simulation::Excitation;
-use crate::wall::Parameters;
+use crate::wall::{Hollow, Load, Opening, Parameters, Part, Profile};
 
 /// The first bytes of the file: what it is, and the version of its layout.
-const KIND: &str = "rocking-wall scene 1";
+const KIND: &str = "rocking-wall scene 2";
 
 /// The parameters of a wall, and what moves its supports.
 ///
@@ -23,8 +23,8 @@ const KIND: &str = "rocking-wall scene 1";
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitScene {
-    /// The wall and its solver. Only the variables of the description and the points of a multilinear law are
-    /// carried.
+    /// The wall and its solver. Only the variables of the description, the parts of a wall and the points of a
+    /// multilinear law are carried.
     pub parameters: Parameters,
     /// The motion of the supports, interpolated between samples.
     pub motion: Option<Excitation>,
@@ -62,6 +62,7 @@ impl UnitScene {
         transfer_numbers(&mut numbers, codec)?;
         let points: Arc<[[f64; 2]]> = numbers.as_chunks().0.into();
         self.parameters.multilinear = (!points.is_empty()).then_some(points);
+        transfer_profile(&mut self.parameters, codec)?;
         let motion = self.motion.take();
         let mut records = motion.as_ref().map_or([None, None, None], Excitation::records_of_supports);
         for record in &mut records {
@@ -92,6 +93,59 @@ impl UnitScene {
             motion
         }))
     }
+}
+
+/// The parts, openings and loads of a wall, if it has parts.
+fn transfer_profile(parameters: &mut Parameters, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+    let of = parameters.profile.take();
+    let lists = of.as_ref().map(|of| (of.parts(), of.openings(), of.loads()));
+    let (parts, openings, loads) = lists.unwrap_or_default();
+    let parts = parts.iter().flat_map(|part| {
+        let Part { base, height, thickness: [t0, t1], width: [w0, w1], outer: [o0, o1], density } = *part;
+        [base, height, t0, t1, w0, w1, o0, o1, density]
+    });
+    let openings = openings.iter().flat_map(|opening| {
+        let Opening { base, height, width, hollow } = *opening;
+        // an opening through the wall has no thickness of its own
+        let Hollow { thickness, outer } = hollow.unwrap_or(Hollow { thickness: 0.0, outer: 0.0 });
+        [base, height, width, thickness, outer]
+    });
+    let loads = loads.iter().flat_map(|load| {
+        let Load { force, height, inside, moving_mass, thrust } = *load;
+        [force, height, inside, moving_mass, thrust]
+    });
+    let mut numbers: [Vec<f64>; 3] = [parts.collect(), openings.collect(), loads.collect()];
+    for numbers in &mut numbers {
+        transfer_numbers(numbers, codec)?;
+    }
+    let [parts, openings, loads] = &numbers;
+    if parts.is_empty() {
+        return Ok(());
+    }
+    let parts = parts.as_chunks().0.iter().map(|&[base, height, t0, t1, w0, w1, o0, o1, density]| Part {
+        base,
+        height,
+        thickness: [t0, t1],
+        width: [w0, w1],
+        outer: [o0, o1],
+        density,
+    });
+    let openings = openings.as_chunks().0.iter().map(|&[base, height, width, thickness, outer]| Opening {
+        base,
+        height,
+        width,
+        hollow: (thickness != 0.0).then_some(Hollow { thickness, outer }),
+    });
+    let loads = loads.as_chunks().0.iter().map(|&[force, height, inside, moving_mass, thrust]| Load {
+        force,
+        height,
+        inside,
+        moving_mass,
+        thrust,
+    });
+    let profile = Profile::new(parts.collect(), openings.collect(), loads.collect());
+    parameters.profile = Some(Arc::new(profile.map_err(|error| Failure(error.to_string()))?));
+    Ok(())
 }
 
 /// A record, if there is one: its step and its samples; no samples stand for none.

@@ -24,7 +24,7 @@ impl Couple {
         }
         let at = |force: f64| body.contact_couple(force, sign);
         let at_zero = at(own.at(0.0));
-        let slope = at(own.slope + body.geometric_stiffness) - at(0.0) - 0.5 * body.weight / body.height;
+        let slope = at(own.slope + body.geometric_stiffness) - at(0.0) - body.contact.by_displacement;
         Self { at_zero, slope }
     }
 

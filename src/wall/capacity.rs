@@ -74,7 +74,7 @@ impl Wall {
     }
 
     /// Returns the |u| of the unstable equilibrium that a yielding tie moves outwards on the side of `sign`,
-    /// u₃ + (2y/h) `N_y`/k₀ with parallel softening \[m\]; `None` where the tie does not yield there.
+    /// u₃ + (y/`z_G`) `N_y`/k₀ with parallel softening \[m\]; `None` where the tie does not yield there.
     pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
         let tie = self.tie().filter(|tie| tie.holds(sign))?;
         let side = self.statics().force.side(sign);

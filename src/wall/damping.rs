@@ -294,8 +294,8 @@ impl DampingLaw {
             DampingModel::None => (0.0, 0.0, BranchDamping::Constant(0.0)),
             DampingModel::ConstantCoefficient => (value, elastic, BranchDamping::Constant(elastic)),
             DampingModel::FreeStandingBlock => {
-                // C = m_eff √(g/(h/2)) c̄
-                let c = (parameters.gravity / (body.height / 2.0)).sqrt() * value;
+                // C = m_eff √(g/z_G) c̄
+                let c = (parameters.gravity / body.centroid_height).sqrt() * value;
                 (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c, BranchDamping::Constant(c))
             }
             DampingModel::ConstantRatio => (value, elastic, BranchDamping::SecantRatio(2.0 * value)),

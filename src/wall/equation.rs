@@ -23,7 +23,7 @@ pub struct Wall {
     rotations: Option<FullRotations>,
     tie_memory: TieMemory,
     pub(super) damping: DampingLaw,
-    restitution: f64,
+    restitution: Sides,
     pub(super) impact: bool,
     rocking: Rocking,
     branches: Vec<Branch>,
@@ -53,7 +53,7 @@ impl Wall {
             Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
         };
         let force = RestoringForce::new(parameters, &body)?;
-        let damping = DampingLaw::new(asked, parameters, &body, &force, restitution)?;
+        let damping = DampingLaw::new(asked, parameters, &body, &force, restitution.least())?;
         let impact = parameters.impact == Impact::Restitution;
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
@@ -62,7 +62,7 @@ impl Wall {
             bar.tie(parameters.width)?;
         }
         let tie = Tie::new(parameters, &body)?;
-        let at_impacts = impact.then_some(restitution);
+        let at_impacts = impact.then_some(restitution.most());
         let warnings = warnings::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
         let rocking = parameters.rocking;
         let wall = Self {
@@ -127,11 +127,7 @@ impl Wall {
 
     /// Returns the sign of u to which the wall can rock, if it can rock to one side only.
     pub fn free_side(&self) -> Option<f64> {
-        match self.rocking {
-            Rocking::TwoSided => None,
-            Rocking::OneSidedPositive => Some(1.0),
-            Rocking::OneSidedNegative => Some(-1.0),
-        }
+        self.rocking.free_side()
     }
 
     /// Checks a displacement \[m\] at which a run is to start.
@@ -167,9 +163,9 @@ impl Wall {
     }
 
     /// The signs of u to which the wall can rock.
-    pub fn sides(&self) -> impl Iterator<Item = f64> {
-        let free = self.free_side();
-        [1.0, -1.0].into_iter().filter(move |sign| free.is_none_or(|free| free == *sign))
+    pub fn sides(&self) -> impl Iterator<Item = f64> + use<> {
+        let rocking = self.rocking;
+        [1.0, -1.0].into_iter().filter(move |sign| rocking.allows(*sign))
     }
 
     /// Returns whether both sides are alike. A motion and its reverse then place the same demands on the
@@ -177,6 +173,7 @@ impl Wall {
     pub fn has_equal_sides(&self) -> bool {
         let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
         self.statics.body.strength.positive == self.statics.body.strength.negative
+            && self.restitution.positive == self.restitution.negative
             && self.sides().count() == 2
             && !one_tied
     }
@@ -238,7 +235,7 @@ impl Wall {
         }
     }
 
-    /// dN/d|u| on a branch, K 2y/h where the tie pulls \[N/m\].
+    /// dN/d|u| on a branch, K y/`z_G` where the tie pulls \[N/m\].
     pub fn tie_slope(&self, branch: usize) -> f64 {
         let pulls = self.branches[branch].tie == TieAction::Pulls;
         self.tie().filter(|_| pulls).map_or(0.0, |tie| tie.stiffness * tie.lever)
@@ -278,17 +275,18 @@ impl Wall {
     }
 
     /// Coefficient of restitution in use, at impacts or behind computed damping, e₁ against transverse walls
-    /// \[-\].
-    pub fn restitution(&self) -> f64 {
+    /// \[-\]: of a passage from u > 0 to u < 0 (`positive`) and back. −1 where none is given or known.
+    pub fn restitution(&self) -> Sides {
         self.restitution
     }
 
-    /// Factor on u̇ at a passage of u = 0: e, or 1 without impact; −e₁ where transverse walls turn it back.
-    pub fn passage_factor(&self) -> f64 {
+    /// Factor on u̇ at a passage of u = 0 at a `velocity` of this sign: e of the direction, or 1 without
+    /// impact; −e₁ where transverse walls turn it back.
+    pub fn passage_factor(&self, velocity: f64) -> f64 {
         match (self.impact, self.rocking) {
             (false, _) => 1.0,
-            (true, Rocking::TwoSided) => self.restitution,
-            (true, _) => -self.restitution,
+            (true, Rocking::TwoSided) => self.restitution.of(-velocity),
+            (true, _) => -self.restitution.positive,
         }
     }
 

@@ -1,5 +1,6 @@
 //! What can be wrong about a choice of parameters.
 
+use super::profile::ProfileError;
 use super::warning::Warning;
 
 /// A parameter with the value that is chosen.
@@ -25,6 +26,37 @@ pub enum ParameterError {
          reduce the overburden"
     )]
     NoStrength { side: &'static str, force: f64, eccentricity: f64, overburden: f64 },
+    /// Loads and thrusts leave no positive F₀ on a side of a body that is no rectangle.
+    #[error(
+        "no rocking strength for {side}: F0 = {force} N must be positive, but {}",
+        if *thrust == 0.0 {
+            "the weights overturn the wall by themselves; move its centroid and its loads between the toes"
+                .to_owned()
+        } else {
+            format!("thrusts of {thrust} N overturn it; reduce thrust, or add weight that holds it")
+        }
+    )]
+    Overturns { side: &'static str, force: f64, thrust: f64 },
+    /// Parts, openings or loads that make no wall.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// A number of the rectangle that stands for parts, changed by itself.
+    #[error("{name} = {value} does not go with the parts of the wall, which have {own}; change the parts")]
+    OfParts { name: &'static str, value: f64, own: f64 },
+    /// A strip whose hinge falls where two parts are not in contact.
+    #[error(
+        "the hinge at {height} m has no section to turn about: the wall reaches from {} m to {} m below it \
+         and from {} m to {} m above; move parts or hinge_ratio so that they overlap",
+        below[0], below[1], above[0], above[1]
+    )]
+    NoHinge { height: f64, below: [f64; 2], above: [f64; 2] },
+    /// A rigid body whose inertia is too small.
+    #[error(
+        "{name} = {value} kg m2 must be at least {mass} times {height} squared = {} kg m2, that of a mass at \
+         one height; it is the integral of z squared from the base",
+        mass * height * height
+    )]
+    Inertia { name: &'static str, value: f64, mass: f64, height: f64 },
     /// a₁ ≥ a₃.
     #[error(
         "a1 = {a1} must be smaller than a3 = {a3}: the elastic branch ends before the force does; reduce \
@@ -103,6 +135,10 @@ impl ParameterError {
     pub fn keys(&self) -> Vec<&'static str> {
         match self {
             Self::NoStrength { .. } => vec!["overburden_eccentricity", "overburden"],
+            Self::Overturns { .. } => vec!["thrust", "load_force"],
+            Self::Profile(_) => vec!["part"],
+            Self::OfParts { name, .. } | Self::Inertia { name, .. } => vec![name],
+            Self::NoHinge { .. } => vec!["hinge_ratio", "part"],
             Self::ElasticBranchTooLong { .. } => vec!["a1", "a3"],
             Self::PlateauTooHigh { .. } => vec!["d1", "a1", "softening"],
             Self::Points { .. } => vec!["points"],

@@ -2,8 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use crate::choices::RestitutionSource;
+
 use super::equation::Wall;
 use super::equivalence;
+use super::given::COMPUTED;
+use super::restitution::of_rectangle;
+use super::sides::Sides;
 use super::tie::Tie;
 
 /// A number that follows from the parameters of a wall.
@@ -25,13 +30,12 @@ impl Wall {
         let body = self.body();
         let omega1 = self.omega1();
         let period = if omega1 > 0.0 { TAU / omega1 } else { 0.0 };
-        let e = self.restitution();
         [
             ("mass", "m", body.mass, "kg"),
             ("effective_mass", "m_eff", body.effective_mass, "kg"),
             ("participation", "lambda", body.participation, "-"),
             ("weight", "W", body.weight, "N"),
-            ("slenderness", "alpha", body.slenderness, "rad"),
+            ("slenderness", "alpha", body.slenderness.positive, "rad"),
             ("F0", "F0+", body.strength.positive, "N"),
             ("F0_negative", "F0-", body.strength.negative, "N"),
             ("u_ins", "u_ins+", body.instability.positive, "m"),
@@ -41,16 +45,59 @@ impl Wall {
             ("rocking_onset", "a_g", self.rocking_onset(), "m/s2"),
             ("omega1", "omega1", omega1, "rad/s"),
             ("elastic_period", "T1", period, "s"),
-            ("restitution_used", "e", e, "-"),
-            ("xi_used", "xi", self.damping_ratio(), "-"),
-            ("elastic_damping", "C", self.elastic_damping(), "N s/m"),
-            ("xi_makris", "Eq. 14", equivalence::makris_konstantinidis(e), "-"),
-            ("xi_giannini", "Eq. 17", equivalence::giannini_masiani(e), "-"),
         ]
         .map(|(name, symbol, value, unit)| Fact { name, symbol, value, unit })
         .into_iter()
+        .chain(self.impact_facts())
+        .chain(self.body_facts())
         .chain(self.tie_facts())
         .collect()
+    }
+
+    /// Lists the coefficient of restitution in use, those of all sources, and the damping.
+    fn impact_facts(&self) -> impl Iterator<Item = Fact> + use<> {
+        let (body, e) = (self.body(), self.restitution());
+        let is_known = e != Sides::both(COMPUTED);
+        let known = |e: f64| is_known.then_some(e);
+        let differs = |e: Sides| (e.negative != e.positive).then_some(e.negative);
+        let equivalent = |f: fn(f64) -> f64| known(e.least()).map(f);
+        let [analytic, calibrated] = [RestitutionSource::Analytic, RestitutionSource::Calibrated]
+            .map(|source| body.is_rectangle.then(|| of_rectangle(source, body).positive));
+        given([
+            ("restitution_used", "e", known(e.positive), "-"),
+            ("restitution_used_negative", "e-", differs(e), "-"),
+            ("restitution_analytic", "e_an", analytic, "-"),
+            ("restitution_calibrated", "e_cal", calibrated, "-"),
+            ("restitution_impulses", "e_imp", body.impulses.map(|e| e.positive), "-"),
+            ("restitution_impulses_negative", "e_imp-", body.impulses.and_then(differs), "-"),
+            ("xi_used", "xi", Some(self.damping_ratio()), "-"),
+            ("elastic_damping", "C", Some(self.elastic_damping()), "N s/m"),
+            ("xi_makris", "Eq. 14", equivalent(equivalence::makris_konstantinidis), "-"),
+            ("xi_giannini", "Eq. 17", equivalent(equivalence::giannini_masiani), "-"),
+        ])
+    }
+
+    /// Lists what only a body that is no rectangle has.
+    fn body_facts(&self) -> impl Iterator<Item = Fact> + use<> {
+        let body = self.body();
+        let is_other = !body.is_rectangle;
+        let of_one = |value: f64| (is_other && !body.is_strip()).then_some(value);
+        let of_strip = |value: f64| (is_other && body.is_strip()).then_some(value);
+        let multiplier = |force: f64| {
+            is_other.then(|| force * body.mass / (body.participation * body.effective_mass * body.weight))
+        };
+        let [w_b, w_t] = body.support_weights;
+        given([
+            ("centroid_height", "z_G", of_one(body.centroid_height), "m"),
+            ("slenderness_negative", "alpha-", is_other.then_some(body.slenderness.negative), "rad"),
+            ("static_multiplier", "alpha_0+", multiplier(body.strength.positive), "-"),
+            ("static_multiplier_negative", "alpha_0-", multiplier(body.strength.negative), "-"),
+            ("thrust", "H", is_other.then_some(body.contact.thrust), "N"),
+            ("hinge_height", "h1", of_strip(body.hinge_height), "m"),
+            ("support_weight_bottom", "w_b", of_strip(w_b), "-"),
+            ("support_weight_top", "w_t", of_strip(w_t), "-"),
+            ("drift_stiffness", "F_d/d", of_strip(body.drift_weight / body.height), "N/m"),
+        ])
     }
 
     /// Lists the numbers of a tie, and the |u| at which it first pulls, yields and breaks.
@@ -67,11 +114,18 @@ impl Wall {
             ("tie_equilibrium", "u*+", positive, "m"),
             ("tie_equilibrium_negative", "u*-", negative, "m"),
         ];
-        let given = |(name, symbol, value, unit): (_, _, Option<f64>, _)| {
-            value.map(|value| Fact { name, symbol, value, unit })
-        };
-        facts.map(given).into_iter().flatten()
+        given(facts)
     }
+}
+
+/// Returns the facts whose value there is.
+fn given<const N: usize>(
+    facts: [(&'static str, &'static str, Option<f64>, &'static str); N],
+) -> impl Iterator<Item = Fact> {
+    let given = |(name, symbol, value, unit): (_, _, Option<f64>, _)| {
+        value.map(|value| Fact { name, symbol, value, unit })
+    };
+    facts.into_iter().filter_map(given)
 }
 
 #[cfg(test)]

@@ -13,14 +13,17 @@
 //! | module | holds |
 //! |---|---|
 //! | [`equivalence`] | damping that restitution is worth, and the other way round |
+//! | `section`, `profile` | a wall of parts, with openings and loads |
 //! | `warning`, `error` | what a user is told |
 //! | `sides`, `ratio` | quantities of both sides; the ratios of damping |
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
 //! | `bar`, `parameters`, `usage` | what is given, and which of it has an effect |
-//! | `mechanism`, `force_law`, `damping`, `trigonometric`, `tie` | what is made of it |
+//! | `points` | masses and loads of parts as points |
+//! | `mechanism`, `assembled`, `force_law`, `damping`, `trigonometric`, `tie` | what is made of it |
 //! | [`restitution`], `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
 //! | `branch`, `equation`, `layout`, `supports`, `capacity`, `facts` | the wall, its branches and its curve |
 
+mod assembled;
 mod bar;
 mod branch;
 mod capacity;
@@ -34,8 +37,11 @@ mod given;
 mod layout;
 mod mechanism;
 mod parameters;
+mod points;
+mod profile;
 mod ratio;
 pub mod restitution;
+mod section;
 mod sides;
 mod statics;
 mod supports;
@@ -57,9 +63,11 @@ pub use error::ParameterError;
 pub use facts::Fact;
 pub use force_law::Line;
 pub use given::{COMPUTED, is_computable};
-pub use mechanism::Body;
+pub use mechanism::{Body, Contact, MassShares};
 pub use parameters::{Kinematics, Parameters};
+pub use profile::{Hollow, Item, Load, MOST_ITEMS, Opening, Part, Profile, ProfileError};
 pub use ratio::Ratio;
+pub use section::Section;
 pub use sides::Sides;
 pub use statics::Statics;
 pub use supports::{Ends, Support};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::bar::{Bar, TiePart};
 use super::error::ParameterError;
 use super::given::COMPUTED;
+use super::profile::Profile;
 use super::ratio::Ratio;
 use super::sides::Sides;
 use crate::choices::{
@@ -56,6 +57,21 @@ pub struct Parameters {
     pub tie_strength: f64,
     pub tie_ultimate: f64,
     pub tie_side: TieSide,
+    pub body_mass: f64,
+    pub centroid_height: f64,
+    pub inertia: f64,
+    pub arm: f64,
+    pub arm_inner: f64,
+    pub load_force: f64,
+    pub load_height: f64,
+    pub load_arm: f64,
+    pub load_mass: f64,
+    pub load_mass_height: f64,
+    pub load_inertia: f64,
+    pub thrust: f64,
+    pub thrust_height: f64,
+    /// A wall of parts, in place of the rectangle: [`Parameters::set_profile`]. Only scenes carry it.
+    pub profile: Option<Arc<Profile>>,
     /// Small or full rotations. Only scenes carry it.
     pub kinematics: Kinematics,
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
@@ -72,6 +88,7 @@ impl Default for Parameters {
     /// The start values of the model description.
     fn default() -> Self {
         start_values!(Self {
+            profile: None,
             kinematics: Kinematics::Linear,
             multilinear: None,
             bar: None,
@@ -101,6 +118,18 @@ impl Parameters {
         for ratio in Ratio::ALL {
             *self.ratio_mut(ratio) = COMPUTED;
         }
+    }
+
+    /// Returns whether the wall is a rectangle, neither of parts nor given by its integrals.
+    pub fn is_rectangle(&self) -> bool {
+        self.profile.is_none() && self.mechanism != Mechanism::RigidBody
+    }
+
+    /// Makes the wall one of parts. Its height and its thickness at the base are theirs from there on; width
+    /// and density are those of the lowest part.
+    pub fn set_profile(&mut self, profile: Profile) {
+        [self.height, self.thickness, self.width, self.density] = profile.as_rectangle();
+        self.profile = Some(Arc::new(profile));
     }
 
     /// Gives the tie the stiffness, strength and ultimate elongation of its bar; leaves one without a bar as

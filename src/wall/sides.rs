@@ -1,5 +1,7 @@
 //! A quantity that may differ between u > 0 and u < 0.
 
+use crate::choices::Rocking;
+
 /// One quantity on the sides u > 0 and u < 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sides {
@@ -10,6 +12,26 @@ pub struct Sides {
 }
 
 impl Sides {
+    /// The same quantity on both sides.
+    pub fn both(value: f64) -> Self {
+        Self { positive: value, negative: value }
+    }
+
+    /// Computes the quantity of each side from its sign.
+    pub(super) fn each(f: impl Fn(f64) -> f64) -> Self {
+        Self { positive: f(1.0), negative: f(-1.0) }
+    }
+
+    /// Returns the smaller of both.
+    pub fn least(self) -> f64 {
+        self.positive.min(self.negative)
+    }
+
+    /// Returns the larger of both.
+    pub fn most(self) -> f64 {
+        self.positive.max(self.negative)
+    }
+
     pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self { positive: f(self.positive), negative: f(self.negative) }
     }
@@ -22,5 +44,21 @@ impl Sides {
     /// See [`of`](Self::of).
     pub fn of_mut(&mut self, displacement: f64) -> &mut f64 {
         if displacement < 0.0 { &mut self.negative } else { &mut self.positive }
+    }
+}
+
+impl Rocking {
+    /// Returns the sign of u to which a wall can rock, if it can rock to one side only.
+    pub(super) fn free_side(self) -> Option<f64> {
+        match self {
+            Self::TwoSided => None,
+            Self::OneSidedPositive => Some(1.0),
+            Self::OneSidedNegative => Some(-1.0),
+        }
+    }
+
+    /// Returns whether a wall can rock to the side of `sign`.
+    pub(super) fn allows(self, sign: f64) -> bool {
+        self.free_side().is_none_or(|free| free == sign)
     }
 }

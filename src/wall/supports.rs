@@ -1,10 +1,8 @@
 //! Moving supports: the forces they exert on the wall, and the couple of a wall at rest.
 
-use crate::choices::Mechanism;
-
 use super::branch::Couple;
 use super::equation::Wall;
-use super::mechanism::Body;
+use super::mechanism::{Body, Contact, MassShares};
 
 /// Motion of the supports at one instant: absolute accelerations \[m/s²\] and the drift `x_top` − `x_bottom`
 /// \[m\].
@@ -51,37 +49,38 @@ pub struct Ends {
 impl Body {
     /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
     ///
-    /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.
+    /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: one body knows its base only, and no drift.
     pub fn forcing(&self, support: Support) -> f64 {
         let [w_b, w_t] = self.support_weights;
-        match self.mechanism {
-            Mechanism::Parapet => -self.participation * support.bottom,
-            Mechanism::VerticalSpanning => {
-                -self.participation * (w_b * support.bottom + w_t * support.top)
-                    + self.weight * support.drift / (self.height * self.effective_mass)
-            }
+        if self.is_strip() {
+            -self.participation * (w_b * support.bottom + w_t * support.top)
+                + self.drift_weight * support.drift / (self.height * self.effective_mass)
+        } else {
+            -self.participation * support.bottom
         }
     }
 
     /// Forces the supports exert on the wall \[N\]: `acceleration` is ü \[m/s²\], `couple` the couple G of a
     /// strip without that of the drift \[N\] ([`Couple`]).
-    ///
-    /// Integrals over time in place of all these give the impulses of the supports \[N s\], jumps of u̇ at
-    /// impacts included.
     pub fn reactions(&self, support: Support, acceleration: f64, couple: f64) -> Ends {
-        let (m, Support { bottom, top, drift }) = (self.mass, support);
-        match self.mechanism {
-            // R_b = m (a_b + ü)
-            Mechanism::Parapet => Ends { bottom: m * (bottom + acceleration), top: 0.0 },
-            // R_b = m (2a_b + a_t)/6 + (m w_b/2) ü − G,  R_t = m (a_b + 2a_t)/6 + (m w_t/2) ü + G
-            Mechanism::VerticalSpanning => {
-                let [w_b, w_t] = self.support_weights;
-                let couple = couple - (self.weight / 2.0 + self.overburden) * drift / self.height;
-                Ends {
-                    bottom: m * (2.0 * bottom + top) / 6.0 + m * w_b / 2.0 * acceleration - couple,
-                    top: m * (bottom + 2.0 * top) / 6.0 + m * w_t / 2.0 * acceleration + couple,
-                }
-            }
+        let Ends { bottom, top } = self.reaction_changes(support, acceleration, couple);
+        Ends { bottom: bottom - self.contact.thrust, top }
+    }
+
+    /// Changes of these forces \[N\] under changes of the accelerations and the couple; thrusts stay.
+    ///
+    /// Integrals over time in place of all these give the impulses of the supports without those of the
+    /// thrusts \[N s\], jumps of u̇ at impacts included.
+    pub fn reaction_changes(&self, support: Support, acceleration: f64, couple: f64) -> Ends {
+        let Contact { mass, bottom, top, by_drift, .. } = self.contact;
+        let felt = |by: MassShares| {
+            mass * (by.bottom * support.bottom + by.top * support.top + by.wall * acceleration)
+        };
+        if self.is_strip() {
+            let couple = couple - by_drift * support.drift;
+            Ends { bottom: felt(bottom) - couple, top: felt(top) + couple }
+        } else {
+            Ends { bottom: mass * (support.bottom + bottom.wall * acceleration), top: 0.0 }
         }
     }
 }
@@ -119,6 +118,7 @@ impl Wall {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choices::Mechanism;
     use crate::wall::{Parameters, Wall};
 
     const MOVED: Support = Support { bottom: 2.0, top: -1.0, drift: 0.01 };

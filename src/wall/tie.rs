@@ -1,10 +1,10 @@
-//! The one-way tie of a parapet, anchored to its own support.
+//! The one-way tie of a wall of one body, anchored to its own support.
 //!
 //! A tie at the height y, of stiffness K and slack g₀, that resists the side of σ = ±1 has the force N at the
-//! elongation e = σ (2y/h) u of the wall there:
+//! elongation e = σ (y/`z_G`) u of the wall there, in a rectangle (2y/h) u:
 //!
 //! ```text
-//! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ (2y/h) N
+//! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ (y/z_G) N
 //! ```
 //!
 //! Its plastic elongation p grows with e while N = `N_y`, and never falls. The tie breaks for good where p
@@ -15,7 +15,7 @@
 //! it begins to pull, where it yields and where it breaks ([`Hold`]). F₀, `u_ins`, ω₁ and secant damping stay
 //! those of the wall alone.
 
-use crate::choices::{Mechanism, TieSide};
+use crate::choices::TieSide;
 
 use super::error::{Choice, ParameterError};
 use super::force_law::{Line, RestoringForce};
@@ -25,7 +25,7 @@ use super::parameters::{Kinematics, Parameters};
 use super::sides::Sides;
 use super::trigonometric::conflict;
 
-/// The tie of a parapet; on both sides two ties of equal data.
+/// The tie of a wall of one body; on both sides two ties of equal data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tie {
     /// Stiffness K \[N/m\].
@@ -38,7 +38,7 @@ pub struct Tie {
     pub ultimate: Option<f64>,
     /// The side it holds.
     pub side: TieSide,
-    /// de/du = 2y/h.
+    /// de/du = y/`z_G`, in a rectangle 2y/h.
     pub lever: f64,
     /// |u| from which on the wall has left its supports, and the tie with them \[m\].
     departure: Sides,
@@ -106,12 +106,13 @@ impl Tie {
     /// # Errors
     /// [`ParameterError::Conflict`], [`ParameterError::TieHeight`], [`ParameterError::NotGiven`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Option<Self>, ParameterError> {
-        let Parameters { height, tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
+        let Parameters { tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
+        let height = body.height;
         let ultimate = given("tie_ultimate", parameters.tie_ultimate)?;
         if stiffness == 0.0 {
             return Ok(None);
         }
-        if parameters.mechanism != Mechanism::Parapet {
+        if body.is_strip() {
             return Err(ParameterError::conflict(
                 [
                     Choice::new("tie_stiffness", stiffness.to_string()),
@@ -128,7 +129,7 @@ impl Tie {
         }
         let strength = Some(parameters.tie_strength).filter(|strength| *strength > 0.0);
         let ultimate = strength.and(ultimate);
-        let lever = 2.0 * tie_height / height;
+        let lever = tie_height / body.centroid_height;
         // the elongation under the strength; with no plastic elongation the tie breaks where it yields
         let elastic = strength.map(|strength| strength / stiffness + slack);
         Ok(Some(Self {
@@ -154,7 +155,7 @@ impl Tie {
         }
     }
 
-    /// Returns the |u| at which the tie first begins to pull, g₀ h/(2y) \[m\].
+    /// Returns the |u| at which the tie first begins to pull, g₀ over the lever \[m\].
     pub fn onset(&self) -> f64 {
         self.onset
     }
@@ -171,7 +172,7 @@ impl Tie {
         self.breaks
     }
 
-    /// Returns the slope that the tie adds to F where it pulls, K (2y/h)² \[N/m\].
+    /// Returns the slope that the tie adds to F where it pulls, K times the square of the lever \[N/m\].
     pub fn slope(&self) -> f64 {
         self.stiffness * self.lever * self.lever
     }

@@ -76,10 +76,10 @@ impl FullRotations {
     /// # Errors
     /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
-        check(parameters)?;
+        check(parameters, body)?;
         let (b, h, h1) = (parameters.thickness, body.height, body.hinge_height);
         let (lever, bodies, h2) = match body.mechanism {
-            Mechanism::Parapet => (2.0, 1, h),
+            Mechanism::Parapet | Mechanism::RigidBody => (2.0, 1, h),
             Mechanism::VerticalSpanning => (1.0, 2, h - h1),
         };
         let masses = if bodies == 1 { [1.0, 0.0] } else { [h1 / h, h2 / h] };
@@ -228,7 +228,7 @@ fn forces(b: f64, [h1, h2]: [f64; 2], [m1, m2]: [f64; 2], body: &Body, c: f64) -
     // the section
     let (load, sine) = match body.mechanism {
         // y = c₁ − (b/2 + c) sin θ₁,  sin θ₁ = (s h + c₁ b)/D²
-        Mechanism::Parapet => {
+        Mechanism::Parapet | Mechanism::RigidBody => {
             let along = (b / 2.0 + c) / (h1 * h1 + b * b);
             ([1.0 - along * b, 0.0], -along * h1)
         }
@@ -252,7 +252,10 @@ pub(super) fn conflict(name: &'static str, value: &dyn ToString, remedy: &str) -
 
 /// # Errors
 /// [`ParameterError::Conflict`] with a law, a damping or a solver that goes with small rotations only.
-fn check(parameters: &Parameters) -> Result<(), ParameterError> {
+fn check(parameters: &Parameters, body: &Body) -> Result<(), ParameterError> {
+    if !body.is_rectangle {
+        return Err(conflict("mechanism", &"that of parts or a rigid body", "a rectangle"));
+    }
     let law = parameters.multilinear.as_ref().map_or(parameters.force_law.name(), |_| "multilinear");
     let refused = if law != ForceLaw::RigidLinear.name() {
         conflict("force_law", &law, "force_law = rigid_linear")

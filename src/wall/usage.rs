@@ -23,6 +23,9 @@ pub struct Usage {
 /// The condition of what a multilinear law replaces.
 const NAMED_LAW: &str = "force_law is not multilinear";
 
+/// The condition of what parts replace.
+const A_RECTANGLE: &str = "the wall has no parts";
+
 /// Returns the usage of every variable of the model description, by its `<Where>` elements.
 ///
 /// ```
@@ -33,6 +36,7 @@ const NAMED_LAW: &str = "force_law is not multilinear";
 /// assert!(!of_law.matters && of_law.condition == "force_law = trilinear");
 /// ```
 pub fn usage(parameters: &Parameters) -> impl Iterator<Item = Usage> + use<> {
+    let has_parts = parameters.profile.is_some();
     let is_multilinear = parameters.multilinear.is_some();
     // full rotations have no closed form
     let is_adaptive =
@@ -41,6 +45,11 @@ pub fn usage(parameters: &Parameters) -> impl Iterator<Item = Usage> + use<> {
         "force_law" | "a1" | "a3" | "d1" | "softening" if is_multilinear => {
             Usage { matters: false, condition: NAMED_LAW, ..usage }
         }
+        // they stand for the parts, and the user has not set them
+        "height" | "thickness" | "width" | "density" if has_parts => {
+            Usage { is_start: true, matters: false, condition: A_RECTANGLE, ..usage }
+        }
+        "F0_negative" | "u_ins_negative" if has_parts => Usage { matters: true, ..usage },
         "omega1" if is_multilinear => Usage { matters: true, ..usage },
         "tolerance" if is_adaptive => Usage { matters: true, ..usage },
         _ => usage,

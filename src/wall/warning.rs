@@ -15,6 +15,13 @@ pub enum Warning {
     /// Eq. (23) outside an unloaded parapet.
     #[error("computed c_bar (Eq. 23) is valid only for a parapet without overburden; set c_bar")]
     ComputedFreeStanding,
+    /// A formula of rectangles, for a body that is none.
+    #[error(
+        "restitution_source = {name} has formulas of rectangles: the restitution of this body is by \
+         impulses{}; set restitution_source = impulses, or restitution",
+        if *name == "calibrated" { ", times the ratio measured on rectangles" } else { "" }
+    )]
+    ByImpulses { name: &'static str },
     /// Viscous damping computed from e, and e applied at impacts as well.
     #[error(
         "computed damping already represents the impacts: with impact = restitution the energy loss is \

@@ -1,6 +1,6 @@
 //! What the parameters of a wall give reason to warn about.
 
-use crate::choices::Mechanism;
+use crate::choices::RestitutionSource;
 
 use super::bar::Bar;
 use super::damping::DampingLaw;
@@ -29,12 +29,18 @@ pub(super) fn collect(
     let mut warnings: Vec<_> =
         unused.map(|Usage { name, condition, .. }| Warning::NoEffect { name, condition }).collect();
     let computed = damping.asked.computed_name();
-    let is_plain_parapet = body.mechanism == Mechanism::Parapet && body.overburden <= 0.0;
+    let is_plain_parapet = body.is_rectangle && !body.is_strip() && body.overburden <= 0.0;
     if computed == Some("c_bar") && !is_plain_parapet {
         warnings.push(Warning::ComputedFreeStanding);
     }
     if computed.is_some() && restitution.is_some() {
         warnings.push(Warning::CountedTwice);
+    }
+    let source = parameters.restitution_source;
+    let is_of_rectangles = matches!(source, RestitutionSource::Analytic | RestitutionSource::Calibrated);
+    let is_computed = parameters.restitution < 0.0 && (computed.is_some() || restitution.is_some());
+    if !body.is_rectangle && is_of_rectangles && is_computed {
+        warnings.push(Warning::ByImpulses { name: source.name() });
     }
     if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
         warnings.push(Warning::OutsideFit { a1: force.elastic_fraction });
@@ -62,17 +68,18 @@ impl Parameters {
         // of a bar with a number in another unit, stiffness and strength say nothing more
         let has_tie = self.tie_stiffness > 0.0 && of_bar.is_empty();
         let half = thickness / 2.0;
+        let is_rectangle = self.is_rectangle();
         let usual = |name, unit, range, others| Usual { name, unit, range, others };
         let of_shape = [
             (height, usual("height", "m", [0.2, 30.0], LENGTHS)),
             (thickness, usual("thickness", "m", [0.03, 3.0], LENGTHS)),
         ];
         // the ratio of a height or thickness in another unit says nothing more
-        let slender = of_shape.iter().all(|(value, usual)| usual.warning(*value).is_none());
+        let slender = is_rectangle && of_shape.iter().all(|(value, usual)| usual.warning(*value).is_none());
         let density =
             usual("density", "kg/m3", [400.0, 3000.0], &[("in t/m3", 1e3), ("in kN/m3", 1e3 / 9.80665)]);
         let of_wall = [
-            (true, self.density, density),
+            (is_rectangle, self.density, density),
             (slender, height / thickness, usual("height/thickness", "", [1.0, 100.0], &[])),
             (true, self.gravity, usual("gravity", "m/s2", [9.7, 9.9], &[("in cm/s2", 0.01)])),
             // below 0 it is computed
@@ -93,7 +100,7 @@ impl Parameters {
             // an anchor in poor masonry resists some kN, two steel bars of 40 mm 1.3e6 N
             (has_tie && tie_strength > 0.0, tie_strength, usual("tie_strength", "N", [1e3, 2e6], FORCES)),
         ];
-        let of_shape = of_shape.map(|(value, usual)| (true, value, usual));
+        let of_shape = of_shape.map(|(value, usual)| (is_rectangle, value, usual));
         let all = of_shape.into_iter().chain(of_wall);
         all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_bar)
     }

@@ -37,7 +37,7 @@ pub(crate) fn unused(fields: &Fields) -> Value {
 pub(crate) fn computed(wall: &Wall) -> Value {
     let Damping { model, ratio } = wall.damping();
     let ratio = model.ratio_name().zip(ratio);
-    let all = [("restitution", wall.restitution())].into_iter().chain(ratio);
+    let all = [("restitution", wall.restitution().positive)].into_iter().chain(ratio);
     all.map(|(name, value)| (name, number(value, 3))).collect()
 }
 

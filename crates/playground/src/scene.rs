@@ -49,6 +49,7 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
 fn title(scene: &Scene) -> String {
     let kind = match scene.parameters.mechanism {
         Mechanism::Parapet => "parapet",
+        Mechanism::RigidBody => "rigid body",
         Mechanism::VerticalSpanning => "strip wall",
     };
     format!("A {kind}, {} m × {} m", scene.parameters.height, scene.parameters.thickness)

@@ -63,7 +63,7 @@ pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[Str
         rows.push(row("damping ratio ξ", 100.0 * wall.damping_ratio(), "%"));
     }
     if parameters.impact == Impact::Restitution {
-        rows.push(row("coefficient of restitution e", wall.restitution(), ""));
+        rows.push(row("coefficient of restitution e", wall.restitution().positive, ""));
     }
     if let Some(tie) = &response.demands.tie {
         rows.push(row("largest force of the tie", 1e-3 * tie.force.value, "kN"));

@@ -211,7 +211,8 @@ impl<O: Observer> Lanes<'_, O> {
         let beyond = |kind: f64| N::splat(token, kind).below(exit);
         let impact = beyond(end_kind::CURVED);
         let ordinary = beyond(end_kind::CLOSED) & !impact;
-        let velocity = N::select(impact, velocity * N::load(token, &rows.passage_factor, first), velocity);
+        let [down, up] = rows.passage_factors.each_ref().map(|row| N::load(token, row, first));
+        let velocity = N::select(impact, velocity * N::select(upwards, up, down), velocity);
         let rest_speed = N::load(token, &rows.rest_speed, first);
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));

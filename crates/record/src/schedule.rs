@@ -131,7 +131,9 @@ impl<O: Observer> Lanes<'_, O> {
         let BatchRun { solver, record, .. } = self.given[number];
         (self.solvers[lane], self.records[lane]) = (solver, record);
         let rows = &mut self.rows;
-        rows.passage_factor[lane] = solver.passage_factor;
+        for (row, factor) in rows.passage_factors.iter_mut().zip(solver.passage_factors) {
+            row[lane] = factor;
+        }
         rows.rest_speed[lane] = solver.motion.rest_speed();
         (rows.index[lane], rows.step_taken[lane], rows.factor[lane]) = (first as f64, step_taken, factor);
         (rows.u[lane], rows.v[lane], rows.branch[lane]) =

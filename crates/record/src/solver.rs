@@ -29,16 +29,16 @@ pub struct RecordSolver<'a> {
     /// Length of the steps \[s\].
     pub(crate) step: f64,
     pub(crate) table: BranchTable,
-    /// Factor on u̇ at an impact.
-    pub(crate) passage_factor: f64,
+    /// Factors on u̇ at an impact: of a wall that goes to u < 0 and of one that goes to u > 0.
+    pub(crate) passage_factors: [f64; 2],
 }
 
 impl<'a> RecordSolver<'a> {
     /// Prepares steps of `step` \[s\], which is above zero. What is prepared serves all records with that
     /// step.
     pub fn new(motion: &'a Motion, step: f64) -> Self {
-        let passage_factor = motion.wall().passage_factor();
-        Self { motion, step, table: BranchTable::new(motion, step), passage_factor }
+        let passage_factors = [-1.0, 1.0].map(|velocity| motion.wall().passage_factor(velocity));
+        Self { motion, step, table: BranchTable::new(motion, step), passage_factors }
     }
 
     /// Returns the motion whose steps are prepared.

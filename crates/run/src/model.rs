@@ -214,7 +214,7 @@ impl Model {
             EnergyLoss::Viscous(Damping { model, ratio: None }) => parameters.damping_model = model,
             EnergyLoss::Viscous(damping) => parameters.set_damping(damping),
             EnergyLoss::Equation14(model) => {
-                let e = Wall::new(&parameters)?.restitution();
+                let e = Wall::new(&parameters)?.restitution().positive;
                 if e <= 0.0 {
                     return Err(ParameterError::Computed { name: "xi", restitution: e });
                 }

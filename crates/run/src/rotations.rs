@@ -13,7 +13,7 @@
 //! ```
 
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
-use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
+use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Solver};
 use rocking_wall::wall::{Kinematics, ParameterError, Parameters, Support, Wall, equivalence};
 
 use crate::bisection::first_true;
@@ -89,15 +89,15 @@ pub fn period(parameters: &Parameters, start: f64) -> Result<Period, RotationsEr
     let [linear, trigonometric] = both(parameters, |release| release.first_impact(start))?;
     let wall = Wall::new(&rigid(parameters, Kinematics::Linear))?;
     let body = wall.body();
-    let plain = body.mechanism == Mechanism::Parapet && body.overburden == 0.0;
+    let plain = !body.is_strip() && body.overburden == 0.0;
     let housner = plain.then(|| {
         // R = h/(2 cos α), p = √(3g/(4R))
-        let radius = 0.5 * body.height / body.slenderness.cos();
+        let radius = 0.5 * body.height / body.slenderness.positive.cos();
         let frequency = (0.75 * parameters.gravity / radius).sqrt();
         equivalence::housner_period(frequency, start)
     });
     let (linear, trigonometric) = (4.0 * linear, 4.0 * trigonometric);
-    Ok(Period { slenderness: body.slenderness, start, linear, trigonometric, housner })
+    Ok(Period { slenderness: body.slenderness.positive, start, linear, trigonometric, housner })
 }
 
 /// Returns the rigid wall that is released.

@@ -122,6 +122,18 @@ impl<'a> Subject<'a> {
     pub fn new(parameters: &'a Parameters) -> Self {
         Self { parameters, floors: None, assumed: &[] }
     }
+
+    /// # Errors
+    /// [`CheckError::Wall`] of a wall that is no rectangle, which the codes here do not check.
+    pub(crate) fn check_shape(&self) -> Result<(), CheckError> {
+        if self.parameters.is_rectangle() {
+            return Ok(());
+        }
+        Err(CheckError::wall(
+            "a check takes rectangles: state the wall by height, thickness, width and density, without \
+             [[geometry.part]] and [geometry.body]",
+        ))
+    }
 }
 
 impl<'a> From<&'a Scene> for Subject<'a> {

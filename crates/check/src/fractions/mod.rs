@@ -189,6 +189,7 @@ impl Statement {
 
     fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
         let Subject { parameters, floors, .. } = subject;
+        subject.check_shape()?;
         let wall = Wall::new(parameters)?;
         let mut source = self.source.clone();
         let mut warnings: Vec<_> = parameters.unusual().map(|one| improbable(&one)).collect();

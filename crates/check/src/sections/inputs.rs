@@ -173,7 +173,7 @@ fn parameter(
 /// The number that the geometry gives where a parameter leaves it to that.
 fn computed_value(wall: &Wall, name: &str, language: Language) -> String {
     if name == "restitution" {
-        return language.stated(wall.restitution());
+        return language.stated(wall.restitution().positive);
     }
     let Damping { model, ratio } = wall.damping();
     let ratio = ratio.filter(|_| model.ratio_name() == Some(name));

@@ -61,7 +61,7 @@ pub(crate) fn storeys(floors: &Floors) -> Sentence {
 /// The mechanism, as codes name it.
 pub(crate) fn mechanism(mechanism: Mechanism) -> Sentence {
     match mechanism {
-        Mechanism::Parapet => say!("simple overturning", "ribaltamento semplice"),
+        Mechanism::Parapet | Mechanism::RigidBody => say!("simple overturning", "ribaltamento semplice"),
         Mechanism::VerticalSpanning => say!("vertical bending (strip)", "flessione verticale"),
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn figure_13() -> Figure {
     let curve = |model: DampingModel, mechanism, factor: f64| -> Vec<(f64, f64)> {
         let ratio = |angle: f64| {
             let analytic = match mechanism {
-                Mechanism::Parapet => analytic_parapet(angle),
+                Mechanism::Parapet | Mechanism::RigidBody => analytic_parapet(angle),
                 Mechanism::VerticalSpanning => analytic_vertical_spanning(angle),
             };
             model.predicted_ratio(a1, factor * analytic)

@@ -22,7 +22,7 @@ fn loaded(mechanism: Mechanism) -> Result<Wall, ParameterError> {
 /// Symbols of the formulas: h, h₁ and h₂, b, c, W, O.
 fn symbols(wall: &Wall) -> [f64; 7] {
     let body = wall.body();
-    let (h, h1, b) = (body.height, body.hinge_height, body.hinge_height * body.slenderness.tan());
+    let (h, h1, b) = (body.height, body.hinge_height, body.hinge_height * body.slenderness.positive.tan());
     [h, h1, h - h1, b, 0.1 * b, body.weight, body.overburden]
 }
 

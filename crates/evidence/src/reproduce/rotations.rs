@@ -107,7 +107,7 @@ pub fn wall(mechanism: Mechanism) -> Parameters {
 pub fn periods(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, EvidenceError> {
     let wall = wall(mechanism);
     let lower = match mechanism {
-        Mechanism::Parapet => wall.height,
+        Mechanism::Parapet | Mechanism::RigidBody => wall.height,
         Mechanism::VerticalSpanning => wall.hinge_ratio * wall.height,
     };
     let at = |alpha: &f64| {

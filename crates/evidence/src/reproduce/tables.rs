@@ -95,7 +95,7 @@ pub fn table_5() -> Result<PaperTable, ParameterError> {
     for row in &TABLE_5 {
         let wall = table_5_wall(row);
         let restitution = |restitution_source| -> Result<f64, ParameterError> {
-            Ok(Wall::new(&Parameters { restitution_source, ..wall.clone() })?.restitution())
+            Ok(Wall::new(&Parameters { restitution_source, ..wall.clone() })?.restitution().positive)
         };
         let e_an = restitution(RestitutionSource::Analytic)?;
         let e = restitution(RestitutionSource::Calibrated)?;

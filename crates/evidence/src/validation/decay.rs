@@ -110,7 +110,7 @@ impl Decay {
             [("calibrated e", RestitutionSource::Calibrated), ("analytic e", RestitutionSource::Analytic)]
         {
             let wall = Wall::new(&Parameters { restitution_source: source, ..with(COMPUTED) })?;
-            let e = wall.restitution();
+            let e = wall.restitution().positive;
             models.push(model(name, e, None, &with(e), &measured)?);
         }
         let wall = Wall::new(&with(e))?;

@@ -110,7 +110,7 @@ impl Push {
 fn shown_force(wall: &Wall, force: f64) -> f64 {
     let body = wall.body();
     let factor = match body.mechanism {
-        Mechanism::Parapet => 1.0,
+        Mechanism::Parapet | Mechanism::RigidBody => 1.0,
         Mechanism::VerticalSpanning => 0.5,
     };
     factor * force / body.weight

@@ -187,7 +187,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
-        ("impact", impact(parameters, wall.restitution())),
+        ("impact", impact(parameters, wall.restitution().positive)),
     ];
     let tie = tie::fact(wall, parameters.weaker_part()).map(|tie| ("tie", tie));
     rows.iter().chain(&tie).map(|(name, value)| row(name, value)).collect()

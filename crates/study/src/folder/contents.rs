@@ -139,7 +139,7 @@ impl Contents {
             WallNote {
                 name: wall.name.clone(),
                 parameters: wall_text(wall),
-                restitution: made[0].restitution(),
+                restitution: made[0].restitution().positive,
                 xi: made.iter().map(rocking_wall::wall::Wall::damping_ratio).collect(),
                 has_yielding_tie: study.has_yielding_tie(index),
             }

@@ -57,8 +57,8 @@ fn the_damping_is_that_of_table_5() {
             study.models()[model].name
         );
     }
-    assert!((study.wall(1, 0).passage_factor() - 0.878).abs() < 5e-4);
-    assert_eq!(study.wall(1, 4).passage_factor(), 1.0);
+    assert!((study.wall(1, 0).passage_factor(1.0) - 0.878).abs() < 5e-4);
+    assert_eq!(study.wall(1, 4).passage_factor(1.0), 1.0);
     let names: Vec<_> = study.models().iter().map(|model| model.name.as_str()).collect();
     assert_eq!(names, ["CR", "CDC", "CDR", "SDR", "CDR Eq. 14"]);
 }

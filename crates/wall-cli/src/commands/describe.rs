@@ -71,12 +71,13 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         return console.json(&object.into());
     }
     let mut text = String::new();
+    let width = facts.iter().map(|fact| fact.name.len()).max().unwrap_or_default() + 2;
     for (name, value) in words {
-        let _ = writeln!(text, "{name:<22}{value}");
+        let _ = writeln!(text, "{name:<width$}{value}");
     }
     text.push('\n');
     for Fact { name, symbol, value, unit } in facts {
-        let _ = writeln!(text, "{name:<22}{symbol:<8}{:>13} {unit}", significant(value, 6));
+        let _ = writeln!(text, "{name:<width$}{symbol:<10}{:>13} {unit}", significant(value, 6));
     }
     text.push('\n');
     text.push_str(&capacity.table().text());

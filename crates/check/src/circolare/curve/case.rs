@@ -38,6 +38,7 @@ impl<'a> Case<'a> {
     /// # Errors
     /// [`CheckError`] of statements that are missing or do not fit the wall.
     pub(crate) fn new(statement: &'a Statement, subject: Subject<'a>) -> Result<Self, CheckError> {
+        subject.check_shape()?;
         let mut parameters = statement.with_bar(subject.parameters)?;
         parameters.rocking = statement.table.rocking.map_or(parameters.rocking, Rocks::rocking);
         // in the check a tie without a plastic elongation is brittle
@@ -172,12 +173,12 @@ fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f6
             "overburden_mass: the top of a strip wall is held, its overburden does not move; leave it out",
         ),
         (Mechanism::VerticalSpanning, _) => Ok(0.0),
-        (Mechanism::Parapet, None) if parameters.overburden > 0.0 => refused(
+        (Mechanism::Parapet | Mechanism::RigidBody, None) if parameters.overburden > 0.0 => refused(
             "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia \
              goes elsewhere) to 1 (it moves with the wall), more for a mass that only \
              pushes the wall",
         ),
-        (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
+        (Mechanism::Parapet | Mechanism::RigidBody, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
     }
 }
 

@@ -98,10 +98,10 @@ impl Curve {
         ledger.add(Quantity::new("", "W = γ h b l", Unit::KILONEWTONS, body.weight, words));
         self.add_force(of, ledger);
         let (multiplier, mass, ratio) = match body.mechanism {
-            Mechanism::Parapet if body.overburden > 0.0 => {
+            Mechanism::Parapet | Mechanism::RigidBody if body.overburden > 0.0 => {
                 ("α0 = F_act/(W + 2 r O)", "M* = e* (W + r O)/g", "d/u = (W + 2 r O)/(W + r O)")
             }
-            Mechanism::Parapet => ("α0 = F_act/W", "M* = e* W/g", "d/u"),
+            Mechanism::Parapet | Mechanism::RigidBody => ("α0 = F_act/W", "M* = e* W/g", "d/u"),
             Mechanism::VerticalSpanning => ("α0 = F_act/W", "M* = e* W/g", "d/u = 1/2 · W/W"),
         };
         let words = say!("Multiplier of activation, without FC", "Moltiplicatore di attivazione, senza FC");
@@ -137,8 +137,8 @@ impl Curve {
             return;
         }
         let formula = match body.mechanism {
-            Mechanism::Parapet if body.overburden == 0.0 => "W b/h",
-            Mechanism::Parapet => "[(W + O) b − 2 O c]/h",
+            Mechanism::Parapet | Mechanism::RigidBody if body.overburden == 0.0 => "W b/h",
+            Mechanism::Parapet | Mechanism::RigidBody => "[(W + O) b − 2 O c]/h",
             Mechanism::VerticalSpanning => {
                 let words = say!("Height of the hinge", "Quota della cerniera");
                 ledger.add(Quantity::new("", "h_1", Unit::METRES, body.hinge_height, words));
@@ -160,7 +160,7 @@ impl Curve {
         let is_cut = of.eccentricity() > 0.5 * of.parameters.thickness - self.set_back.top;
         let formula = match (of.statement.masonry, body.mechanism) {
             (None, _) => "F_act",
-            (Some(_), Mechanism::Parapet) => "F_act = F0 − (2/h) (W + O) t_b {10⁻³}",
+            (Some(_), Mechanism::Parapet | Mechanism::RigidBody) => "F_act = F0 − (2/h) (W + O) t_b {10⁻³}",
             (Some(_), Mechanism::VerticalSpanning) if is_cut => {
                 "F_act = F0 − (2/h_1) (W + O) t_b {10⁻³} − 2 (W_2 + O) t_m {10⁻³} h/(h_1 h_2) − (2/h_2) O [c \
                  − (b/2 − t_t {10⁻³})]"

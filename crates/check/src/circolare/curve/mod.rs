@@ -32,7 +32,7 @@ use set_back::SetBack;
 /// κ of [C8.7.1.7], for a cantilever and for vertical bending \[-\].
 fn factor_of_beam(mechanism: Mechanism) -> f64 {
     match mechanism {
-        Mechanism::Parapet => 6.2,
+        Mechanism::Parapet | Mechanism::RigidBody => 6.2,
         Mechanism::VerticalSpanning => 2.2,
     }
 }
@@ -124,7 +124,7 @@ impl Curve {
         let gravity = body.weight / body.mass;
         let moved = case.moved;
         let (pushed_weight, d_per_u) = match body.mechanism {
-            Mechanism::Parapet => {
+            Mechanism::Parapet | Mechanism::RigidBody => {
                 let pushed = body.weight + 2.0 * moved;
                 (pushed, pushed / (body.weight + moved))
             }

@@ -39,7 +39,7 @@ impl SetBack {
         let refused = |message: String| Err(CheckError::wall(message));
         let edge = body.strength.of(sign);
         let (set_back, force, forces) = match body.mechanism {
-            Mechanism::Parapet => {
+            Mechanism::Parapet | Mechanism::RigidBody => {
                 let set_back = Self { base, ..Self::default() };
                 (set_back, edge - 2.0 / h * (w + o) * base, vec![("base", w + o)])
             }

@@ -1,0 +1,344 @@
+//! Bodies that are no rectangle: of parts and loads, and of given integrals.
+//!
+//! With a fixed hinge the restoring force of any rigid body is linear in u, so that these walls have Eq. (12)
+//! with constants of their own. They follow from Lagrange's equations for small rotations.
+//!
+//! # One body
+//! It turns by θ about its outer toe (u > 0) or its inner toe, at the distance b₀; u = θ `z_G` with the height
+//! `z_G` of the centroid of the masonry. Loads P at (x, z) have arms x and b₀ − x, a moving mass r P/g and a
+//! thrust H outwards:
+//!
+//! ```text
+//! I = Σ∫z² dm + Σ r (P/g) z²     S = Σ∫z dm + Σ r (P/g) z     K = W z_G + Σ P z
+//! M₀± = W x± + Σ P d± ∓ Σ H z
+//! m_eff = I/z_G²     λ = S z_G/I     F₀± = M₀±/z_G     k₀ = K/z_G²
+//! ```
+//!
+//! # A strip of two bodies
+//! The hinge at h₁ moves by u, φ = z/h₁ below it and (h − z)/h₂ above. The base bears at the toe A, the hinge
+//! where both sections reach, at B: their inner edges for u > 0. A place x rises by
+//!
+//! ```text
+//! ρ = (x − x_A)/h₁ below     ρ = (x_B − x_A)/h₁ + (x_B − x)/h₂ above     for u > 0, mirrored for u < 0
+//! ```
+//!
+//! for each unit of |u|. On the scale of Eq. (12), which is twice Lagrange's:
+//!
+//! ```text
+//! m_eff = 2 ∫φ² dm     λ m_eff = 2 ∫φ dm     F₀± = 2 [Σ P ρ ∓ Σ H φ]     k₀ = 2 (K₁/h₁² + K₂/h₂²)
+//! K₁ = Σ P z below + h₁ Σ P above     K₂ = Σ P (z − h₁) above
+//! ```
+//!
+//! # Impacts
+//! An impact projects the old field of velocities on the new one, since its impulses act where the new field
+//! does not move: e = ∫[φ² − ρ_old ρ_new] dm / ∫[φ² + ρ_new²] dm.
+
+use super::error::{Choice, ParameterError};
+use super::given::given;
+use super::mechanism::{Body, Contact, MassShares};
+use super::parameters::Parameters;
+use super::points::Point;
+use super::profile::{Profile, SAME};
+use super::sides::Sides;
+
+/// What one body has of each point, summed: with moments about the base and about each toe.
+struct OneBody {
+    height: f64,
+    /// Of the masonry alone: m, W, `z_G` and the arms of the weight.
+    mass: f64,
+    weight: f64,
+    centroid_height: f64,
+    arms: Sides,
+    overburden: f64,
+    /// With loads: the moving mass, I, S, K, M₀ and the thrust.
+    moving_mass: f64,
+    inertia: f64,
+    first_moment: f64,
+    overturning: f64,
+    moments: Sides,
+    thrust: f64,
+    impulses: Option<Sides>,
+}
+
+impl OneBody {
+    fn body(self, parameters: &Parameters) -> Body {
+        let z = self.centroid_height;
+        Body {
+            mechanism: parameters.mechanism,
+            is_rectangle: false,
+            height: self.height,
+            hinge_height: self.height,
+            centroid_height: z,
+            slenderness: self.arms.map(|arm| (arm / z).atan()),
+            weight: self.weight,
+            overburden: self.overburden,
+            mass: self.mass,
+            effective_mass: self.inertia / (z * z),
+            participation: self.first_moment * z / self.inertia,
+            strength: self.moments.map(|moment| moment / z),
+            geometric_stiffness: self.overturning / (z * z),
+            support_weights: [1.0, 0.0],
+            drift_weight: 0.0,
+            contact: Contact::of_one_body(
+                self.moving_mass,
+                self.first_moment / (z * self.moving_mass),
+                self.thrust,
+            ),
+            impulses: self.impulses,
+            instability: Sides::default(),
+            landing: Sides::default(),
+            departure: Sides::default(),
+        }
+        .ending_at(z)
+    }
+}
+
+impl Body {
+    /// Returns the body of parts that turns about its toes.
+    pub(super) fn of_parts(parameters: &Parameters, profile: &Profile) -> Self {
+        let h = profile.height();
+        let [outer, inner] = profile.toes();
+        let masonry = profile.masonry([0.0, h], parameters.gravity);
+        let loads: Vec<Point> = profile.load_points(parameters.gravity).collect();
+        let sum = |of: fn(&Point) -> f64| masonry.iter().map(of).sum::<f64>();
+        let (mass, weight) = (sum(|p| p.mass), sum(|p| p.weight));
+        let (x, z) = (sum(|p| p.mass * p.x) / mass, sum(|p| p.mass * p.z) / mass);
+        let all = || masonry.iter().chain(&loads);
+        let total = |of: &dyn Fn(&Point) -> f64| all().map(of).sum::<f64>();
+        let arm = |sign: f64, x: f64| if sign > 0.0 { x - outer } else { inner - x };
+        let (o, c) = (parameters.overburden, parameters.overburden_on(profile));
+        let moment = |sign: f64| {
+            total(&|p| p.weight * arm(sign, p.x) - sign * p.thrust * p.z) + o * arm(sign, c.of(sign))
+        };
+        let rise = |sign: f64, p: &Point| arm(sign, p.x);
+        let impulses = Sides::each(|sign| impulses(all(), |p| p.z, |p| rise(sign, p), |p| rise(-sign, p)));
+        OneBody {
+            height: h,
+            mass,
+            weight,
+            centroid_height: z,
+            arms: Sides::each(|sign| arm(sign, x)),
+            overburden: o,
+            moving_mass: total(&|p| p.mass),
+            inertia: total(&|p| p.mass * p.z * p.z),
+            first_moment: total(&|p| p.mass * p.z),
+            overturning: total(&|p| p.weight * p.z) + o * h,
+            moments: Sides::each(moment),
+            thrust: total(&|p| p.thrust),
+            impulses: Some(impulses),
+        }
+        .body(parameters)
+    }
+
+    /// Returns the rigid body whose integrals are given.
+    pub(super) fn of_integrals(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let Parameters { body_mass: mass, centroid_height: z, gravity, height, .. } = *parameters;
+        let Parameters { load_force: load, load_height, load_mass, load_mass_height, thrust, .. } =
+            *parameters;
+        if z >= height {
+            return Err(ParameterError::conflict(
+                [Choice::new("centroid_height", z.to_string()), Choice::new("height", height.to_string())],
+                "height to that of the top of the body, above its centroid",
+            ));
+        }
+        if parameters.overburden > 0.0 {
+            return Err(ParameterError::conflict(
+                [
+                    Choice::new("overburden", parameters.overburden.to_string()),
+                    Choice::new("mechanism", parameters.mechanism.name()),
+                ],
+                "load_force, load_height and load_arm for the loads of a rigid body, and overburden = 0",
+            ));
+        }
+        for (name, value, mass, height) in [
+            ("inertia", parameters.inertia, mass, z),
+            ("load_inertia", parameters.load_inertia, load_mass, load_mass_height),
+        ] {
+            // the numbers may be rounded
+            if value < (1.0 - 1e-6) * mass * height * height {
+                return Err(ParameterError::Inertia { name, value, mass, height });
+            }
+        }
+        let weight = mass * gravity;
+        let inner = given("arm_inner", parameters.arm_inner)?.unwrap_or(parameters.arm);
+        let arms = Sides { positive: parameters.arm, negative: inner };
+        let load_arms =
+            Sides { positive: parameters.load_arm, negative: parameters.arm + inner - parameters.load_arm };
+        let thrust_moment = thrust * parameters.thrust_height;
+        Ok(OneBody {
+            height,
+            mass,
+            weight,
+            centroid_height: z,
+            arms,
+            overburden: 0.0,
+            moving_mass: mass + load_mass,
+            inertia: parameters.inertia + parameters.load_inertia,
+            first_moment: mass * z + load_mass * load_mass_height,
+            overturning: weight * z + load * load_height,
+            moments: Sides::each(|sign| {
+                weight * arms.of(sign) + load * load_arms.of(sign) - sign * thrust_moment
+            }),
+            thrust,
+            impulses: None,
+        }
+        .body(parameters))
+    }
+
+    /// Returns the strip of parts, cut by its hinge into two bodies.
+    pub(super) fn strip_of_parts(parameters: &Parameters, profile: &Profile) -> Result<Self, ParameterError> {
+        let h = profile.height();
+        let h1 = profile.snapped(parameters.hinge_ratio * h);
+        let strip = Strip { h, h1, toes: profile.toes(), edges: profile.hinge_edges(h1)? };
+        let [lower, upper] = [[0.0, h1], [h1, h]].map(|range| profile.masonry(range, parameters.gravity));
+        let c = parameters.overburden_on(profile);
+        let loads: Vec<Point> = profile.load_points(parameters.gravity).collect();
+        let masonry = || lower.iter().chain(&upper);
+        let all = || masonry().chain(&loads);
+        let total = |of: &dyn Fn(&Point) -> f64| all().map(of).sum::<f64>();
+        let sum = |of: fn(&Point) -> f64| masonry().map(of).sum::<f64>();
+        let (mass, weight, o) = (sum(|p| p.mass), sum(|p| p.weight), parameters.overburden);
+        let phi = |p: &Point| strip.share(p.z);
+        let strength = |sign: f64| {
+            let of_points = total(&|p| p.weight * strip.rise(sign, p.x, p.z) - sign * p.thrust * phi(p));
+            2.0 * (of_points + o * strip.rise(sign, c.of(sign), h))
+        };
+        let k1 = total(&|p| p.weight * p.z.min(h1)) + o * h1;
+        let k2 = total(&|p| p.weight * (p.z - h1).max(0.0)) + o * (h - h1);
+        let h2 = h - h1;
+        let [moving, by_z, by_z2] = [0, 1, 2].map(|power| total(&|p| p.mass * (p.z / h).powi(power)));
+        let [by_phi, by_phi_z] = [0, 1].map(|power| total(&|p| p.mass * phi(p) * (p.z / h).powi(power)));
+        let effective_mass = 2.0 * total(&|p| p.mass * phi(p) * phi(p));
+        let moment = |sign: f64| {
+            let arm = |x: f64| sign * (x - strip.toe(sign));
+            total(&|p| p.weight * arm(p.x) - sign * p.thrust * p.z) + o * arm(c.of(sign))
+        };
+        let contact = Contact {
+            mass: moving,
+            bottom: MassShares {
+                bottom: (moving - 2.0 * by_z + by_z2) / moving,
+                top: (by_z - by_z2) / moving,
+                wall: (by_phi - by_phi_z) / moving,
+            },
+            top: MassShares { bottom: (by_z - by_z2) / moving, top: by_z2 / moving, wall: by_phi_z / moving },
+            thrust: total(&|p| p.thrust),
+            moments: Sides::each(moment),
+            by_displacement: total(&|p| p.weight * phi(p)) / h,
+            by_drift: (total(&|p| p.weight * p.z / h) + o) / h,
+        };
+        let impulses = Sides::each(|sign| {
+            impulses(all(), phi, |p| strip.rise(sign, p.x, p.z), |p| strip.rise(-sign, p.x, p.z))
+        });
+        Ok(Self {
+            mechanism: parameters.mechanism,
+            is_rectangle: false,
+            height: h,
+            hinge_height: h1,
+            centroid_height: h / 2.0,
+            slenderness: Sides::each(|sign| ((strip.edge(sign) - strip.toe(sign)).abs() / h1).atan()),
+            weight,
+            overburden: o,
+            mass,
+            effective_mass,
+            participation: 2.0 * by_phi / effective_mass,
+            strength: Sides::each(strength),
+            geometric_stiffness: 2.0 * (k1 / (h1 * h1) + k2 / (h2 * h2)),
+            support_weights: [1.0 - by_phi_z / by_phi, by_phi_z / by_phi],
+            drift_weight: 2.0 * (k1 / h1 - k2 / h2),
+            contact,
+            impulses: Some(impulses),
+            instability: Sides::default(),
+            landing: Sides::default(),
+            departure: Sides::default(),
+        }
+        .ending_at(h1))
+    }
+}
+
+/// A strip between its supports: heights of wall and hinge, the toes and the edges of the hinge \[m\].
+struct Strip {
+    h: f64,
+    h1: f64,
+    /// The outer and the inner toe.
+    toes: [f64; 2],
+    /// The outer and the inner edge of the sections in contact at the hinge.
+    edges: [f64; 2],
+}
+
+impl Strip {
+    /// The toe on which it bears on the side of `sign`.
+    fn toe(&self, sign: f64) -> f64 {
+        self.toes[usize::from(sign < 0.0)]
+    }
+
+    /// The edge about which the hinge opens on the side of `sign`.
+    fn edge(&self, sign: f64) -> f64 {
+        self.edges[usize::from(sign > 0.0)]
+    }
+
+    /// Returns whether a height belongs to the lower body; that of the hinge does.
+    fn is_below(&self, z: f64) -> bool {
+        z <= self.h1 + SAME * self.h
+    }
+
+    /// Returns φ, the displacement of a height for u = 1.
+    fn share(&self, z: f64) -> f64 {
+        if self.is_below(z) { z / self.h1 } else { (self.h - z) / (self.h - self.h1) }
+    }
+
+    /// Returns ρ, by which a place rises for |u| = 1 on the side of `sign`.
+    fn rise(&self, sign: f64, x: f64, z: f64) -> f64 {
+        let (toe, edge) = (self.toe(sign), self.edge(sign));
+        sign * if self.is_below(z) {
+            (x - toe) / self.h1
+        } else {
+            (edge - toe) / self.h1 + (edge - x) / (self.h - self.h1)
+        }
+    }
+}
+
+/// Returns the coefficient of restitution by impulses of points that move by φ and have risen by `old`, and
+/// rise by `new` after the impact.
+fn impulses<'a>(
+    points: impl Iterator<Item = &'a Point>,
+    share: impl Fn(&Point) -> f64,
+    old: impl Fn(&Point) -> f64,
+    new: impl Fn(&Point) -> f64,
+) -> f64 {
+    let (mut common, mut whole) = (0.0, 0.0);
+    for point in points {
+        let (across, after) = (share(point).powi(2), new(point));
+        common += point.mass * (across - old(point) * after);
+        whole += point.mass * (across + after * after);
+    }
+    common / whole
+}
+
+impl Profile {
+    /// Returns a height, or that of an end of a part that is the same but for rounding \[m\].
+    fn snapped(&self, z: f64) -> f64 {
+        let ends = self.parts().iter().flat_map(|part| [part.base, part.top()]);
+        let same = SAME * self.height();
+        ends.into_iter().find(|end| (end - z).abs() <= same).unwrap_or(z)
+    }
+
+    /// Returns the outer and the inner edge of the sections in contact at the hinge \[m\].
+    ///
+    /// # Errors
+    /// [`ParameterError::NoHinge`] where nothing stands on the section below.
+    fn hinge_edges(&self, height: f64) -> Result<[f64; 2], ParameterError> {
+        let [below, above] = [false, true].map(|above| self.faces_beside(height, above));
+        let [outer, inner] = [below[0].max(above[0]), below[1].min(above[1])];
+        if outer < inner { Ok([outer, inner]) } else { Err(ParameterError::NoHinge { height, below, above }) }
+    }
+}
+
+impl Parameters {
+    /// Returns the place x of the overburden on each side \[m\]: from the centre of the top section.
+    fn overburden_on(&self, profile: &Profile) -> Sides {
+        let [outer, inner] = profile.faces_beside(profile.height(), false);
+        let centre = 0.5 * (outer + inner);
+        let eccentricity = self.eccentricity_of_sides();
+        Sides { positive: centre - eccentricity.positive, negative: centre + eccentricity.negative }
+    }
+}

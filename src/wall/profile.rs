@@ -1,0 +1,430 @@
+//! A wall of parts: its masonry, openings and loads as given.
+//!
+//! z is measured upwards from the base and x inwards from the outer face of the lowest part at its foot, so
+//! that the outer toe is at x = 0. u > 0 is towards the outside.
+
+use super::section::Section;
+
+/// Most parts, openings or loads of a wall; more is a mistake.
+pub const MOST_ITEMS: usize = 1000;
+/// Heights and faces that differ by less than this share of the height are the same.
+pub(super) const SAME: f64 = 1e-9;
+
+/// A prism of masonry. Its thickness, width and outer face change linearly from the bottom to the top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// Height of its lower edge above the base \[m\].
+    pub base: f64,
+    /// Height from its lower to its upper edge \[m\].
+    pub height: f64,
+    /// Thickness at its bottom and top \[m\].
+    pub thickness: [f64; 2],
+    /// Length along the wall at its bottom and top \[m\].
+    pub width: [f64; 2],
+    /// Place x of its outer face at its bottom and top \[m\].
+    pub outer: [f64; 2],
+    /// Density \[kg/m³\].
+    pub density: f64,
+}
+
+/// An opening, taken out of the parts at its height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// Height of its lower edge above the base \[m\].
+    pub base: f64,
+    /// Height from its lower to its upper edge \[m\].
+    pub height: f64,
+    /// Length along the wall \[m\].
+    pub width: f64,
+    /// Where a hollow lies in the thickness; `None` for an opening through the wall.
+    pub hollow: Option<Hollow>,
+}
+
+/// The place of a hollow in the thickness of a part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hollow {
+    /// Thickness \[m\].
+    pub thickness: f64,
+    /// Place x of its outer face \[m\].
+    pub outer: f64,
+}
+
+/// A load at a height, such as that of a floor, a roof or a vault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Force downwards \[N\].
+    pub force: f64,
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// Place x \[m\].
+    pub inside: f64,
+    /// Share of its mass that moves along with the wall, 0 to 1 \[-\].
+    pub moving_mass: f64,
+    /// Thrust, positive outwards \[N\].
+    pub thrust: f64,
+}
+
+/// An item of a profile, by its place in its list from 0 on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Item {
+    Part(usize),
+    Opening(usize),
+    Load(usize),
+}
+
+impl std::fmt::Display for Item {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Part(index) => write!(f, "part {}", index + 1),
+            Self::Opening(index) => write!(f, "opening {}", index + 1),
+            Self::Load(index) => write!(f, "load {}", index + 1),
+        }
+    }
+}
+
+/// What is wrong with an item of a profile.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{item}: {reason}")]
+pub struct ProfileError {
+    /// The item.
+    pub item: Item,
+    /// Its value, the limit and the remedy.
+    pub reason: String,
+}
+
+/// A wall of parts, with its openings and loads: checked, and never changed.
+///
+/// ```
+/// use rocking_wall::wall::{Part, Profile};
+///
+/// let gable = Part {
+///     base: 0.0,
+///     height: 2.4,
+///     thickness: [0.25, 0.25],
+///     width: [6.0, 0.0],
+///     outer: [0.0, 0.0],
+///     density: 1800.0,
+/// };
+/// let profile = Profile::new(vec![gable], vec![], vec![])?;
+/// assert_eq!(profile.height(), 2.4);
+/// # Ok::<(), rocking_wall::wall::ProfileError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    parts: Vec<Part>,
+    openings: Vec<Opening>,
+    loads: Vec<Load>,
+}
+
+impl Part {
+    /// Height of its upper edge above the base \[m\].
+    pub fn top(&self) -> f64 {
+        self.base + self.height
+    }
+
+    /// Returns the faces and the width at a height \[m\].
+    pub fn section(&self, z: f64) -> Section {
+        let share = (z - self.base) / self.height;
+        let at = |[bottom, top]: [f64; 2]| bottom + (top - bottom) * share;
+        let outer = at(self.outer);
+        Section { outer, inner: outer + at(self.thickness), width: at(self.width) }
+    }
+
+    /// Returns the heights that it shares with another stretch; `None` where they only meet.
+    fn common(&self, base: f64, top: f64) -> Option<[f64; 2]> {
+        let common = [self.base.max(base), self.top().min(top)];
+        (common[0] < common[1]).then_some(common)
+    }
+}
+
+impl Opening {
+    /// Height of its upper edge above the base \[m\].
+    pub fn top(&self) -> f64 {
+        self.base + self.height
+    }
+
+    /// Returns what it takes out of a part at a height: through its whole thickness, or the hollow.
+    pub(super) fn section(&self, part: &Part, z: f64) -> Section {
+        let Section { outer, inner, .. } = part.section(z);
+        let [outer, inner] =
+            self.hollow.map_or([outer, inner], |hollow| [hollow.outer, hollow.outer + hollow.thickness]);
+        Section { outer, inner, width: self.width }
+    }
+
+    /// Returns the heights at which it cuts a part \[m\]; `None` where it does not. A hollow cuts the part that
+    /// contains it, faces within `same` \[m\].
+    pub(super) fn cut(&self, part: &Part, same: f64) -> Option<[f64; 2]> {
+        let heights = part.common(self.base, self.top())?;
+        (self.hollow.is_none() || self.is_within(part, heights, same)).then_some(heights)
+    }
+
+    fn is_within(&self, part: &Part, heights: [f64; 2], same: f64) -> bool {
+        heights.iter().all(|z| part.section(*z).contains(&self.section(part, *z), same))
+    }
+}
+
+impl Profile {
+    /// Checks the parts, from the base up, with the openings in them and the loads on them.
+    ///
+    /// # Errors
+    /// [`ProfileError`] of an item without size or mass, of parts that float or overlap, of an opening that is
+    /// not within the parts or as wide as they are, and of a load beyond the wall.
+    pub fn new(parts: Vec<Part>, openings: Vec<Opening>, loads: Vec<Load>) -> Result<Self, ProfileError> {
+        let profile = Self { parts, openings, loads };
+        profile.check_count()?;
+        profile.check_parts()?;
+        profile.check_openings()?;
+        profile.check_loads()?;
+        Ok(profile)
+    }
+
+    /// Its parts, the lowest first.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Its openings.
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
+    }
+
+    /// Its loads.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// Height of its highest edge \[m\].
+    pub fn height(&self) -> f64 {
+        self.parts.iter().map(Part::top).fold(0.0, f64::max)
+    }
+
+    /// Places x of its outer and inner toe \[m\].
+    pub fn toes(&self) -> [f64; 2] {
+        let touching = self.parts.iter().filter(|part| part.base <= SAME * self.height());
+        let [outer, inner] = faces(touching.map(|part| part.section(part.base)));
+        [outer, inner]
+    }
+
+    /// Distance of its toes \[m\].
+    pub fn base_thickness(&self) -> f64 {
+        let [outer, inner] = self.toes();
+        inner - outer
+    }
+
+    /// Its height, the distance of its toes, and the width and density of its lowest part: what stands for it
+    /// where a rectangle is expected, as in pictures.
+    pub(super) fn as_rectangle(&self) -> [f64; 4] {
+        let Part { width, density, .. } = self.parts[0];
+        [self.height(), self.base_thickness(), width[0].max(width[1]), density]
+    }
+
+    /// Returns the outermost and the innermost face just below (`false`) or above (`true`) a height \[m\].
+    pub(super) fn faces_beside(&self, z: f64, above: bool) -> [f64; 2] {
+        let same = SAME * self.height();
+        let reaches = |part: &&Part| {
+            if above {
+                part.base <= z + same && z + same < part.top()
+            } else {
+                part.base < z - same && z - same <= part.top()
+            }
+        };
+        faces(self.parts.iter().filter(reaches).map(|part| part.section(z)))
+    }
+
+    fn check_count(&self) -> Result<(), ProfileError> {
+        let (parts, openings, loads) = (self.parts.len(), self.openings.len(), self.loads.len());
+        for (count, item) in [
+            (parts, Item::Part(MOST_ITEMS)),
+            (openings, Item::Opening(MOST_ITEMS)),
+            (loads, Item::Load(MOST_ITEMS)),
+        ] {
+            if count > MOST_ITEMS {
+                return Err(item.refused(format!("a wall has at most {MOST_ITEMS}, this one has {count}")));
+            }
+        }
+        if parts == 0 {
+            return Err(Item::Part(0).refused("a wall needs a part: openings and loads are not enough"));
+        }
+        Ok(())
+    }
+
+    fn check_parts(&self) -> Result<(), ProfileError> {
+        let lowest = self.parts[0];
+        if lowest.base != 0.0 || lowest.outer[0] != 0.0 {
+            let Part { base, outer, .. } = lowest;
+            return Err(Item::Part(0).refused(format!(
+                "base = {base} m and outer = {} m at its foot must be 0: from there heights and faces of all \
+                 parts are measured",
+                outer[0]
+            )));
+        }
+        for (index, part) in self.parts.iter().enumerate() {
+            let refused = |reason| Err(Item::Part(index).refused(reason));
+            if let Some(reason) = fault_of_size(part) {
+                return refused(reason);
+            }
+            if let Some(other) = self.parts[..index].iter().position(|other| overlaps(part, other)) {
+                return refused(format!(
+                    "overlaps part {} between {} m and {} m; give base, height or outer so that each place \
+                     belongs to one part",
+                    other + 1,
+                    part.base,
+                    part.top()
+                ));
+            }
+            if index > 0 && !self.is_carried(index) {
+                return refused(format!(
+                    "floats: no part touches it from its base = {} m on; leave base out for a part on top of \
+                     the one before, and give the outer face",
+                    part.base
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns whether a part stands on the ground or on a part before it, or touches the side of one.
+    fn is_carried(&self, index: usize) -> bool {
+        let (part, same) = (&self.parts[index], SAME * self.height());
+        let foot = part.section(part.base);
+        let touches = |other: &Part| {
+            if (other.top() - part.base).abs() <= same {
+                return foot.overlap(&other.section(other.top())) > same;
+            }
+            part.common(other.base, other.top()).is_some_and(|heights| {
+                heights.iter().all(|z| part.section(*z).overlap(&other.section(*z)) >= -same)
+            })
+        };
+        part.base <= same || self.parts[..index].iter().any(touches)
+    }
+
+    fn check_openings(&self) -> Result<(), ProfileError> {
+        for (index, opening) in self.openings.iter().enumerate() {
+            let refused = |reason| Err(Item::Opening(index).refused(reason));
+            let Opening { base, height, width, hollow } = *opening;
+            let depth = hollow.map_or(1.0, |hollow| hollow.thickness);
+            for (name, size) in [("height", height), ("width", width), ("thickness", depth)] {
+                if !(size > 0.0 && size.is_finite()) {
+                    return refused(format!("{name} = {size} m must be above 0"));
+                }
+            }
+            let same = SAME * self.height();
+            if !(base >= 0.0 && opening.top() <= self.height() + same) {
+                let (top, height) = (opening.top(), self.height());
+                return refused(format!("from {base} m to {top} m is not within the wall of {height} m"));
+            }
+            let cuts: Vec<_> =
+                self.parts.iter().filter_map(|part| Some((part, opening.cut(part, same)?))).collect();
+            for &(part, heights) in &cuts {
+                if !opening.is_within(part, heights, same) {
+                    let narrow = heights.map(|z| part.section(z).width).into_iter().fold(f64::MAX, f64::min);
+                    return refused(format!(
+                        "width = {width} m must be smaller than that of the wall there, {narrow} m"
+                    ));
+                }
+                for z in heights {
+                    self.check_left(index, part, z)?;
+                }
+            }
+            if cuts.is_empty() {
+                return refused("is in no part: thickness and outer have to lie within one".to_owned());
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that the openings up to `last` leave some of a part at a height.
+    fn check_left(&self, last: usize, part: &Part, z: f64) -> Result<(), ProfileError> {
+        let own = self.openings[last].section(part, z);
+        let same = SAME * self.height();
+        let beside = self.openings[..=last].iter().filter(|other| {
+            let reaches = other.base <= z + same && z - same <= other.top();
+            let meets_at_end = (other.top() - self.openings[last].base).abs() <= same
+                || (other.base - self.openings[last].top()).abs() <= same;
+            reaches && !meets_at_end && other.section(part, z).overlap(&own) > same
+        });
+        let taken: f64 = beside.map(|other| other.width).sum();
+        let width = part.section(z).width;
+        if taken < width {
+            return Ok(());
+        }
+        Err(Item::Opening(last).refused(format!(
+            "at {z} m openings take {taken} m of a width of {width} m; leave some of the wall between them"
+        )))
+    }
+
+    fn check_loads(&self) -> Result<(), ProfileError> {
+        let (top, same) = (self.height(), SAME * self.height());
+        let [outer, inner] =
+            faces(self.parts.iter().flat_map(|part| [part.base, part.top()].map(|z| part.section(z))));
+        let reach = inner - outer;
+        for (index, load) in self.loads.iter().enumerate() {
+            let refused = |reason| Err(Item::Load(index).refused(reason));
+            let Load { force, height, inside, moving_mass, thrust } = *load;
+            if !(force >= 0.0 && force.is_finite() && thrust.is_finite()) {
+                return refused(format!(
+                    "force = {force} N must be 0 or more, downwards, and thrust = {thrust} N a number"
+                ));
+            }
+            if !(0.0..=1.0).contains(&moving_mass) {
+                return refused(format!("moving_mass = {moving_mass} is the share of force/g from 0 to 1"));
+            }
+            if !(height > 0.0 && height <= top + same) {
+                return refused(format!(
+                    "height = {height} m must be above 0 and at most that of the wall, {top} m"
+                ));
+            }
+            if !(outer - reach..=inner + reach).contains(&inside) {
+                return refused(format!(
+                    "inside = {inside} m is farther from the wall, {outer} m to {inner} m, than the wall is \
+                     thick; it is measured inwards from the outer face"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Item {
+    fn refused(self, reason: impl Into<String>) -> ProfileError {
+        ProfileError { item: self, reason: reason.into() }
+    }
+}
+
+/// Returns the outermost and the innermost face of sections; infinite where there are none.
+fn faces(sections: impl Iterator<Item = Section>) -> [f64; 2] {
+    sections.fold([f64::INFINITY, f64::NEG_INFINITY], |[outer, inner], section| {
+        [outer.min(section.outer), inner.max(section.inner)]
+    })
+}
+
+/// Says which size or density of a part makes no sense.
+fn fault_of_size(part: &Part) -> Option<String> {
+    let Part { base, height, thickness, width, outer, density } = *part;
+    let limited = |name: &str, value: f64, [least, most]: [f64; 2], unit: &str| {
+        let fits = least <= value && value <= most;
+        (!fits).then(|| format!("{name} = {value} {unit} must be from {least} to {most} {unit}"))
+    };
+    // the limits of the model description; one end may be 0, as at the top of a gable
+    let range = |name: &str, ends: [f64; 2], [least, most]: [f64; 2]| {
+        let larger = ends[0].max(ends[1]);
+        limited(name, larger, [least, most], "m")
+            .or_else(|| ends.into_iter().find_map(|end| limited(name, end, [0.0, most], "m")))
+    };
+    limited("base", base, [0.0, 1000.0], "m")
+        .or_else(|| limited("height", height, [0.001, 1000.0], "m"))
+        .or_else(|| range("thickness", thickness, [1e-4, 100.0]))
+        .or_else(|| range("width", width, [0.001, 1000.0]))
+        .or_else(|| outer.into_iter().find_map(|outer| limited("outer", outer, [-100.0, 100.0], "m")))
+        .or_else(|| limited("density", density, [1.0, 1e5], "kg/m3"))
+}
+
+/// Returns whether two parts share a place: at the ends or in the middle of the heights they share.
+fn overlaps(part: &Part, other: &Part) -> bool {
+    let same = SAME * part.top().max(other.top());
+    part.common(other.base, other.top()).is_some_and(|[from, to]| {
+        let heights = [from, 0.5 * (from + to), to];
+        to - from > same && heights.iter().any(|z| part.section(*z).overlap(&other.section(*z)) > same)
+    })
+}
