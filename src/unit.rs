@@ -222,7 +222,8 @@ impl Unit {
         if !*top_warned && self.inputs.top != Input::default() {
             *top_warned = true;
             log.warning(format_args!(
-                "a_top is ignored: the wall has no top support; give its base motion in a_bottom or a_g"
+                "a_top is ignored: a {} has no top support; give its base motion in a_bottom or a_g",
+                self.parameters.mechanism.name()
             ));
         }
         if !*start_warned && self.inputs != Inputs::default() {

@@ -244,9 +244,8 @@ impl Scene {
     fn moved_apart(&self, motion: Option<&Excitation>) -> Option<&'static str> {
         motion?.top()?;
         match (self.parameters.mechanism, self.parameters.kinematics) {
-            (Mechanism::Parapet | Mechanism::RigidBody, _) => {
-                Some("a parapet or rigid body has no top support; leave [motion.top] out")
-            }
+            (Mechanism::Parapet, _) => Some("a parapet has no top support; leave [motion.top] out"),
+            (Mechanism::RigidBody, _) => Some("a rigid body has no top support; leave [motion.top] out"),
             (_, Kinematics::Trigonometric) => Some(
                 "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or \
                  set kinematics = linear",

@@ -88,6 +88,7 @@ impl OneBody {
             instability: Sides::default(),
             landing: Sides::default(),
             departure: Sides::default(),
+            held: None,
         }
         .ending_at(z)
     }
@@ -250,6 +251,7 @@ impl Body {
             instability: Sides::default(),
             landing: Sides::default(),
             departure: Sides::default(),
+            held: None,
         }
         .ending_at(h1))
     }

@@ -95,6 +95,14 @@ impl Wall {
         &self.statics
     }
 
+    /// Returns F₀ \[N\] and `u_ins` \[m\] of the side of `sign` as they are stated; a side that transverse walls
+    /// hold may have no strength, F₀ ≤ 0 and `u_ins` = 0.
+    pub fn stated(&self, sign: f64) -> [f64; 2] {
+        let own = self.body().held.filter(|_| !self.rocking.allows(sign));
+        let body = self.body();
+        own.map_or([body.strength.of(sign), body.instability.of(sign)], |force| [force, 0.0])
+    }
+
     /// Masses, geometry and the rigid force.
     pub fn body(&self) -> &Body {
         &self.statics.body

@@ -28,6 +28,7 @@ impl Wall {
     /// Lists the numbers that follow from the parameters: masses, strength, stability, periods, damping.
     pub fn facts(&self) -> Vec<Fact> {
         let body = self.body();
+        let [positive, negative] = [1.0, -1.0].map(|sign| self.stated(sign));
         let omega1 = self.omega1();
         let period = if omega1 > 0.0 { TAU / omega1 } else { 0.0 };
         [
@@ -36,10 +37,10 @@ impl Wall {
             ("participation", "lambda", body.participation, "-"),
             ("weight", "W", body.weight, "N"),
             ("slenderness", "alpha", body.slenderness.positive, "rad"),
-            ("F0", "F0+", body.strength.positive, "N"),
-            ("F0_negative", "F0-", body.strength.negative, "N"),
-            ("u_ins", "u_ins+", body.instability.positive, "m"),
-            ("u_ins_negative", "u_ins-", body.instability.negative, "m"),
+            ("F0", "F0+", positive[0], "N"),
+            ("F0_negative", "F0-", negative[0], "N"),
+            ("u_ins", "u_ins+", positive[1], "m"),
+            ("u_ins_negative", "u_ins-", negative[1], "m"),
             ("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
             ("force_end", "u3+", self.force_end().positive, "m"),
             ("rocking_onset", "a_g", self.rocking_onset(), "m/s2"),
@@ -90,8 +91,8 @@ impl Wall {
         given([
             ("centroid_height", "z_G", of_one(body.centroid_height), "m"),
             ("slenderness_negative", "alpha-", is_other.then_some(body.slenderness.negative), "rad"),
-            ("static_multiplier", "alpha_0+", multiplier(body.strength.positive), "-"),
-            ("static_multiplier_negative", "alpha_0-", multiplier(body.strength.negative), "-"),
+            ("static_multiplier", "alpha_0+", multiplier(self.stated(1.0)[0]), "-"),
+            ("static_multiplier_negative", "alpha_0-", multiplier(self.stated(-1.0)[0]), "-"),
             ("thrust", "H", is_other.then_some(body.contact.thrust), "N"),
             ("hinge_height", "h1", of_strip(body.hinge_height), "m"),
             ("support_weight_bottom", "w_b", of_strip(w_b), "-"),

@@ -55,6 +55,9 @@ pub struct Body {
     pub drift_weight: f64,
     /// What the reactions of the supports follow from.
     pub contact: Contact,
+    /// F₀ of a side that transverse walls hold and that has none above 0 \[N\]: `strength` and what follows from
+    /// it then have there the numbers of the other side, so that a law has two sides.
+    pub held: Option<f64>,
     /// Coefficient of restitution by impulses \[-\]: from u > 0 to u < 0 (`positive`), and back. `None` for a
     /// body that is given without the place of its toes.
     pub impulses: Option<Sides>,
@@ -96,7 +99,7 @@ impl Body {
     /// [`ParameterError::NoStrength`] where loads leave no positive F₀ on a side to which the wall can rock;
     /// [`ParameterError`] of parts that make no body.
     pub(super) fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        let body = match (&parameters.profile, parameters.mechanism) {
+        let mut body = match (&parameters.profile, parameters.mechanism) {
             (None, Mechanism::RigidBody) => Self::of_integrals(parameters)?,
             (None, _) => Self::rectangle(parameters),
             (Some(profile), mechanism) => {
@@ -109,8 +112,15 @@ impl Body {
         };
         for (sign, side) in [(1.0, "u > 0"), (-1.0, "u < 0")] {
             let force = body.strength.of(sign);
-            if parameters.rocking.allows(sign) && (force.is_nan() || force <= 0.0) {
+            if force > 0.0 {
+                continue;
+            }
+            if parameters.rocking.allows(sign) {
                 return Err(body.without_strength(parameters, side, force));
+            }
+            body.held = Some(force);
+            for sides in [&mut body.strength, &mut body.instability, &mut body.landing, &mut body.departure] {
+                *sides = Sides::both(sides.of(-sign));
             }
         }
         Ok(body)
@@ -195,6 +205,7 @@ impl Body {
             instability: Sides::default(),
             landing: Sides::default(),
             departure: Sides::default(),
+            held: None,
         }
         .ending_at(end)
     }

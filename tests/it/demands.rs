@@ -319,7 +319,7 @@ fn extremes_hold_between_samples() {
         // rigid wall has a kink at u = 0, and one that ends at overturning ends between samples.
         let turn = stiffest.sqrt() * step / f64::from(PARTS);
         let wall = simulation.wall();
-        let is_smooth = turn < 0.1 && !wall.is_rigid() && wall.passage_factor() == 1.0;
+        let is_smooth = turn < 0.1 && !wall.is_rigid() && wall.passage_factor(1.0) == 1.0;
         let is_smooth = is_smooth && !dense.progress().state.overturned;
         if is_smooth {
             let [low, high] = ranges[1];

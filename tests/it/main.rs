@@ -14,6 +14,7 @@ use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 mod bars;
+mod bodies;
 mod broken;
 mod broken_scenes;
 mod capacity;

@@ -92,7 +92,7 @@ impl Way<'_> {
             return Some(true);
         }
         if corner.passage {
-            self.motion[1] *= self.wall.passage_factor();
+            self.motion[1] *= self.wall.passage_factor(self.motion[1]);
         }
         if !corner.stop {
             self.branch = if upwards { self.branch + 1 } else { self.branch - 1 };

@@ -60,7 +60,7 @@ fn broken_bytes_are_refused() {
     let message = |bytes: &[u8]| UnitScene::read(bytes).unwrap_err().to_string();
     assert!(message(&longer).contains("1 bytes more"), "{}", message(&longer));
     // the version is the last letter of the first text
-    let other = [&bytes[..8], b"rocking-wall scene 2", &bytes[28..]].concat();
-    let words = "\"rocking-wall scene 2\" where \"rocking-wall scene 1\" is expected: package the FMU again";
+    let other = [&bytes[..8], b"rocking-wall scene 3", &bytes[28..]].concat();
+    let words = "\"rocking-wall scene 3\" where \"rocking-wall scene 2\" is expected: package the FMU again";
     assert!(message(&other).contains(words), "{}", message(&other));
 }
