@@ -2,16 +2,16 @@
 
 use std::fmt;
 
-use files::{Described, FileError, Place, Schema, Tables, list, parse_document, read_value, tables, with};
+use files::{Described, FileError, Schema, Tables, TomlFile, list, tables, with};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 use toml::{Spanned, Value};
 
 use crate::choices::Mechanism;
 use crate::wall::{COMPUTED, Hollow, Item, Load, Opening, Parameters, Part, Profile};
 
+use super::find::find;
 use super::keys::Group;
-use super::parameter::find;
 
 /// The keys in `[geometry]` of parts, openings, loads and integrals.
 pub(super) const PART: &str = "part";
@@ -43,8 +43,8 @@ tables! {
         /// Density \[kg/m³\].
         #[key(minimum = 1, maximum = 1e5, default = 1800)]
         pub density: Option<f64>,
-        /// Outer face, inwards from that of the lowest part at its foot \[m\], or that at the bottom and at the
-        /// top; by default 0.
+        /// Outer face, inwards from that of the lowest part at its foot \[m\], or that at the bottom and at
+        /// the top; by default 0.
         pub outer: Option<Ends>,
     }
 
@@ -175,8 +175,9 @@ pub(super) fn describe_body(members: &mut Schema, tables: &mut Tables) {
 pub(super) fn apply_body(
     parameters: &mut Parameters,
     entries: &Group,
-    place: &Place<'_>,
+    file: &TomlFile<'_>,
 ) -> Result<(), FileError> {
+    let place = file.place();
     let spans = [PART, OPENING, LOAD, BODY].map(|key| entries.get(key).map(Spanned::span));
     let [part, opening, load, body] = &spans;
     let Some(first) = [body, part, opening, load].into_iter().flatten().next() else { return Ok(()) };
@@ -203,17 +204,15 @@ pub(super) fn apply_body(
             format!("{name} is that of a rectangle; [[geometry.part]] or [geometry.body] states it");
         return Err(place.error(key.span(), message));
     }
-    let document = parse_document(place)?;
-    let lists = Lists { place, document: &document };
-    let loads = lists.read::<LoadTable>(entries, LOAD)?;
+    let loads = read::<LoadTable>(file, entries, LOAD)?;
     if body.is_some() {
-        let integrals = lists.read::<BodyTable>(entries, BODY)?;
+        let integrals = read::<BodyTable>(file, entries, BODY)?;
         let loads: Vec<_> = loads.iter().map(|(_, load)| load.load()).collect();
         return integrals.iter().try_for_each(|(span, body)| {
             set_integrals(parameters, body, &loads).map_err(|message| place.error(span.clone(), message))
         });
     }
-    let (parts, openings) = (lists.read::<PartTable>(entries, PART)?, lists.read(entries, OPENING)?);
+    let (parts, openings) = (read::<PartTable>(file, entries, PART)?, read(file, entries, OPENING)?);
     let profile = Profile::new(
         stacked(parts.iter().map(|(_, part)| part)),
         openings.iter().map(|(_, opening): &(_, OpeningTable)| opening.opening()).collect(),
@@ -239,30 +238,21 @@ pub(super) fn apply_body(
 
 type Span = std::ops::Range<usize>;
 
-/// The lists of tables of a document.
-struct Lists<'a, 'b> {
-    place: &'a Place<'b>,
-    document: &'a DeTable<'b>,
-}
-
-impl Lists<'_, '_> {
-    /// Reads the tables under a key of a group, each with its place.
-    fn read<T: serde::de::DeserializeOwned + Described>(
-        &self,
-        entries: &Group,
-        key: &str,
-    ) -> Result<Vec<(Span, T)>, FileError> {
-        let Some(value) = entries.get(key) else { return Ok(Vec::new()) };
-        let Some(own) = find(self.document, key, &value.span()) else { return Ok(Vec::new()) };
-        let read = |table: &Spanned<DeValue<'_>>| {
-            let read = read_value(self.place, self.document, table);
-            let read = read.map_err(|fault| self.place.error(fault.span, fault.message))?;
-            Ok((table.span(), read))
-        };
-        match own.get_ref() {
-            DeValue::Array(tables) => tables.iter().map(read).collect(),
-            _ => Ok(vec![read(own)?]),
-        }
+/// Reads the tables under a key of a group, each with its place.
+fn read<T: serde::de::DeserializeOwned + Described>(
+    file: &TomlFile<'_>,
+    entries: &Group,
+    key: &str,
+) -> Result<Vec<(Span, T)>, FileError> {
+    let Some(value) = entries.get(key) else { return Ok(Vec::new()) };
+    let Some(own) = find(file.table(), key, &value.span()) else { return Ok(Vec::new()) };
+    let read = |table: &Spanned<DeValue<'_>>| {
+        let read = file.read_value(table).map_err(|fault| file.place().error(fault.span, fault.message))?;
+        Ok((table.span(), read))
+    };
+    match own.get_ref() {
+        DeValue::Array(tables) => tables.iter().map(read).collect(),
+        _ => Ok(vec![read(own)?]),
     }
 }
 
@@ -361,6 +351,9 @@ pub(super) fn profile_text(profile: &Profile) -> String {
         )
     });
     let lists = [(PART, parts.collect::<Vec<_>>()), (OPENING, openings.collect()), (LOAD, loads.collect())];
-    let given = lists.into_iter().filter(|(_, items)| !items.is_empty());
-    given.map(|(key, items)| format!("{key} = [{}]\n", items.join(", "))).collect()
+    let mut text = String::new();
+    for (key, items) in lists.into_iter().filter(|(_, items)| !items.is_empty()) {
+        text.extend([key, " = [", &items.join(", "), "]\n"]);
+    }
+    text
 }

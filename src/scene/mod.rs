@@ -9,6 +9,7 @@
 mod body;
 mod document;
 mod error;
+mod find;
 mod keys;
 mod motion;
 mod parameter;

@@ -1,17 +1,15 @@
 //! Parameters of a scene: names, groups, kinds and limits come from the model description.
 
-use std::ops::Range;
-
 use files::{FileError, NUMBER, TomlFile, number, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
-use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Value};
+use toml::Value;
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::body::{BODY, LOAD, OF_RECTANGLE, OPENING, PART, apply_body};
 use super::error::SceneError;
+use super::find::find;
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
 use super::schema::groups;
 
@@ -78,7 +76,7 @@ pub fn apply_group(
         (None, None) => {}
     }
     if group == "geometry" {
-        apply_body(parameters, entries, place)?;
+        apply_body(parameters, entries, file)?;
     }
     let Some(bar) = bar else { return Ok(()) };
     if let Some(key) = entries.keys().find(|key| OF_BAR.contains(&key.get_ref().as_str())) {
@@ -89,27 +87,6 @@ pub fn apply_group(
     let read = own.map(|own| file.read_value(own)).transpose();
     parameters.bar = read.map_err(|fault| place.error(fault.span, fault.message))?;
     follow_bar(parameters).map_err(|message| place.error(bar.span(), message))
-}
-
-/// Finds the value of a key in a document by its place.
-pub(super) fn find<'a, 'b>(
-    table: &'a DeTable<'b>,
-    key: &str,
-    span: &Range<usize>,
-) -> Option<&'a Spanned<DeValue<'b>>> {
-    fn inside<'a, 'b>(
-        value: &'a Spanned<DeValue<'b>>,
-        key: &str,
-        span: &Range<usize>,
-    ) -> Option<&'a Spanned<DeValue<'b>>> {
-        match value.get_ref() {
-            DeValue::Table(table) => find(table, key, span),
-            DeValue::Array(items) => items.iter().find_map(|item| inside(item, key, span)),
-            _ => None,
-        }
-    }
-    let own = table.iter().find(|(own, value)| own.get_ref() == key && value.span() == *span);
-    own.map(|(_, value)| value).or_else(|| table.values().find_map(|value| inside(value, key, span)))
 }
 
 /// Gives the tie the numbers of its bar, once the bar is complete.

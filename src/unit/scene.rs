@@ -23,8 +23,8 @@ const KIND: &str = "rocking-wall scene 2";
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitScene {
-    /// The wall and its solver. Only the variables of the description, the parts of a wall and the points of a
-    /// multilinear law are carried.
+    /// The wall and its solver. Only the variables of the description, the parts of a wall and the points of
+    /// a multilinear law are carried.
     pub parameters: Parameters,
     /// The motion of the supports, interpolated between samples.
     pub motion: Option<Excitation>,

@@ -4,9 +4,9 @@
 //! with constants of their own. They follow from Lagrange's equations for small rotations.
 //!
 //! # One body
-//! It turns by θ about its outer toe (u > 0) or its inner toe, at the distance b₀; u = θ `z_G` with the height
-//! `z_G` of the centroid of the masonry. Loads P at (x, z) have arms x and b₀ − x, a moving mass r P/g and a
-//! thrust H outwards:
+//! It turns by θ about its outer toe (u > 0) or its inner toe, at the distance b₀; u = θ `z_G` with the
+//! height `z_G` of the centroid of the masonry. Loads P at (x, z) have arms x and b₀ − x, a moving mass r
+//! P/g and a thrust H outwards:
 //!
 //! ```text
 //! I = Σ∫z² dm + Σ r (P/g) z²     S = Σ∫z dm + Σ r (P/g) z     K = W z_G + Σ P z
@@ -31,7 +31,11 @@
 //!
 //! # Impacts
 //! An impact projects the old field of velocities on the new one, since its impulses act where the new field
-//! does not move: e = ∫[φ² − ρ_old ρ_new] dm / ∫[φ² + ρ_new²] dm.
+//! does not move; ρ and ρ′ are those of the old and the new side:
+//!
+//! ```text
+//! e = ∫[φ² − ρ ρ′] dm / ∫[φ² + ρ′²] dm
+//! ```
 
 use super::error::{Choice, ParameterError};
 use super::given::given;

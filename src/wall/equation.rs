@@ -6,9 +6,9 @@ use super::branch::{Branch, Corner};
 use super::damping::{Damping, DampingLaw, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
+use super::impact;
 use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
-use super::restitution;
 use super::sides::Sides;
 use super::statics::Statics;
 use super::tie::{Tie, TieAction, TieMemory};
@@ -47,7 +47,7 @@ impl Wall {
     fn checked(parameters: &Parameters) -> Result<Self, ParameterError> {
         let mut body = Body::new(parameters)?;
         let asked = Damping::of(parameters)?;
-        let restitution = restitution::coefficient(parameters, asked, &body)?;
+        let restitution = impact::coefficient(parameters, asked, &body)?;
         let rotations = match parameters.kinematics {
             Kinematics::Linear => None,
             Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
@@ -95,8 +95,8 @@ impl Wall {
         &self.statics
     }
 
-    /// Returns F₀ \[N\] and `u_ins` \[m\] of the side of `sign` as they are stated; a side that transverse walls
-    /// hold may have no strength, F₀ ≤ 0 and `u_ins` = 0.
+    /// Returns F₀ \[N\] and `u_ins` \[m\] of the side of `sign` as they are stated; a side that transverse
+    /// walls hold may have no strength, F₀ ≤ 0 and `u_ins` = 0.
     pub fn stated(&self, sign: f64) -> [f64; 2] {
         let own = self.body().held.filter(|_| !self.rocking.allows(sign));
         let body = self.body();

@@ -1,6 +1,6 @@
 //! What can be wrong about a choice of parameters.
 
-use super::profile::ProfileError;
+use super::part::ProfileError;
 use super::warning::Warning;
 
 /// A parameter with the value that is chosen.
@@ -137,13 +137,14 @@ impl ParameterError {
             Self::NoStrength { .. } => vec!["overburden_eccentricity", "overburden"],
             Self::Overturns { .. } => vec!["thrust", "load_force"],
             Self::Profile(_) => vec!["part"],
-            Self::OfParts { name, .. } | Self::Inertia { name, .. } => vec![name],
             Self::NoHinge { .. } => vec!["hinge_ratio", "part"],
             Self::ElasticBranchTooLong { .. } => vec!["a1", "a3"],
             Self::PlateauTooHigh { .. } => vec!["d1", "a1", "softening"],
             Self::Points { .. } => vec!["points"],
             Self::Restitution { .. } => vec!["restitution_source", "restitution"],
-            Self::Computed { name, .. }
+            Self::OfParts { name, .. }
+            | Self::Inertia { name, .. }
+            | Self::Computed { name, .. }
             | Self::NotGiven { name, .. }
             | Self::BarNeeds { name }
             | Self::Bar { name, .. } => vec![name],

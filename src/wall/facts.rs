@@ -7,7 +7,7 @@ use crate::choices::RestitutionSource;
 use super::equation::Wall;
 use super::equivalence;
 use super::given::COMPUTED;
-use super::restitution::of_rectangle;
+use super::impact::of_rectangle;
 use super::sides::Sides;
 use super::tie::Tie;
 

@@ -22,7 +22,8 @@ pub struct Body {
     pub height: f64,
     /// Height of the intermediate hinge above the base, h₁ \[m\]; h for one body, which has none.
     pub hinge_height: f64,
-    /// Height of the centroid of the masonry `z_G`, at which u of one body is measured \[m\]; h/2 for a strip.
+    /// Height of the centroid of the masonry `z_G`, at which u of one body is measured \[m\]; h/2 for a
+    /// strip.
     pub centroid_height: f64,
     /// Slenderness angle of each side, α = atan(b/h), α₁ = atan(b/h₁) or atan(x/`z_G`) with the arm x of the
     /// weight \[rad\].
@@ -55,8 +56,8 @@ pub struct Body {
     pub drift_weight: f64,
     /// What the reactions of the supports follow from.
     pub contact: Contact,
-    /// F₀ of a side that transverse walls hold and that has none above 0 \[N\]: `strength` and what follows from
-    /// it then have there the numbers of the other side, so that a law has two sides.
+    /// F₀ of a side that transverse walls hold and that has none above 0 \[N\]: `strength` and what follows
+    /// from it then have there the numbers of the other side, so that a law has two sides.
     pub held: Option<f64>,
     /// Coefficient of restitution by impulses \[-\]: from u > 0 to u < 0 (`positive`), and back. `None` for a
     /// body that is given without the place of its toes.

@@ -12,15 +12,15 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`equivalence`] | damping that restitution is worth, and the other way round |
-//! | `section`, `profile` | a wall of parts, with openings and loads |
+//! | [`equivalence`], [`restitution`] | damping that restitution is worth; formulas of restitution |
+//! | `section`, `part`, `profile` | a wall of parts, with openings and loads |
 //! | `warning`, `error` | what a user is told |
 //! | `sides`, `ratio` | quantities of both sides; the ratios of damping |
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
 //! | `bar`, `parameters`, `usage` | what is given, and which of it has an effect |
 //! | `points` | masses and loads of parts as points |
 //! | `mechanism`, `assembled`, `force_law`, `damping`, `trigonometric`, `tie` | what is made of it |
-//! | [`restitution`], `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
+//! | `impact`, `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
 //! | `branch`, `equation`, `layout`, `supports`, `capacity`, `facts` | the wall, its branches and its curve |
 
 mod assembled;
@@ -34,9 +34,11 @@ mod error;
 mod facts;
 mod force_law;
 mod given;
+mod impact;
 mod layout;
 mod mechanism;
 mod parameters;
+mod part;
 mod points;
 mod profile;
 mod ratio;
@@ -65,7 +67,8 @@ pub use force_law::Line;
 pub use given::{COMPUTED, is_computable};
 pub use mechanism::{Body, Contact, MassShares};
 pub use parameters::{Kinematics, Parameters};
-pub use profile::{Hollow, Item, Load, MOST_ITEMS, Opening, Part, Profile, ProfileError};
+pub use part::{Hollow, Item, Load, Opening, Part, ProfileError};
+pub use profile::{MOST_ITEMS, Profile};
 pub use ratio::Ratio;
 pub use section::Section;
 pub use sides::Sides;

@@ -1,97 +1,12 @@
-//! A wall of parts: its masonry, openings and loads as given.
-//!
-//! z is measured upwards from the base and x inwards from the outer face of the lowest part at its foot, so
-//! that the outer toe is at x = 0. u > 0 is towards the outside.
+//! A wall of parts, checked as a whole.
 
+use super::part::{Item, Load, Opening, Part, ProfileError, fault_of_size};
 use super::section::Section;
 
 /// Most parts, openings or loads of a wall; more is a mistake.
 pub const MOST_ITEMS: usize = 1000;
 /// Heights and faces that differ by less than this share of the height are the same.
 pub(super) const SAME: f64 = 1e-9;
-
-/// A prism of masonry. Its thickness, width and outer face change linearly from the bottom to the top.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
-    /// Height of its lower edge above the base \[m\].
-    pub base: f64,
-    /// Height from its lower to its upper edge \[m\].
-    pub height: f64,
-    /// Thickness at its bottom and top \[m\].
-    pub thickness: [f64; 2],
-    /// Length along the wall at its bottom and top \[m\].
-    pub width: [f64; 2],
-    /// Place x of its outer face at its bottom and top \[m\].
-    pub outer: [f64; 2],
-    /// Density \[kg/m³\].
-    pub density: f64,
-}
-
-/// An opening, taken out of the parts at its height.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Opening {
-    /// Height of its lower edge above the base \[m\].
-    pub base: f64,
-    /// Height from its lower to its upper edge \[m\].
-    pub height: f64,
-    /// Length along the wall \[m\].
-    pub width: f64,
-    /// Where a hollow lies in the thickness; `None` for an opening through the wall.
-    pub hollow: Option<Hollow>,
-}
-
-/// The place of a hollow in the thickness of a part.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hollow {
-    /// Thickness \[m\].
-    pub thickness: f64,
-    /// Place x of its outer face \[m\].
-    pub outer: f64,
-}
-
-/// A load at a height, such as that of a floor, a roof or a vault.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
-    /// Force downwards \[N\].
-    pub force: f64,
-    /// Height above the base \[m\].
-    pub height: f64,
-    /// Place x \[m\].
-    pub inside: f64,
-    /// Share of its mass that moves along with the wall, 0 to 1 \[-\].
-    pub moving_mass: f64,
-    /// Thrust, positive outwards \[N\].
-    pub thrust: f64,
-}
-
-/// An item of a profile, by its place in its list from 0 on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
-pub enum Item {
-    Part(usize),
-    Opening(usize),
-    Load(usize),
-}
-
-impl std::fmt::Display for Item {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Part(index) => write!(f, "part {}", index + 1),
-            Self::Opening(index) => write!(f, "opening {}", index + 1),
-            Self::Load(index) => write!(f, "load {}", index + 1),
-        }
-    }
-}
-
-/// What is wrong with an item of a profile.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{item}: {reason}")]
-pub struct ProfileError {
-    /// The item.
-    pub item: Item,
-    /// Its value, the limit and the remedy.
-    pub reason: String,
-}
 
 /// A wall of parts, with its openings and loads: checked, and never changed.
 ///
@@ -117,59 +32,12 @@ pub struct Profile {
     loads: Vec<Load>,
 }
 
-impl Part {
-    /// Height of its upper edge above the base \[m\].
-    pub fn top(&self) -> f64 {
-        self.base + self.height
-    }
-
-    /// Returns the faces and the width at a height \[m\].
-    pub fn section(&self, z: f64) -> Section {
-        let share = (z - self.base) / self.height;
-        let at = |[bottom, top]: [f64; 2]| bottom + (top - bottom) * share;
-        let outer = at(self.outer);
-        Section { outer, inner: outer + at(self.thickness), width: at(self.width) }
-    }
-
-    /// Returns the heights that it shares with another stretch; `None` where they only meet.
-    fn common(&self, base: f64, top: f64) -> Option<[f64; 2]> {
-        let common = [self.base.max(base), self.top().min(top)];
-        (common[0] < common[1]).then_some(common)
-    }
-}
-
-impl Opening {
-    /// Height of its upper edge above the base \[m\].
-    pub fn top(&self) -> f64 {
-        self.base + self.height
-    }
-
-    /// Returns what it takes out of a part at a height: through its whole thickness, or the hollow.
-    pub(super) fn section(&self, part: &Part, z: f64) -> Section {
-        let Section { outer, inner, .. } = part.section(z);
-        let [outer, inner] =
-            self.hollow.map_or([outer, inner], |hollow| [hollow.outer, hollow.outer + hollow.thickness]);
-        Section { outer, inner, width: self.width }
-    }
-
-    /// Returns the heights at which it cuts a part \[m\]; `None` where it does not. A hollow cuts the part that
-    /// contains it, faces within `same` \[m\].
-    pub(super) fn cut(&self, part: &Part, same: f64) -> Option<[f64; 2]> {
-        let heights = part.common(self.base, self.top())?;
-        (self.hollow.is_none() || self.is_within(part, heights, same)).then_some(heights)
-    }
-
-    fn is_within(&self, part: &Part, heights: [f64; 2], same: f64) -> bool {
-        heights.iter().all(|z| part.section(*z).contains(&self.section(part, *z), same))
-    }
-}
-
 impl Profile {
     /// Checks the parts, from the base up, with the openings in them and the loads on them.
     ///
     /// # Errors
-    /// [`ProfileError`] of an item without size or mass, of parts that float or overlap, of an opening that is
-    /// not within the parts or as wide as they are, and of a load beyond the wall.
+    /// [`ProfileError`] of an item without size or mass, of parts that float or overlap, of an opening that
+    /// is not within the parts or as wide as they are, and of a load beyond the wall.
     pub fn new(parts: Vec<Part>, openings: Vec<Opening>, loads: Vec<Load>) -> Result<Self, ProfileError> {
         let profile = Self { parts, openings, loads };
         profile.check_count()?;
@@ -386,38 +254,11 @@ impl Profile {
     }
 }
 
-impl Item {
-    fn refused(self, reason: impl Into<String>) -> ProfileError {
-        ProfileError { item: self, reason: reason.into() }
-    }
-}
-
 /// Returns the outermost and the innermost face of sections; infinite where there are none.
 fn faces(sections: impl Iterator<Item = Section>) -> [f64; 2] {
     sections.fold([f64::INFINITY, f64::NEG_INFINITY], |[outer, inner], section| {
         [outer.min(section.outer), inner.max(section.inner)]
     })
-}
-
-/// Says which size or density of a part makes no sense.
-fn fault_of_size(part: &Part) -> Option<String> {
-    let Part { base, height, thickness, width, outer, density } = *part;
-    let limited = |name: &str, value: f64, [least, most]: [f64; 2], unit: &str| {
-        let fits = least <= value && value <= most;
-        (!fits).then(|| format!("{name} = {value} {unit} must be from {least} to {most} {unit}"))
-    };
-    // the limits of the model description; one end may be 0, as at the top of a gable
-    let range = |name: &str, ends: [f64; 2], [least, most]: [f64; 2]| {
-        let larger = ends[0].max(ends[1]);
-        limited(name, larger, [least, most], "m")
-            .or_else(|| ends.into_iter().find_map(|end| limited(name, end, [0.0, most], "m")))
-    };
-    limited("base", base, [0.0, 1000.0], "m")
-        .or_else(|| limited("height", height, [0.001, 1000.0], "m"))
-        .or_else(|| range("thickness", thickness, [1e-4, 100.0]))
-        .or_else(|| range("width", width, [0.001, 1000.0]))
-        .or_else(|| outer.into_iter().find_map(|outer| limited("outer", outer, [-100.0, 100.0], "m")))
-        .or_else(|| limited("density", density, [1.0, 1e5], "kg/m3"))
 }
 
 /// Returns whether two parts share a place: at the ends or in the middle of the heights they share.

@@ -32,6 +32,7 @@ mod edited_states;
 mod extreme_parameters;
 mod floor_motion;
 mod model_exchange;
+mod newton_euler;
 mod numerics;
 mod one_sided;
 mod overturning;

@@ -73,7 +73,8 @@ pub(crate) struct Rows {
     pub(crate) limit: LaneRow,
     /// The factor of the forcing.
     pub(crate) factor: LaneRow,
-    /// The factors on u̇ at an impact, towards u < 0 and u > 0, and the |u̇| after it below which the wall may come to rest \[m/s\].
+    /// The factors on u̇ at an impact, towards u < 0 and towards u > 0, and the |u̇| after it below which the
+    /// wall may come to rest \[m/s\].
     pub(crate) passage_factors: [LaneRow; 2],
     pub(crate) rest_speed: LaneRow,
     pub(crate) u: LaneRow,

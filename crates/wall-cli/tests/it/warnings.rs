@@ -89,6 +89,7 @@ fn a_parameter_without_effect_is_warned_of() {
     let with_c_bar = DampingModel::ALL.iter().filter(|model| model.ratio() == Some(Ratio::CBar));
     let constant = &*format!("damping_model = {}", one_of(with_c_bar));
     let block = format!("c_bar = -1 and {constant}");
+    let (body, rectangle) = ("mechanism = rigid_body", "mechanism = parapet or vertical_spanning");
     let mut named = BTreeSet::new();
     for (changes, name, condition) in [
         ("damping_model=none xi=0.2", "xi", ratio),
@@ -131,6 +132,22 @@ fn a_parameter_without_effect_is_warned_of() {
             ),
         ),
         ("newmark_step=1e-4", "newmark_step", "solver = newmark"),
+        ("mechanism=rigid_body restitution=0.9 thickness=0.3", "thickness", rectangle),
+        ("mechanism=rigid_body restitution=0.9 width=2", "width", rectangle),
+        ("mechanism=rigid_body restitution=0.9 density=1900", "density", rectangle),
+        ("body_mass=3000", "body_mass", body),
+        ("centroid_height=1.9", "centroid_height", body),
+        ("inertia=16e3", "inertia", body),
+        ("arm=0.3", "arm", body),
+        ("arm_inner=0.1", "arm_inner", body),
+        ("load_force=100", "load_force", body),
+        ("load_mass=10", "load_mass", body),
+        ("thrust=10", "thrust", body),
+        ("load_height=0.1", "load_height", &format!("load_force is not 0 and {body}")),
+        ("load_arm=0.1", "load_arm", &format!("load_force is not 0 and {body}")),
+        ("load_mass_height=0.1", "load_mass_height", &format!("load_mass is not 0 and {body}")),
+        ("load_inertia=0.1", "load_inertia", &format!("load_mass is not 0 and {body}")),
+        ("thrust_height=0.1", "thrust_height", &format!("thrust is not 0 and {body}")),
     ] {
         let told = warned(&setting("simulate --stop-time 0.1", changes));
         let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
