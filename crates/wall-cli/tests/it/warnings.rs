@@ -89,7 +89,6 @@ fn a_parameter_without_effect_is_warned_of() {
     let with_c_bar = DampingModel::ALL.iter().filter(|model| model.ratio() == Some(Ratio::CBar));
     let constant = &*format!("damping_model = {}", one_of(with_c_bar));
     let block = format!("c_bar = -1 and {constant}");
-    let (body, rectangle) = ("mechanism = rigid_body", "mechanism = parapet or vertical_spanning");
     let mut named = BTreeSet::new();
     for (changes, name, condition) in [
         ("damping_model=none xi=0.2", "xi", ratio),
@@ -132,26 +131,12 @@ fn a_parameter_without_effect_is_warned_of() {
             ),
         ),
         ("newmark_step=1e-4", "newmark_step", "solver = newmark"),
-        ("mechanism=rigid_body restitution=0.9 thickness=0.3", "thickness", rectangle),
-        ("mechanism=rigid_body restitution=0.9 width=2", "width", rectangle),
-        ("mechanism=rigid_body restitution=0.9 density=1900", "density", rectangle),
-        ("body_mass=3000", "body_mass", body),
-        ("centroid_height=1.9", "centroid_height", body),
-        ("inertia=16e3", "inertia", body),
-        ("arm=0.3", "arm", body),
-        ("arm_inner=0.1", "arm_inner", body),
-        ("load_force=100", "load_force", body),
-        ("load_mass=10", "load_mass", body),
-        ("thrust=10", "thrust", body),
-        ("load_height=0.1", "load_height", &format!("load_force is not 0 and {body}")),
-        ("load_arm=0.1", "load_arm", &format!("load_force is not 0 and {body}")),
-        ("load_mass_height=0.1", "load_mass_height", &format!("load_mass is not 0 and {body}")),
-        ("load_inertia=0.1", "load_inertia", &format!("load_mass is not 0 and {body}")),
-        ("thrust_height=0.1", "thrust_height", &format!("thrust is not 0 and {body}")),
     ] {
-        let told = warned(&setting("simulate --stop-time 0.1", changes));
-        let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
-        assert!(told.ends_with(&expected), "{told}\n{expected}");
+        assert_warned(changes, name, condition);
+        named.insert(name);
+    }
+    for (changes, name, condition) in of_bodies() {
+        assert_warned(&changes, name, &condition);
         named.insert(name);
     }
     // the list is complete: a new condition needs a line here
@@ -160,6 +145,35 @@ fn a_parameter_without_effect_is_warned_of() {
     let parameters: BTreeSet<_> = parameters.collect();
     let conditional: BTreeSet<_> = conditional.map(|usage| usage.name).collect();
     assert_eq!(named, &conditional & &parameters);
+}
+
+/// Checks that a parameter is warned of, and where it counts.
+fn assert_warned(changes: &str, name: &str, condition: &str) {
+    let told = warned(&setting("simulate --stop-time 0.1", changes));
+    let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
+    assert!(told.ends_with(&expected), "{told}\n{expected}");
+}
+
+/// The parameters of a rectangle and of a rigid body, where the wall is the other.
+fn of_bodies() -> impl Iterator<Item = (String, &'static str, String)> {
+    let body = "mechanism = rigid_body";
+    let of_rectangle = ["thickness", "width", "density"].map(|name| {
+        let changes = format!("mechanism=rigid_body restitution=0.9 {name}=2");
+        (changes, name, "mechanism = parapet or vertical_spanning".to_owned())
+    });
+    let of_body =
+        ["body_mass", "centroid_height", "inertia", "arm", "arm_inner", "load_force", "load_mass", "thrust"];
+    let of_body = of_body.map(|name| (format!("{name}=10"), name, body.to_owned()));
+    let of_loads = [
+        ("load_height", "load_force"),
+        ("load_arm", "load_force"),
+        ("load_mass_height", "load_mass"),
+        ("load_inertia", "load_mass"),
+        ("thrust_height", "thrust"),
+    ];
+    let of_loads =
+        of_loads.map(|(name, of)| (format!("{name}=0.1"), name, format!("{of} is not 0 and {body}")));
+    of_rectangle.into_iter().chain(of_body).chain(of_loads)
 }
 
 /// A number that is set is the one in use, whatever the start values are.
