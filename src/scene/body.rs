@@ -10,7 +10,6 @@ use toml::{Spanned, Value};
 use crate::choices::Mechanism;
 use crate::wall::{COMPUTED, Hollow, Item, Load, Opening, Parameters, Part, Profile};
 
-use super::find::find;
 use super::keys::Group;
 
 /// The keys in `[geometry]` of parts, openings, loads and integrals.
@@ -245,7 +244,7 @@ fn read<T: serde::de::DeserializeOwned + Described>(
     key: &str,
 ) -> Result<Vec<(Span, T)>, FileError> {
     let Some(value) = entries.get(key) else { return Ok(Vec::new()) };
-    let Some(own) = find(file.table(), key, &value.span()) else { return Ok(Vec::new()) };
+    let Some(own) = file.find(key, &value.span()) else { return Ok(Vec::new()) };
     let read = |table: &Spanned<DeValue<'_>>| {
         let read = file.read_value(table).map_err(|fault| file.place().error(fault.span, fault.message))?;
         Ok((table.span(), read))

@@ -9,7 +9,6 @@
 mod body;
 mod document;
 mod error;
-mod find;
 mod keys;
 mod motion;
 mod parameter;

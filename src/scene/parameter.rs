@@ -9,7 +9,6 @@ use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
 
 use super::body::{BODY, LOAD, OF_RECTANGLE, OPENING, PART, apply_body};
 use super::error::SceneError;
-use super::find::find;
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
 use super::schema::groups;
 
@@ -83,7 +82,7 @@ pub fn apply_group(
         let message = format!("{} follows from [tie.bar]; leave out one of them", key.get_ref());
         return Err(place.error(key.span(), message));
     }
-    let own = find(file.table(), BAR, &bar.span());
+    let own = file.find(BAR, &bar.span());
     let read = own.map(|own| file.read_value(own)).transpose();
     parameters.bar = read.map_err(|fault| place.error(fault.span, fault.message))?;
     follow_bar(parameters).map_err(|message| place.error(bar.span(), message))

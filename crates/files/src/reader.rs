@@ -76,6 +76,12 @@ impl<'a> TomlFile<'a> {
         keys.iter().try_fold(&self.whole, |value, key| value.get_ref().get(*key))
     }
 
+    /// Finds the value of a key by its place, whatever tables it stands in: one that was read without the
+    /// places of what it holds.
+    pub fn find(&self, key: &str, span: &Range<usize>) -> Option<&Spanned<DeValue<'a>>> {
+        find(self.table(), key, span)
+    }
+
     /// Reads the whole text.
     ///
     /// # Errors
@@ -104,6 +110,23 @@ impl<'a> TomlFile<'a> {
         let read = T::deserialize(ValueDeserializer::from(value.clone())).map_err(refused)?;
         fault::<T>(value).map_or(Ok(read), Err)
     }
+}
+
+/// Finds the value of a key below a table by its place.
+fn find<'a, 'b>(table: &'a DeTable<'b>, key: &str, span: &Range<usize>) -> Option<&'a Spanned<DeValue<'b>>> {
+    fn inside<'a, 'b>(
+        value: &'a Spanned<DeValue<'b>>,
+        key: &str,
+        span: &Range<usize>,
+    ) -> Option<&'a Spanned<DeValue<'b>>> {
+        match value.get_ref() {
+            DeValue::Table(table) => find(table, key, span),
+            DeValue::Array(items) => items.iter().find_map(|item| inside(item, key, span)),
+            _ => None,
+        }
+    }
+    let own = table.iter().find(|(own, value)| own.get_ref() == key && value.span() == *span);
+    own.map(|(_, value)| value).or_else(|| table.values().find_map(|value| inside(value, key, span)))
 }
 
 /// What stands where a value cannot be used.
