@@ -82,12 +82,13 @@ impl Motion {
         forcing: [f64; 2],
         with_couple: bool,
         memo: &mut Memo,
-        mut watch: Option<&mut Watch<'_>>,
+        watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
         let (motion, propagators) = memo.prepare(self, &state.tie);
-        let Some(end) = motion.quiet_end(state, duration, forcing, propagators, watch.as_deref_mut()) else {
+        if state.phase != Phase::Moving {
             return motion.stay(state, duration, forcing, with_couple, watch);
-        };
+        }
+        let end = motion.quiet_end(state, duration, forcing, propagators, watch)?;
         let couple_impulse =
             if with_couple { motion.couple_over(state, end, duration, forcing, propagators) } else { 0.0 };
         (state.displacement, state.velocity) = (end.displacement, end.velocity);
@@ -113,8 +114,8 @@ impl Motion {
         at_zero * duration + slope * propagators.displacement_integral([start, end], rate, duration)
     }
 
-    /// Passes a segment through which a wall at rest, or one that lies, stays where it is; `None` for another
-    /// segment.
+    /// Passes a segment through which a wall that rests or lies stays where it is; `None` for one in which it
+    /// begins to move.
     fn stay(
         &self,
         state: &State,
@@ -123,18 +124,21 @@ impl Motion {
         with_couple: bool,
         watch: Option<&mut Watch<'_>>,
     ) -> Option<Report> {
-        let [lowest, highest] = self.rest_band;
-        let stays = match state.phase {
-            Phase::Moving => false,
-            Phase::Resting => duration > 0.0 && forcing.iter().all(|p| lowest < *p && *p < highest),
-            Phase::Landed => true,
-        };
-        if let (Phase::Resting, true, Some(watch)) = (state.phase, stays && !state.overturned, watch) {
-            watch.rest(0.0, duration);
+        let mut report = Report::default();
+        if state.phase == Phase::Resting {
+            let [lowest, highest] = self.rest_band;
+            let stays = duration > 0.0 && forcing.iter().all(|p| lowest < *p && *p < highest);
+            if !stays {
+                return None;
+            }
+            if let (false, Some(watch)) = (state.overturned, watch) {
+                watch.rest(0.0, duration);
+            }
+            if with_couple {
+                report.couple_impulse = self.wall.couple_of_rest(forcing, duration);
+            }
         }
-        let rests = with_couple && state.phase == Phase::Resting;
-        let impulse = || if rests { self.wall.couple_of_rest(forcing, duration) } else { 0.0 };
-        stays.then(|| Report { couple_impulse: impulse(), ..Report::default() })
+        Some(report)
     }
 
     /// Moves `state` through a time, with the motion that belongs to the memory of the ties at each moment.
@@ -172,9 +176,9 @@ impl Motion {
         state.branch = self.wall.branch_of(displacement, direction);
     }
 
-    /// Returns the end of a segment without events: one piece in closed form that reaches no corner, and no
-    /// new peak before its end. Its ends show the demands on it. `None` for every other segment. The result
-    /// is bit for bit that of a [`Run`].
+    /// Returns the end of a segment of a moving wall without events: one piece in closed form that reaches no
+    /// corner, and no new peak before its end. Its ends show the demands on it. `None` for every other
+    /// segment. The result is bit for bit that of a [`Run`].
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a call would take a tenth of a step")]
     fn quiet_end(
@@ -185,12 +189,12 @@ impl Motion {
         propagators: &mut Propagators,
         watch: Option<&mut Watch<'_>>,
     ) -> Option<KinematicState> {
-        let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
+        let &State { displacement, velocity, branch: index, ref peaks, .. } = state;
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
         let is_one_piece = duration > 0.0 && duration <= oscillator.longest_piece();
         // what yields must be followed to the turning point, however near
         let yields = branch.yielding_side().is_some();
-        if phase != Phase::Moving || !is_one_piece || !self.takes_closed_form(index) || yields {
+        if !is_one_piece || !self.takes_closed_form(index) || yields {
             return None;
         }
         if oscillator.is_spread(duration) {
@@ -225,7 +229,7 @@ mod tests {
     use crate::choices::{DampingModel, ForceLaw, Impact, Mechanism};
     use crate::wall::{Ends, Parameters, Support};
 
-    /// A short step without events is quiet; a long step is not, nor is a step of a wall at rest.
+    /// A short step without events is quiet; a long step is not.
     #[test]
     fn ordinary_steps_are_quiet() {
         let damping_model = DampingModel::ConstantCoefficient;
@@ -237,7 +241,6 @@ mod tests {
             motion.quiet_end(state, duration, [0.0; 2], &mut Propagators::default(), None).is_some()
         };
         assert!(quiet(&state, 0.01) && !quiet(&state, 100.0));
-        assert!(!quiet(&State { phase: Phase::Resting, ..state }, 0.01));
     }
 
     /// Steps by their ends have the state, the work and the demands of a search, bit for bit.
