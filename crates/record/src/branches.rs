@@ -4,6 +4,7 @@ use rocking_wall::solver::secant::{SecantBranch, Tolerances};
 
 use crate::lanes::Lanes;
 use crate::number::{BranchRow, Number, WIDTH};
+use crate::numbering::LaneBranch;
 use crate::solver::RecordSolver;
 use crate::table::{BranchTable, get};
 
@@ -12,19 +13,19 @@ use crate::table::{BranchTable, get};
 pub(crate) struct Branches<'a, N: Number> {
     solvers: &'a [&'a RecordSolver<'a>; WIDTH],
     first: usize,
-    numbers: N::Branches,
+    places: N::Branches,
 }
 
 impl<N: Number> Branches<'_, N> {
     /// Looks up the number of each lane's branch in a row of its table.
     #[inline(always)]
     pub(crate) fn look_up(&self, token: N::Token, row: impl Fn(&BranchTable) -> &BranchRow) -> N {
-        let Self { solvers, first, numbers } = *self;
+        let Self { solvers, first, places } = *self;
         if N::ONE_TABLE {
             // one row for all lanes, which a vector permutes
-            return N::look_up(token, row(&solvers[first % WIDTH].table), numbers);
+            return N::look_up(token, row(&solvers[first % WIDTH].table), places);
         }
-        N::of_lanes(token, |lane| get(row(&solvers[lane % WIDTH].table), N::branch(numbers, lane)))
+        N::of_lanes(token, |lane| get(row(&solvers[lane % WIDTH].table), N::branch(places, lane)))
     }
 
     /// Looks up the numbers of several rows.
@@ -62,8 +63,8 @@ pub(crate) fn law<N>(look_up: impl Fn(fn(&BranchTable) -> &BranchRow) -> N) -> S
 impl<O> Lanes<'_, O> {
     /// Returns the branch of each lane from `first` on.
     #[inline(always)]
-    pub(crate) fn branches<N: Number>(&self, first: usize, branch: N) -> Branches<'_, N> {
-        Branches { solvers: &self.solvers, first, numbers: branch.branches() }
+    pub(crate) fn branches<N: Number>(&self, first: usize, branch: LaneBranch<N>) -> Branches<'_, N> {
+        Branches { solvers: &self.solvers, first, places: branch.places() }
     }
 
     /// Returns what a Taylor series may leave out of the motion of each lane.

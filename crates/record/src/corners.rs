@@ -3,9 +3,10 @@
 use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, LinearBranch};
 use crate::number::{BranchRow, LaneRow, Number, index};
+use crate::numbering::{Exits, LaneBranch};
 use crate::run::Observer;
 use crate::solver::RecordSolver;
-use crate::table::{BranchTable, end_kind};
+use crate::table::BranchTable;
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
@@ -21,7 +22,7 @@ const MOST_GUESSES: u32 = 4;
 pub(crate) struct Part<N: Number> {
     /// Lanes that have come to it.
     pub(crate) lanes: N::Mask,
-    pub(crate) branch: N,
+    pub(crate) branch: LaneBranch<N>,
     pub(crate) line: LinearBranch<N>,
     /// u, u̇ and ü at its start, and u and u̇ at its end if the branch goes on.
     pub(crate) from: [N; 3],
@@ -40,7 +41,7 @@ pub(crate) struct Part<N: Number> {
 pub(crate) struct Arrival<N: Number> {
     pub(crate) lanes: N::Mask,
     end: [N; 2],
-    branch: N,
+    branch: LaneBranch<N>,
     /// The corners passed, and of these the passages of u = 0.
     corners: N,
     impacts: N,
@@ -59,11 +60,18 @@ impl<N: Number> Arrival<N> {
     pub(crate) fn take(&mut self, lanes: N::Mask, part: &Part<N>, [u, v]: [N; 2], corners: u32, left: N) {
         self.lanes = self.lanes | lanes;
         self.end = [N::select(lanes, u, self.end[0]), N::select(lanes, v, self.end[1])];
-        self.branch = N::select(lanes, part.branch, self.branch);
+        self.branch = LaneBranch::select(lanes, part.branch, self.branch);
         self.corners = N::select(lanes, u.like(f64::from(corners)), self.corners);
         self.impacts = N::select(lanes, part.impacts, self.impacts);
         self.left = N::select(lanes, left, self.left);
     }
+}
+
+/// The corner by which each lane leaves its branch \[m\], and how.
+#[derive(Clone, Copy)]
+pub(crate) struct Ahead<N> {
+    pub(crate) corner: N,
+    exits: Exits<N>,
 }
 
 /// When lanes pass a corner, and u̇ there; `found` are those in which that is known.
@@ -79,7 +87,7 @@ impl<N: Number> Part<N> {
     #[inline(always)]
     pub(crate) fn step(
         lanes: N::Mask,
-        branch: N,
+        branch: LaneBranch<N>,
         line: LinearBranch<N>,
         [from, to]: [[N; 2]; 2],
         [p0, p1]: [N; 2],
@@ -170,7 +178,7 @@ impl<O: Observer> Lanes<'_, O> {
             }
             let curved;
             let ahead = self.ahead(token, first, &part);
-            let passage = part.find(ahead[0], terms);
+            let passage = part.find(ahead.corner, terms);
             (part, curved) = self.cross(token, first, &part, ahead, passage);
             if N::bits(curved) != 0 {
                 arrival.take(curved, &part, [part.from[0], part.from[1]], corners, part.length);
@@ -184,14 +192,14 @@ impl<O: Observer> Lanes<'_, O> {
 
     /// Returns the corner by which lanes leave their branch, and how they do.
     #[inline(always)]
-    pub(crate) fn ahead<N: Number>(&self, token: N::Token, first: usize, part: &Part<N>) -> [N; 2] {
+    pub(crate) fn ahead<N: Number>(&self, token: N::Token, first: usize, part: &Part<N>) -> Ahead<N> {
         let branches = self.branches(first, part.branch);
         let upwards = part.from[0].below(part.to[0]);
         let at = |row: fn(&BranchTable) -> &[BranchRow; 2]| {
             let [lower, upper] = branches.look_up_all(token, row);
             N::select(upwards, upper, lower)
         };
-        [at(|table| &table.ends), at(|table| &table.exits)]
+        Ahead { corner: at(|table| &table.ends), exits: Exits::of(at(|table| &table.exits)) }
     }
 
     /// Goes on beyond the corner ahead, where it is found and open, from the time and u̇ there. Returns the
@@ -202,28 +210,24 @@ impl<O: Observer> Lanes<'_, O> {
         token: N::Token,
         first: usize,
         part: &Part<N>,
-        [corner, exit]: [N; 2],
+        Ahead { corner, exits }: Ahead<N>,
         Passage { found, time, velocity }: Passage<N>,
     ) -> (Part<N>, N::Mask) {
         let (rows, zero) = (&self.rows, N::splat(token, 0.0));
         let upwards = part.from[0].below(part.to[0]);
-        // kinds of exits rise: closed, ordinary, curved, impact
-        let beyond = |kind: f64| N::splat(token, kind).below(exit);
-        let impact = beyond(end_kind::CURVED);
-        let ordinary = beyond(end_kind::CLOSED) & !impact;
+        let (impact, ordinary) = (exits.by_impact(), exits.at_ordinary_corner());
         let [down, up] = rows.passage_factors.each_ref().map(|row| N::load(token, row, first));
         let velocity = N::select(impact, velocity * N::select(upwards, up, down), velocity);
         let rest_speed = N::load(token, &rows.rest_speed, first);
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
-        let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
-        let branch = N::select(lanes, other, part.branch);
+        let branch = LaneBranch::select(lanes, part.branch.next(upwards), part.branch);
         let line = LinearBranch::look_up(token, &self.branches(first, branch));
         let forcing = part.forcing + part.rate * time;
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
         let [u, v, _] = line.after(self.solvers[first].table.terms, length, from, part.rate);
         let impacts = part.impacts + N::select(lanes & impact, N::splat(token, 1.0), zero);
-        let curved = lanes & ordinary & beyond(end_kind::ORDINARY);
+        let curved = lanes & exits.to_curved();
         let lanes = lanes & !curved;
         (Part { lanes, branch, line, from, to: [u, v], length, forcing, impacts, ..*part }, curved)
     }
@@ -246,8 +250,9 @@ impl<O: Observer> Lanes<'_, O> {
         put(&mut rows.highest, highest);
         let lowest = N::load(token, &rows.lowest, first).min(end[0]);
         put(&mut rows.lowest, lowest);
-        put(&mut rows.branch, branch);
         put(&mut rows.step_taken, N::select(whole, zero, step_taken));
+        let branch = LaneBranch::select(lanes, branch, rows.branch.load(token, first));
+        rows.branch.store(branch, first);
         let index = N::load(token, &rows.index, first);
         put(&mut rows.index, N::select(whole, index + 1.0, index));
         let counted = N::load(token, &rows.corners, first) + corners;
@@ -261,7 +266,7 @@ impl<O: Observer> Lanes<'_, O> {
     pub(crate) fn rest<N: Number>(&self, token: N::Token, first: usize) -> Part<N> {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solvers[first]);
         let load = |row| N::load(token, row, first);
-        let (branch, step_taken) = (load(&rows.branch), load(&rows.step_taken));
+        let (branch, step_taken) = (rows.branch.load(token, first), load(&rows.step_taken));
         let line = LinearBranch::look_up(token, &self.branches(first, branch));
         let samples = self.records[first].forcing.from(index(rows.index[first]), 2);
         let [p0, p1] = [load(&rows.factor) * samples[0], load(&rows.factor) * samples[1]];

@@ -7,10 +7,11 @@ use rocking_wall::solver::secant::{
 use crate::branches::law;
 use crate::lanes::{Lanes, Rows, Waiting, each};
 use crate::number::{BranchRow, LaneRow, Number, WIDTH, index};
+use crate::numbering::BranchExit;
 use crate::regularised::Regularised;
 use crate::run::Observer;
 use crate::solver::RecordSolver;
-use crate::table::{BranchTable, Law, end_kind, get};
+use crate::table::{BranchTable, Law, get};
 
 /// The largest change of u in a part, over |u|, of eight lanes. Up to it the terms of a series fall fast
 /// enough to end at its order.
@@ -265,7 +266,7 @@ impl<O: Observer> Lanes<'_, O> {
         let look_up = |row: fn(&BranchTable) -> &BranchRow| {
             N::of_lanes(token, |lane| {
                 let lane = (first + lane) % WIDTH;
-                get(row(&self.solvers[lane].table), index(rows.branch[lane]))
+                get(row(&self.solvers[lane].table), rows.branch.of(lane))
             })
         };
         let load = |row| N::load(token, row, first);
@@ -290,7 +291,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (rows, solver) = (&self.rows, self.solvers[lane]);
         let RecordSolver { table, step, .. } = solver;
         let (u, v, step_taken) = (rows.u[lane], rows.v[lane], rows.step_taken[lane]);
-        let branch = rows.branch[lane].branches();
+        let branch = rows.branch.of(lane);
         let side = usize::from(v > 0.0);
         let corner = get(&table.ends[side], branch);
         let rest = (1.0 - step_taken) * step;
@@ -309,8 +310,8 @@ impl<O: Observer> Lanes<'_, O> {
             ([u + u * rise, u / rest * velocity], true)
         };
         let known = rows.limits[0][lane] <= end[0] && end[0] <= rows.limits[1][lane];
-        let open = get(&table.exits[side], branch);
-        if !known || !(finished || open == end_kind::ORDINARY || open == end_kind::CURVED) {
+        let is_open = matches!(table.exit(branch, side), BranchExit::Ordinary | BranchExit::Curved);
+        if !known || !(finished || is_open) {
             return None;
         }
         let rows = &mut self.rows;
@@ -320,7 +321,7 @@ impl<O: Observer> Lanes<'_, O> {
             self.see_now(lane);
         } else {
             rows.step_taken[lane] = step_taken;
-            rows.branch[lane] += if side == 1 { 1.0 } else { -1.0 };
+            rows.branch.set(lane, if side == 1 { branch + 1 } else { branch - 1 });
             rows.corners[lane] += 1.0;
         }
         Some(())

@@ -6,6 +6,7 @@ use crate::affine::MOST_AT_ONCE;
 use crate::blocks::Blocks;
 use crate::forcing::BLOCK;
 use crate::number::{LaneRow, WIDTH, index};
+use crate::numbering::LaneBranches;
 use crate::run::{BatchRun, Observer, Outcome, RunEnd};
 use crate::solver::RecordSolver;
 use crate::table::Stepping;
@@ -79,8 +80,7 @@ pub(crate) struct Rows {
     pub(crate) rest_speed: LaneRow,
     pub(crate) u: LaneRow,
     pub(crate) v: LaneRow,
-    /// The number of the branch: a whole number, as that of the sample is, in a row of f64 as the rest.
-    pub(crate) branch: LaneRow,
+    pub(crate) branch: LaneBranches,
     /// Extremes of u at the ends of the block's steps \[m\], and the largest |u̇| on curved branches \[m/s\].
     pub(crate) highest: LaneRow,
     pub(crate) lowest: LaneRow,
@@ -184,7 +184,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Returns the state of the run in a lane.
     pub(crate) fn state(&self, lane: usize) -> State {
         let rows = &self.rows;
-        let (displacement, velocity, branch) = (rows.u[lane], rows.v[lane], index(rows.branch[lane]));
+        let (displacement, velocity, branch) = (rows.u[lane], rows.v[lane], rows.branch.of(lane));
         State { displacement, velocity, branch, ..self.runs[lane].state }
     }
 

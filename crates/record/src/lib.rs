@@ -16,7 +16,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `number`, `affine`, `forcing` | numbers of lanes; steps as maps; samples |
+//! | `number`, `numbering`, `affine`, `forcing` | numbers of lanes, what they stand for; maps; samples |
 //! | `table`, `solver` | the branches of a wall, prepared for a step |
 //! | `responses`, `common`, `blocks`, `run` | a record, prepared; a run, its end and its outcome |
 //! | `lanes`, `branches`, `line` | the runs in lanes, and the branches that they are on |
@@ -39,6 +39,7 @@ mod forcing;
 mod lanes;
 mod line;
 mod number;
+mod numbering;
 mod plain;
 mod regularised;
 mod responses;

@@ -3,6 +3,7 @@
 use crate::branches::Branches;
 use crate::lanes::{Lanes, Rows};
 use crate::number::Number;
+use crate::numbering::LaneBranch;
 
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 24] = {
@@ -130,7 +131,12 @@ impl<N: Number> Bounds<N> {
 impl<O> Lanes<'_, O> {
     /// Returns where u and u̇ may be on the branch of each lane.
     #[inline(always)]
-    pub(crate) fn bounds<N: Number>(&self, token: N::Token, first: usize, branch: N) -> Bounds<N> {
+    pub(crate) fn bounds<N: Number>(
+        &self,
+        token: N::Token,
+        first: usize,
+        branch: LaneBranch<N>,
+    ) -> Bounds<N> {
         Bounds::look_up(token, &self.branches(first, branch), &self.rows, first)
     }
 }

@@ -102,7 +102,7 @@ impl<O: Observer> Lanes<'_, O> {
         if N::LANES == 1 && self.rows.step_taken[first] > 0.0 {
             return self.rest_of_step::<N>(token, first);
         }
-        let branch = N::load(token, &self.rows.branch, first);
+        let branch = self.rows.branch.load(token, first);
         let bounds = self.bounds(token, first, branch);
         let (range, change) = self.plain_range::<N>(token, first, &bounds);
         let [u, v] = [N::load(token, &self.rows.u, first), N::load(token, &self.rows.v, first)];
@@ -137,7 +137,7 @@ impl<O: Observer> Lanes<'_, O> {
     #[inline(always)]
     fn plain_range<N: Number>(&self, token: N::Token, first: usize, bounds: &Bounds<N>) -> (Range<N>, N) {
         let (rows, solver) = (&self.rows, self.solvers[first]);
-        let branches = self.branches(first, N::load(token, &rows.branch, first));
+        let branches = self.branches(first, rows.branch.load::<N>(token, first));
         let driving = N::load(token, &rows.driving, first);
         let bounded = driving + branches.look_up(token, |table| &table.damping_share) * driving;
         let length = solver.table.at_once as f64 * solver.step;
@@ -161,7 +161,7 @@ impl<O: Observer> Lanes<'_, O> {
         for (lane, ahead) in ahead.iter_mut().enumerate() {
             let responses = records[lane].responses.as_ref();
             let responses = responses.unwrap_or_else(|| unreachable!("runs of this kind have them"));
-            *ahead = responses.ahead(index(rows.branch[lane]), index(rows.index[lane]));
+            *ahead = responses.ahead(rows.branch.of(lane), index(rows.index[lane]));
         }
         self.plain_steps(token, first, range, ready, ROWS_AHEAD, |row| {
             N::unzip(token, |lane| ahead[lane][row])
@@ -183,7 +183,7 @@ impl<O: Observer> Lanes<'_, O> {
         let mut maps = [&solvers[first].table.maps[0]; WIDTH];
         for lane in 0..WIDTH {
             ahead[lane] = records[lane].ahead(index(self.rows.index[lane]));
-            maps[lane] = &solvers[lane].table.maps[index(self.rows.branch[lane])];
+            maps[lane] = &solvers[lane].table.maps[self.rows.branch.of(lane)];
         }
         let mut by = [[N::splat(token, 0.0); 2]; MOST_AT_ONCE + 1];
         for (n, by) in by.iter_mut().enumerate() {
@@ -217,7 +217,7 @@ impl<O: Observer> Lanes<'_, O> {
         ready: u8,
     ) -> N::Mask {
         let (rows, record) = (&self.rows, self.records[first]);
-        let branch = index(rows.branch[first]);
+        let branch = rows.branch.of(first);
         let BranchTable { maps, at_once, .. } = &self.solvers[first].table;
         let (map, at_once) = (maps[branch], *at_once);
         let sample = index(rows.index[first]);
@@ -242,7 +242,7 @@ impl<O: Observer> Lanes<'_, O> {
         mut response: impl FnMut(usize) -> [N; 2],
     ) -> N::Mask {
         let (rows, at_once) = (&self.rows, self.solvers[first].table.at_once);
-        let branches = self.branches(first, N::load(token, &rows.branch, first));
+        let branches = self.branches(first, rows.branch.load::<N>(token, first));
         let [uu, uv, u_force] = branches.look_up_all(token, |table| &table.plain_steps[0]);
         let [vu, vv, v_force] = branches.look_up_all(token, |table| &table.plain_steps[1]);
         let factor = N::load(token, &rows.factor, first);
@@ -277,7 +277,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Shows the observer some single steps of a lane, from u and u̇ at a sample on.
     fn see_steps(&mut self, lane: usize, sample: usize, mut now: [f64; 2], count: usize) {
         let (rows, table) = (&self.rows, &self.solvers[lane].table);
-        let (branch, factor) = (index(rows.branch[lane]), rows.factor[lane]);
+        let (branch, factor) = (rows.branch.of(lane), rows.factor[lane]);
         let map = table.one_step.map(|rows| rows.map(|row| get(&row, branch)));
         for sample in sample..sample + count {
             let q = [0, 1].map(|n| {
@@ -331,7 +331,7 @@ impl<O: Observer> Lanes<'_, O> {
         reached: &mut Reached<N>,
     ) -> Part<N> {
         let (rows, step) = (&self.rows, self.solvers[first].step);
-        let branch = N::load(token, &rows.branch, first);
+        let branch = rows.branch.load::<N>(token, first);
         let branches = self.branches(first, branch);
         let u_by = branches.look_up_all(token, |table| &table.one_step[0]);
         let v_by = branches.look_up_all(token, |table| &table.one_step[1]);

@@ -16,7 +16,7 @@ use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
 use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
-use crate::number::{WIDTH, index};
+use crate::number::WIDTH;
 use crate::run::{BatchRun, Observer, Outcome, RunEnd, RunStart};
 use crate::table::{Law, Stepping};
 
@@ -136,8 +136,8 @@ impl<O: Observer> Lanes<'_, O> {
         }
         rows.rest_speed[lane] = solver.motion.rest_speed();
         (rows.index[lane], rows.step_taken[lane], rows.factor[lane]) = (first as f64, step_taken, factor);
-        (rows.u[lane], rows.v[lane], rows.branch[lane]) =
-            (state.displacement, state.velocity, state.branch as f64);
+        (rows.u[lane], rows.v[lane]) = (state.displacement, state.velocity);
+        rows.branch.set(lane, state.branch);
         (rows.corners[lane], rows.impacts[lane]) = (0.0, 0.0);
         self.enter_block(lane);
     }
@@ -182,7 +182,7 @@ impl<O: Observer> Lanes<'_, O> {
         let run = &self.runs[lane];
         match run.state.phase {
             Phase::Moving if run.is_stretched => Stepping::General,
-            Phase::Moving => self.solvers[lane].table.steppings[index(self.rows.branch[lane])],
+            Phase::Moving => self.solvers[lane].table.steppings[self.rows.branch.of(lane)],
             Phase::Resting | Phase::Landed => Stepping::General,
         }
     }
@@ -265,7 +265,7 @@ impl<O: Observer> Lanes<'_, O> {
         let rows = &mut self.rows;
         (rows.u[lane], rows.v[lane]) = (state.displacement, state.velocity);
         (rows.index[lane], rows.step_taken[lane]) = ((sample + 1) as f64, 0.0);
-        rows.branch[lane] = state.branch as f64;
+        rows.branch.set(lane, state.branch);
         self.see_now(lane);
         self.bound_force(lane);
         Ok(())

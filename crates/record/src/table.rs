@@ -9,6 +9,7 @@ use rocking_wall::wall::Corner;
 
 use crate::affine::{Affine, MOST_AT_ONCE};
 use crate::number::{BranchRow, MOST_BRANCHES};
+use crate::numbering::BranchExit;
 
 /// c V over P + f̂, which fixes the largest speed V of a plain step: walls stay far below it, as they do
 /// below the terminal speed (docs/record-path.md, §2).
@@ -43,18 +44,6 @@ pub(crate) enum Law {
     Stiffness,
 }
 
-/// How a branch is left at a corner: the numbers of `BranchTable::exits`, in the order that `cross` compares.
-pub(crate) mod end_kind {
-    /// By the general search for events.
-    pub(crate) const CLOSED: f64 = 0.0;
-    /// At an ordinary corner, to another branch with affine maps.
-    pub(crate) const ORDINARY: f64 = 1.0;
-    /// At an ordinary corner, to a branch with secant damping.
-    pub(crate) const CURVED: f64 = 2.0;
-    /// At u = 0, with an impact, to another branch with affine maps.
-    pub(crate) const IMPACT: f64 = 3.0;
-}
-
 /// Returns γ(L) = 1/(1 − c L/2 − |k| L²/8), by which P + c V + f̂ is multiplied to bound |ü| over a length L;
 /// infinite where L is too long for the bound (docs/record-path.md, §2).
 fn growth(oscillator: &Oscillator, length: f64) -> f64 {
@@ -82,7 +71,7 @@ pub(crate) struct BranchTable {
     pub(crate) damping: BranchRow,
     pub(crate) stiffness: BranchRow,
     pub(crate) force_at_zero: BranchRow,
-    /// The ends of the branch \[m\], and how it is left there.
+    /// The ends of the branch \[m\], and the numbers of its exits there ([`BranchExit`]).
     pub(crate) ends: [BranchRow; 2],
     pub(crate) exits: [BranchRow; 2],
     /// γ over one step and over plain steps at once.
@@ -226,29 +215,34 @@ impl BranchTable {
             let corner = wall.corners().get(branch + usize::from(upwards));
             let next = if upwards { branch + 1 } else { branch.wrapping_sub(1) };
             let (Some(corner), Some(next_stepping)) = (corner, self.steppings.get(next)) else {
-                return end_kind::CLOSED;
+                return BranchExit::Search;
             };
             let Corner { passage, stop, overturning, departure, fracture, landing, .. } = *corner;
             let changes = overturning || departure || fracture || landing;
             if stop || changes || !short(branch) || !short(next) {
-                return end_kind::CLOSED;
+                return BranchExit::Search;
             }
             match next_stepping {
-                Stepping::General => end_kind::CLOSED,
-                Stepping::Affine if passage => end_kind::IMPACT,
-                Stepping::Affine => end_kind::ORDINARY,
-                Stepping::Curved if passage => end_kind::CLOSED,
-                Stepping::Curved => end_kind::CURVED,
+                Stepping::General => BranchExit::Search,
+                Stepping::Affine if passage => BranchExit::Impact,
+                Stepping::Affine => BranchExit::Ordinary,
+                Stepping::Curved if passage => BranchExit::Search,
+                Stepping::Curved => BranchExit::Curved,
             }
         };
         let exits = [false, true].map(|upwards| {
             let mut row = BranchRow::default();
             for branch in (0..self.steppings.len()).filter(|&at| self.steppings[at] != Stepping::General) {
-                set(&mut row, branch, find(branch, upwards));
+                set(&mut row, branch, find(branch, upwards).number());
             }
             row
         });
         self.exits = exits;
+    }
+
+    /// Returns how a branch is left at its lower end or, with `side` = 1, at its upper one.
+    pub(crate) fn exit(&self, branch: usize, side: usize) -> BranchExit {
+        BranchExit::of(get(&self.exits[side], branch))
     }
 
     /// Returns the largest |f| between the corners of the branches whose steps are prepared, for |u| up to

@@ -89,7 +89,7 @@ impl<O: Observer> Lanes<'_, O> {
                 Turn::Leaves => {}
             }
             let ahead = self.ahead((), lane, &part);
-            let passage = part.find_after_turn(ahead[0], self.solvers[lane].table.terms);
+            let passage = part.find_after_turn(ahead.corner, self.solvers[lane].table.terms);
             let (next, curved) = self.cross((), lane, &part, ahead, passage);
             if !(next.lanes || curved) {
                 break;

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::line::tests::line;
+use crate::numbering::LaneBranches;
 use crate::table::terms;
 
 /// A first guess is so close that the correction about it is the last, where ü and the jerk change u̇ as they
@@ -86,5 +87,15 @@ fn corners_outside_a_part_are_not_found() {
 /// A part of no length.
 fn part(line: LinearBranch<f64>) -> Part<f64> {
     let (length, forcing, rate, impacts) = (0.0, 0.0, 0.0, 0.0);
-    Part { lanes: false, branch: 0.0, line, from: [0.0; 3], to: [0.0; 2], length, forcing, rate, impacts }
+    Part {
+        lanes: false,
+        branch: LaneBranches::default().load((), 0),
+        line,
+        from: [0.0; 3],
+        to: [0.0; 2],
+        length,
+        forcing,
+        rate,
+        impacts,
+    }
 }

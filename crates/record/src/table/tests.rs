@@ -108,7 +108,7 @@ fn secant_damping_is_curved_up_to_a_decay_of_one_in_a_step() {
 /// A corner is passed only between branches on both of which steps are short.
 #[test]
 fn corners_of_a_branch_with_long_steps_are_closed() {
-    for (a1, expected) in [(0.05, end_kind::ORDINARY), (1e-6, end_kind::CLOSED)] {
+    for (a1, expected) in [(0.05, BranchExit::Ordinary), (1e-6, BranchExit::Search)] {
         let wall =
             Parameters { a1, damping_model: DampingModel::ConstantCoefficient, ..Parameters::default() };
         let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
@@ -117,11 +117,11 @@ fn corners_of_a_branch_with_long_steps_are_closed() {
         let short = motion.oscillators().iter().map(|oscillator| reach(oscillator, step) <= LONGEST);
         let long: Vec<usize> =
             short.enumerate().filter(|(_, short)| !short).map(|(branch, _)| branch).collect();
-        assert_eq!(long, if expected == end_kind::CLOSED { vec![elastic] } else { vec![] });
-        let exits = BranchTable::new(&motion, step).exits;
+        assert_eq!(long, if expected == BranchExit::Search { vec![elastic] } else { vec![] });
+        let table = BranchTable::new(&motion, step);
         // out of the elastic branch on both sides, and into it
         for (side, branch) in [(0, elastic), (1, elastic), (1, elastic - 1), (0, elastic + 1)] {
-            assert_eq!(get(&exits[side], branch), expected, "{a1}: branch {branch}");
+            assert_eq!(table.exit(branch, side), expected, "{a1}: branch {branch}");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::line::{LinearBranch, tests::line};
+use crate::numbering::LaneBranches;
 use crate::table::terms;
 
 /// A part of `length` on a line from u, u̇ under p and its rate, and what its series needs.
@@ -14,7 +15,8 @@ fn part(
     let terms = terms((line.c + line.k.abs().sqrt()) * length);
     let from = [u, v, line.acceleration([u, v], forcing)];
     let [to_u, to_v, _] = line.after(terms, length, from, rate);
-    let (lanes, branch, to, impacts) = (true, 0.0, [to_u, to_v], 0.0);
+    let (lanes, to, impacts) = (true, [to_u, to_v], 0.0);
+    let branch = LaneBranches::default().load((), 0);
     (Part { lanes, branch, line, from, to, length, forcing, rate, impacts }, terms)
 }
 
