@@ -332,7 +332,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`ParameterError::NoHinge`] where nothing stands on the section below.
-    fn hinge_edges(&self, height: f64) -> Result<[f64; 2], ParameterError> {
+    pub fn hinge_edges(&self, height: f64) -> Result<[f64; 2], ParameterError> {
         let [below, above] = [false, true].map(|above| self.faces_beside(height, above));
         let [outer, inner] = [below[0].max(above[0]), below[1].min(above[1])];
         if outer < inner { Ok([outer, inner]) } else { Err(ParameterError::NoHinge { height, below, above }) }

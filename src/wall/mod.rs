@@ -68,6 +68,7 @@ pub use given::{COMPUTED, is_computable};
 pub use mechanism::{Body, Contact, MassShares};
 pub use parameters::{Kinematics, Parameters};
 pub use part::{Hollow, Item, Load, Opening, Part, ProfileError};
+pub use points::Centroid;
 pub use profile::{MOST_ITEMS, Profile};
 pub use ratio::Ratio;
 pub use section::Section;

@@ -23,7 +23,30 @@ pub(super) struct Point {
     pub(super) z: f64,
 }
 
+/// The mass of some masonry, and where its centroid is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Centroid {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Distance inwards from the outer face of the lowest part at its foot \[m\].
+    pub x: f64,
+    /// Height above the base \[m\].
+    pub z: f64,
+}
+
 impl Profile {
+    /// Returns the centroid of the masonry between two heights \[m\].
+    pub fn centroid(&self, heights: [f64; 2]) -> Centroid {
+        let masonry = self.masonry(heights, 0.0);
+        let sum = |of: fn(&Point) -> f64| masonry.iter().map(of).sum::<f64>();
+        let mass = sum(|point| point.mass);
+        Centroid {
+            mass,
+            x: sum(|point| point.mass * point.x) / mass,
+            z: sum(|point| point.mass * point.z) / mass,
+        }
+    }
+
     /// Returns the masonry between two heights \[m\] under a gravity \[m/s²\].
     pub(super) fn masonry(&self, [from, to]: [f64; 2], gravity: f64) -> Vec<Point> {
         let mut points = Vec::new();

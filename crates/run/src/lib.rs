@@ -17,6 +17,7 @@
 //! | [`mod@wall_parameters`] | the parameters that a wall of a study may state |
 //! | [`records`] | records by their names, from files, folders and patterns |
 //! | [`capacity`] | the static capacity curve: table, JSON, CSV, plot |
+//! | [`drawing`] | the wall to scale: its section and, where it needs one, its front |
 //! | [`demands`] | demands as lines of text |
 //! | [`rotations`] | free rocking of a rigid wall in small and in full rotations |
 //! | [`counterpart`] | a run beside the same run in small or in full rotations |
@@ -29,6 +30,7 @@ pub mod bisection;
 pub mod capacity;
 pub mod counterpart;
 pub mod demands;
+pub mod drawing;
 pub mod figure;
 pub mod file;
 pub mod free_motion;

@@ -12,6 +12,7 @@ use rocking_wall::wall::{Fact, TiePart, Wall};
 use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
 use run::capacity::Capacity;
+use run::drawing;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -27,15 +28,24 @@ pub(crate) struct Arguments {
     /// Draw the capacity curve with its secants, as SVG
     #[arg(long, value_name = "FILE", value_parser = svg_file())]
     plot: Option<PathBuf>,
+    /// Draw the wall to scale with its hinges, openings, loads and tie, as SVG
+    #[arg(long, value_name = "FILE", value_parser = svg_file())]
+    drawing: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
+impl Arguments {
+    fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
+        self.csv.iter().chain(&self.plot).chain(&self.drawing)
+    }
+}
+
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
     apply_set(&arguments.scene.set, &mut scene)?;
-    console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
+    console.check_distinct(arguments.scene.inputs(&scene), arguments.outputs())?;
     scene.set_output(None, None, arguments.thresholds.clone()).context("--thresholds")?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
@@ -43,6 +53,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let capacity = Capacity::new(&wall, &scene.thresholds);
     console.save(arguments.plot.as_ref(), || capacity.plot().picture())?;
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
+    console.save(arguments.drawing.as_ref(), || drawing::svg(&wall, parameters))?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let weaker = parameters.weaker_part().map(|part| match part {
@@ -84,7 +95,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     for warning in wall.warnings() {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
-    text += &output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
+    text += &output::written("\nwritten ", arguments.outputs());
     console.print(&text)
 }
 

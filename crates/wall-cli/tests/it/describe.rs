@@ -27,6 +27,18 @@ fn describe_writes_the_curve() {
     fails(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
 }
 
+#[test]
+fn describe_draws_the_wall() {
+    let folder = folder("drawn_wall");
+    let scene = crate::root().join("scenes/bodies/facade.toml").display().to_string();
+    let text = printed(&folder, &["describe", &scene, "--drawing", "wall.svg"]);
+    assert!(text.ends_with("written wall.svg\n"), "{text}");
+    let svg = content(&folder, "wall.svg");
+    assert_has(&svg, &["h = 9.6 m", "12 kN at 3.2 m", "thrust 1 kN", "W = 102 kN at 4.8 m"]);
+    fails(&folder, &["describe", "--drawing", "wall.png"], &["wall.png", "ends in .svg"]);
+    fails(&folder, &["describe", "--plot", "a.svg", "--drawing", "a.svg"], &["the output a.svg"]);
+}
+
 /// The part of the tie that gives way first is told, with the places where the tie changes.
 #[test]
 fn a_tie_of_a_bar_is_described() {
