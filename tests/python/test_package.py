@@ -15,7 +15,8 @@ from fmpy.validation import validate_fmu
 from conftest import ROOT
 from unit import Unit
 
-SCENES = sorted((ROOT / "scenes").glob("*.toml"))
+SCENES = sorted((ROOT / "scenes").glob("*.toml")) + sorted((ROOT / "scenes/bodies").glob("*.toml"))
+PATHS = {scene.stem: scene for scene in SCENES}
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +36,7 @@ def test_package_is_valid_and_runs_as_the_scene(packages, wall, scene):
     assert validate_fmu(str(path)) == []
     summary = json.loads(
         subprocess.run(
-            [wall, "simulate", ROOT / f"scenes/{scene}.toml", "--json"], check=True, capture_output=True
+            [wall, "simulate", PATHS[scene], "--json"], check=True, capture_output=True
         ).stdout
     )
     experiment = read_model_description(str(path)).defaultExperiment
@@ -82,6 +83,8 @@ def test_a_plain_parapet_lists_what_it_needs(packages):
             {"a1", "d1", "xi", "c_bar", "damping_force", "omega1", "tolerance"},
         ),
         ("quadrilinear_strip", {"hinge_ratio", "xi"}, {"a1", "a3", "d1", "force_law", "restitution"}),
+        ("facade", {"F0_negative", "u_ins_negative", "gravity"}, {"height", "density", "body_mass"}),
+        ("stepped_strip", {"hinge_ratio", "overburden", "reaction_top"}, {"height", "width", "density"}),
     ],
 )
 def test_what_plays_no_part_is_not_there(packages, scene, there, absent):
