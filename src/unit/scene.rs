@@ -96,6 +96,7 @@ impl UnitScene {
 }
 
 /// The parts, openings and loads of a wall, if it has parts.
+#[cold]
 fn transfer_profile(parameters: &mut Parameters, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
     let of = parameters.profile.take();
     let lists = of.as_ref().map(|of| (of.parts(), of.openings(), of.loads()));
@@ -143,8 +144,8 @@ fn transfer_profile(parameters: &mut Parameters, codec: &mut StateCodec<'_>) -> 
         moving_mass,
         thrust,
     });
-    let profile = Profile::new(parts.collect(), openings.collect(), loads.collect());
-    parameters.profile = Some(Arc::new(profile.map_err(|error| Failure(error.to_string()))?));
+    let profile = Profile::of_checked(parts.collect(), openings.collect(), loads.collect());
+    parameters.profile = Some(Arc::new(profile));
     Ok(())
 }
 

@@ -100,23 +100,25 @@ impl OneBody {
 
 impl Body {
     /// Returns the body of parts that turns about its toes.
+    #[cold]
     pub(super) fn of_parts(parameters: &Parameters, profile: &Profile) -> Self {
         let h = profile.height();
         let [outer, inner] = profile.toes();
-        let masonry = profile.masonry([0.0, h], parameters.gravity);
-        let loads: Vec<Point> = profile.load_points(parameters.gravity).collect();
-        let sum = |of: fn(&Point) -> f64| masonry.iter().map(of).sum::<f64>();
-        let (mass, weight) = (sum(|p| p.mass), sum(|p| p.weight));
-        let (x, z) = (sum(|p| p.mass * p.x) / mass, sum(|p| p.mass * p.z) / mass);
-        let all = || masonry.iter().chain(&loads);
-        let total = |of: &dyn Fn(&Point) -> f64| all().map(of).sum::<f64>();
+        let mut points = profile.masonry([0.0, h], parameters.gravity);
+        let own = points.len();
+        points.extend(profile.load_points(parameters.gravity));
+        let masonry = |of: &dyn Fn(&Point) -> f64| total(&points[..own], of);
+        let all = |of: &dyn Fn(&Point) -> f64| total(&points, of);
+        let (mass, weight) = (masonry(&|p| p.mass), masonry(&|p| p.weight));
+        let (x, z) = (masonry(&|p| p.mass * p.x) / mass, masonry(&|p| p.mass * p.z) / mass);
         let arm = |sign: f64, x: f64| if sign > 0.0 { x - outer } else { inner - x };
         let (o, c) = (parameters.overburden, parameters.overburden_on(profile));
         let moment = |sign: f64| {
-            total(&|p| p.weight * arm(sign, p.x) - sign * p.thrust * p.z) + o * arm(sign, c.of(sign))
+            all(&|p| p.weight * arm(sign, p.x) - sign * p.thrust * p.z) + o * arm(sign, c.of(sign))
         };
         let rise = |sign: f64, p: &Point| arm(sign, p.x);
-        let impulses = Sides::each(|sign| impulses(all(), |p| p.z, |p| rise(sign, p), |p| rise(-sign, p)));
+        let impulses =
+            Sides::each(|sign| impulses(&points, &|p| p.z, &|p| rise(sign, p), &|p| rise(-sign, p)));
         OneBody {
             height: h,
             mass,
@@ -124,18 +126,19 @@ impl Body {
             centroid_height: z,
             arms: Sides::each(|sign| arm(sign, x)),
             overburden: o,
-            moving_mass: total(&|p| p.mass),
-            inertia: total(&|p| p.mass * p.z * p.z),
-            first_moment: total(&|p| p.mass * p.z),
-            overturning: total(&|p| p.weight * p.z) + o * h,
+            moving_mass: all(&|p| p.mass),
+            inertia: all(&|p| p.mass * p.z * p.z),
+            first_moment: all(&|p| p.mass * p.z),
+            overturning: all(&|p| p.weight * p.z) + o * h,
             moments: Sides::each(moment),
-            thrust: total(&|p| p.thrust),
+            thrust: all(&|p| p.thrust),
             impulses: Some(impulses),
         }
         .body(parameters)
     }
 
     /// Returns the rigid body whose integrals are given.
+    #[cold]
     pub(super) fn of_integrals(parameters: &Parameters) -> Result<Self, ParameterError> {
         let Parameters { body_mass: mass, centroid_height: z, gravity, height, .. } = *parameters;
         let Parameters { load_force: load, load_height, load_mass, load_mass_height, thrust, .. } =
@@ -191,32 +194,33 @@ impl Body {
     }
 
     /// Returns the strip of parts, cut by its hinge into two bodies.
+    #[cold]
     pub(super) fn strip_of_parts(parameters: &Parameters, profile: &Profile) -> Result<Self, ParameterError> {
         let h = profile.height();
         let h1 = profile.snapped(parameters.hinge_ratio * h);
         let strip = Strip { h, h1, toes: profile.toes(), edges: profile.hinge_edges(h1)? };
-        let [lower, upper] = [[0.0, h1], [h1, h]].map(|range| profile.masonry(range, parameters.gravity));
+        let mut points = profile.masonry([0.0, h1], parameters.gravity);
+        points.extend(profile.masonry([h1, h], parameters.gravity));
+        let own = points.len();
+        points.extend(profile.load_points(parameters.gravity));
+        let masonry = |of: &dyn Fn(&Point) -> f64| total(&points[..own], of);
+        let all = |of: &dyn Fn(&Point) -> f64| total(&points, of);
+        let (mass, weight, o) = (masonry(&|p| p.mass), masonry(&|p| p.weight), parameters.overburden);
         let c = parameters.overburden_on(profile);
-        let loads: Vec<Point> = profile.load_points(parameters.gravity).collect();
-        let masonry = || lower.iter().chain(&upper);
-        let all = || masonry().chain(&loads);
-        let total = |of: &dyn Fn(&Point) -> f64| all().map(of).sum::<f64>();
-        let sum = |of: fn(&Point) -> f64| masonry().map(of).sum::<f64>();
-        let (mass, weight, o) = (sum(|p| p.mass), sum(|p| p.weight), parameters.overburden);
         let phi = |p: &Point| strip.share(p.z);
         let strength = |sign: f64| {
-            let of_points = total(&|p| p.weight * strip.rise(sign, p.x, p.z) - sign * p.thrust * phi(p));
+            let of_points = all(&|p| p.weight * strip.rise(sign, p.x, p.z) - sign * p.thrust * phi(p));
             2.0 * (of_points + o * strip.rise(sign, c.of(sign), h))
         };
-        let k1 = total(&|p| p.weight * p.z.min(h1)) + o * h1;
-        let k2 = total(&|p| p.weight * (p.z - h1).max(0.0)) + o * (h - h1);
+        let k1 = all(&|p| p.weight * p.z.min(h1)) + o * h1;
+        let k2 = all(&|p| p.weight * (p.z - h1).max(0.0)) + o * (h - h1);
         let h2 = h - h1;
-        let [moving, by_z, by_z2] = [0, 1, 2].map(|power| total(&|p| p.mass * (p.z / h).powi(power)));
-        let [by_phi, by_phi_z] = [0, 1].map(|power| total(&|p| p.mass * phi(p) * (p.z / h).powi(power)));
-        let effective_mass = 2.0 * total(&|p| p.mass * phi(p) * phi(p));
+        let [moving, by_z, by_z2] = [0, 1, 2].map(|power| all(&|p| p.mass * (p.z / h).powi(power)));
+        let [by_phi, by_phi_z] = [0, 1].map(|power| all(&|p| p.mass * phi(p) * (p.z / h).powi(power)));
+        let effective_mass = 2.0 * all(&|p| p.mass * phi(p) * phi(p));
         let moment = |sign: f64| {
             let arm = |x: f64| sign * (x - strip.toe(sign));
-            total(&|p| p.weight * arm(p.x) - sign * p.thrust * p.z) + o * arm(c.of(sign))
+            all(&|p| p.weight * arm(p.x) - sign * p.thrust * p.z) + o * arm(c.of(sign))
         };
         let contact = Contact {
             mass: moving,
@@ -226,13 +230,14 @@ impl Body {
                 wall: (by_phi - by_phi_z) / moving,
             },
             top: MassShares { bottom: (by_z - by_z2) / moving, top: by_z2 / moving, wall: by_phi_z / moving },
-            thrust: total(&|p| p.thrust),
+            thrust: all(&|p| p.thrust),
             moments: Sides::each(moment),
-            by_displacement: total(&|p| p.weight * phi(p)) / h,
-            by_drift: (total(&|p| p.weight * p.z / h) + o) / h,
+            by_displacement: all(&|p| p.weight * phi(p)) / h,
+            by_drift: (all(&|p| p.weight * p.z / h) + o) / h,
         };
         let impulses = Sides::each(|sign| {
-            impulses(all(), phi, |p| strip.rise(sign, p.x, p.z), |p| strip.rise(-sign, p.x, p.z))
+            let rise = |sign: f64| move |p: &Point| strip.rise(sign, p.x, p.z);
+            impulses(&points, &phi, &rise(sign), &rise(-sign))
         });
         Ok(Self {
             mechanism: parameters.mechanism,
@@ -262,6 +267,7 @@ impl Body {
 }
 
 /// A strip between its supports: heights of wall and hinge, the toes and the edges of the hinge \[m\].
+#[derive(Clone, Copy)]
 struct Strip {
     h: f64,
     h1: f64,
@@ -303,21 +309,23 @@ impl Strip {
     }
 }
 
+/// Returns the sum over points.
+// one loop for all sums: they are made once a wall, and the library of an FMU is to be small
+#[inline(never)]
+fn total(points: &[Point], of: &dyn Fn(&Point) -> f64) -> f64 {
+    points.iter().map(of).sum()
+}
+
 /// Returns the coefficient of restitution by impulses of points that move by φ and have risen by `old`, and
 /// rise by `new` after the impact.
-fn impulses<'a>(
-    points: impl Iterator<Item = &'a Point>,
-    share: impl Fn(&Point) -> f64,
-    old: impl Fn(&Point) -> f64,
-    new: impl Fn(&Point) -> f64,
+fn impulses(
+    points: &[Point],
+    share: &dyn Fn(&Point) -> f64,
+    old: &dyn Fn(&Point) -> f64,
+    new: &dyn Fn(&Point) -> f64,
 ) -> f64 {
-    let (mut common, mut whole) = (0.0, 0.0);
-    for point in points {
-        let (across, after) = (share(point).powi(2), new(point));
-        common += point.mass * (across - old(point) * after);
-        whole += point.mass * (across + after * after);
-    }
-    common / whole
+    let common = total(points, &|p| p.mass * (share(p).powi(2) - old(p) * new(p)));
+    common / total(points, &|p| p.mass * (share(p).powi(2) + new(p).powi(2)))
 }
 
 impl Profile {

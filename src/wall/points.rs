@@ -48,18 +48,18 @@ impl Profile {
     }
 
     /// Returns the masonry between two heights \[m\] under a gravity \[m/s²\].
+    #[cold]
     pub(super) fn masonry(&self, [from, to]: [f64; 2], gravity: f64) -> Vec<Point> {
         let mut points = Vec::new();
         let same = SAME * self.height();
         for part in self.parts() {
             let within = |[base, top]: [f64; 2]| [base.max(from), top.min(to)];
-            add_prism(&mut points, within([part.base, part.top()]), [part.density, gravity], |z| {
-                part.section(z)
-            });
+            let whole = within([part.base, part.top()]);
+            add_prism(&mut points, whole, [part.density, gravity], &|z| part.section(z));
             for opening in self.openings() {
                 if let Some(heights) = opening.cut(part, same) {
                     let section = |z| opening.section(part, z);
-                    add_prism(&mut points, within(heights), [-part.density, gravity], section);
+                    add_prism(&mut points, within(heights), [-part.density, gravity], &section);
                 }
             }
         }
@@ -79,11 +79,12 @@ impl Profile {
 }
 
 /// Adds the Gauss points of a prism between two heights \[m\], whose section is linear in between.
+#[inline(never)]
 fn add_prism(
     points: &mut Vec<Point>,
     [from, to]: [f64; 2],
     [density, gravity]: [f64; 2],
-    section: impl Fn(f64) -> Section,
+    section: &dyn Fn(f64) -> Section,
 ) {
     let length = to - from;
     if length <= 0.0 {
