@@ -191,10 +191,11 @@ pub(super) fn apply_body(
                  load on the top of a rectangle as overburden",
             );
         }
-        (None, Some(_)) if opening.is_some() => {
-            return refused("[geometry.body] states the whole body; leave [[geometry.opening]] out");
-        }
         _ => {}
+    }
+    if let (Some(_), Some(opening)) = (body, opening) {
+        let message = "[geometry.body] states the whole body; leave [[geometry.opening]] out";
+        return Err(place.error(opening.clone(), message));
     }
     let replaced = entries.keys().find(|key| OF_RECTANGLE.contains(&key.get_ref().as_str()));
     if let Some(key) = replaced {

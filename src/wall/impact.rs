@@ -43,7 +43,7 @@ pub(super) fn coefficient(
         None => {
             let choices = [
                 Choice::new("restitution_source", source.name()),
-                Choice::new(if body.is_strip() { "parts" } else { "mechanism" }, body.mechanism.name()),
+                Choice::new("mechanism", body.mechanism.name()),
             ];
             Err(ParameterError::conflict(
                 choices,

@@ -126,10 +126,10 @@ impl Parameters {
     }
 
     /// Makes the wall one of parts. Its height and its thickness at the base are theirs from there on; width
-    /// and density are those of the lowest part.
+    /// and density are those of the lowest part. One prism without openings and loads is a rectangle.
     pub fn set_profile(&mut self, profile: Profile) {
         [self.height, self.thickness, self.width, self.density] = profile.as_rectangle();
-        self.profile = Some(Arc::new(profile));
+        self.profile = (!profile.is_rectangle()).then(|| Arc::new(profile));
     }
 
     /// Gives the tie the stiffness, strength and ultimate elongation of its bar; leaves one without a bar as

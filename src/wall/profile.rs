@@ -85,6 +85,16 @@ impl Profile {
         inner - outer
     }
 
+    /// Returns whether it is one prism without openings and loads.
+    pub fn is_rectangle(&self) -> bool {
+        let is_constant = |ends: [f64; 2]| ends[0] == ends[1];
+        let prism = self
+            .parts
+            .iter()
+            .all(|part| [part.thickness, part.width, part.outer].into_iter().all(is_constant));
+        prism && self.parts.len() == 1 && self.openings.is_empty() && self.loads.is_empty()
+    }
+
     /// Its height, the distance of its toes, and the width and density of its lowest part: what stands for it
     /// where a rectangle is expected, as in pictures.
     pub(super) fn as_rectangle(&self) -> [f64; 4] {

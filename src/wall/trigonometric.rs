@@ -254,7 +254,11 @@ pub(super) fn conflict(name: &'static str, value: &dyn ToString, remedy: &str) -
 /// [`ParameterError::Conflict`] with a law, a damping or a solver that goes with small rotations only.
 fn check(parameters: &Parameters, body: &Body) -> Result<(), ParameterError> {
     if !body.is_rectangle {
-        return Err(conflict("mechanism", &"that of parts or a rigid body", "a rectangle"));
+        let (name, value) = match parameters.profile {
+            Some(_) => ("part", "[...]"),
+            None => ("mechanism", parameters.mechanism.name()),
+        };
+        return Err(conflict(name, &value, "height and thickness of a rectangle in place of it"));
     }
     let law = parameters.multilinear.as_ref().map_or(parameters.force_law.name(), |_| "multilinear");
     let refused = if law != ForceLaw::RigidLinear.name() {

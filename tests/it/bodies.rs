@@ -12,16 +12,21 @@ pub(crate) const PRISM: Part =
     Part { base: 0.0, height: 3.0, thickness: [0.25; 2], width: [1.0; 2], outer: [0.0; 2], density: 1800.0 };
 const RIGID: ForceLaw = ForceLaw::RigidLinear;
 
-/// A rigid wall with impacts, of parts.
-pub(crate) fn of_parts(parts: &[Part], openings: &[Opening], loads: &[Load]) -> Parameters {
-    let mut parameters = Parameters {
+/// A rigid wall with impacts.
+fn of_rectangle() -> Parameters {
+    Parameters {
         force_law: RIGID,
         damping_model: DampingModel::None,
         impact: Impact::Restitution,
         restitution_source: RestitutionSource::Impulses,
         u_start: 0.0,
         ..Parameters::default()
-    };
+    }
+}
+
+/// A rigid wall with impacts, of parts.
+pub(crate) fn of_parts(parts: &[Part], openings: &[Opening], loads: &[Load]) -> Parameters {
+    let mut parameters = of_rectangle();
     parameters.set_profile(Profile::new(parts.to_vec(), openings.to_vec(), loads.to_vec()).unwrap());
     parameters
 }
@@ -168,12 +173,21 @@ fn a_stepped_strip_has_the_constants_of_an_independent_program() {
     }
 }
 
-/// A rectangle of one part, as a parapet and as a strip, equals the rectangle by its size.
+/// One prism is the rectangle itself.
 #[test]
 fn one_part_is_a_rectangle() {
+    let parameters = of_parts(&[PRISM], &[], &[]);
+    assert_eq!(parameters, Parameters { height: 3.0, thickness: 0.25, ..of_rectangle() });
+}
+
+/// A rectangle that is cut into two parts equals it to rounding, as a parapet and as a strip.
+#[test]
+fn two_parts_make_a_rectangle() {
+    let lower = Part { height: 1.1, ..PRISM };
+    let upper = Part { base: 1.1, height: 3.0 - 1.1, ..PRISM };
     for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
         for hinge_ratio in [0.5, 0.6] {
-            let loads = Parameters { mechanism, hinge_ratio, ..of_parts(&[PRISM], &[], &[]) };
+            let loads = Parameters { mechanism, hinge_ratio, ..of_parts(&[lower, upper], &[], &[]) };
             let loaded = Parameters { overburden: 10e3, overburden_eccentricity: 0.03, ..loads };
             let rectangle = Parameters { profile: None, ..loaded.clone() };
             let [found, expected] = [body(&loaded), body(&rectangle)];

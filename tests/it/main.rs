@@ -16,6 +16,7 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 mod bars;
 mod bodies;
 mod broken;
+mod broken_bodies;
 mod broken_scenes;
 mod capacity;
 mod cases;
