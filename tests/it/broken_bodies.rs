@@ -121,7 +121,7 @@ fn bodies_that_cannot_rock_are_refused() {
         ),
         (
             format!("[geometry]\nkinematics = \"trigonometric\"\n{PART}width = [1.0, 0.5]"),
-            "kinematics = trigonometric does not go with part = [...]; set height and thickness of a rectangle",
+            "kinematics = trigonometric does not go with part = [...]; set height and thickness of a rect",
         ),
         (
             format!("{strip}{PART}width = [1.0, 0.5]\n[impact]\nrestitution_source = \"momentum\""),
