@@ -27,6 +27,19 @@ type Peers = (&'static str, &'static [(&'static str, &'static str)]);
 const PYTHON: [Peers; 2] =
     [("opensees", &[("opensees", OPENSEES)]), ("peers", &[("numba", "numba"), ("scipy", "SciPy")])];
 
+/// The paths whose instructions are counted, by their names for the benchmark.
+const PATHS: [&str; 9] = [
+    "segments",
+    "settling-segments",
+    "demands",
+    "record",
+    "batch",
+    "together",
+    "adaptive",
+    "adaptive-batch",
+    "settling",
+];
+
 /// Numbers of runs; the difference of their instructions counts.
 const FEW: u32 = 5;
 const MANY: u32 = 15;
@@ -61,11 +74,11 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     let built = output(cargo().args(bench.split(' ')).args(no_run), remedy)?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
     println!("\ninstructions a sample, walls of Table 5 under the embedded motion");
-    for path in ["segments", "record", "batch", "adaptive"] {
+    for path in PATHS {
         let [few, many] = [FEW, MANY].map(|runs| instructions(&binary, path, runs));
         let (few, many) = (few?, many?);
         println!(
-            "{path:<12}{:>10.1}",
+            "{path:<20}{:>10.1}",
             (many.0 - few.0) as f64 / many.1 * f64::from(MANY) / f64::from(MANY - FEW)
         );
     }

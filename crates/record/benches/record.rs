@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
 use record::{BatchRun, Blocks, Forcing, RecordSolver, RunEnd, RunStart, run_together};
-use rocking_wall::simulation::Simulation;
+use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support};
@@ -198,51 +198,68 @@ fn least_of(runs: usize, units: usize, mut run: impl FnMut() -> f64) -> f64 {
     least * 1e9 / units as f64
 }
 
+/// Returns the wall of a path whose instructions are counted.
+fn wall_of(path: &str) -> Parameters {
+    let (damping_model, force_law, impact) = match path {
+        "adaptive" | "adaptive-batch" => (DampingModel::ConstantRatio, ForceLaw::Bilinear, Impact::None),
+        "settling" | "settling-segments" => (DampingModel::None, ForceLaw::RigidLinear, Impact::Restitution),
+        _ => (DampingModel::ConstantCoefficient, ForceLaw::Bilinear, Impact::None),
+    };
+    let wall = Parameters { height: 3.0, thickness: 0.6, a1: 0.0024, u_start: 0.0, ..Parameters::default() };
+    Parameters { damping_model, force_law, impact, ..wall }
+}
+
 /// Runs one path several times to count its instructions; returns the number of samples.
 fn count(path: &str, runs: u32) -> u64 {
     let record = SyntheticMotion::default().motion().expect("the default motion");
-    let damping_model = match path {
-        "adaptive" => DampingModel::ConstantRatio,
-        _ => DampingModel::ConstantCoefficient,
-    };
-    let parameters = Parameters {
-        height: 3.0,
-        thickness: 0.6,
-        a1: 0.0024,
-        damping_model,
-        u_start: 0.0,
-        ..Parameters::default()
-    };
+    let parameters = wall_of(path);
     let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let solver = RecordSolver::new(&motion, record.step());
     let state = motion.start(0.0, 0.0, Support::default());
     let start = |factor: f64| RunStart { state, factor: factor * participation };
+    let mut lanes = 1;
     for _ in 0..runs {
         let samples = black_box(record.samples());
         match path {
-            "segments" => {
-                let mut simulation =
-                    Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
-                for ends in samples.windows(2) {
-                    let [from, to] = [ends[0], ends[1]].map(Support::rigid);
-                    let segment = Segment { duration: record.step(), from, to };
-                    simulation.advance(&segment).expect("a bounded motion");
-                }
-                black_box(simulation.progress().state);
+            "segments" | "settling-segments" | "demands" => {
+                follow_segments(&parameters, &record, path == "demands");
             }
-            "record" | "adaptive" => {
+            "record" | "adaptive" | "settling" => {
                 let outcome = solver.run(start(1.0), Forcing::Samples(samples), RunEnd::OfRecord);
                 black_box(outcome.expect("a bounded motion"));
             }
-            "batch" => {
+            "batch" | "adaptive-batch" => {
                 let outcomes =
                     solver.batch(Forcing::Samples(samples)).run(&batch(1.0, start), RunEnd::OfRecord);
-                black_box(outcomes.expect("bounded motions"));
+                lanes = black_box(outcomes.expect("bounded motions")).len();
             }
-            other => panic!("no path {other}: segments, record, batch, adaptive"),
+            "together" => {
+                let blocks = [0, 1].map(|_| Blocks::new(Forcing::Samples(samples)));
+                let run = |(n, start)| BatchRun { solver: &solver, record: &blocks[n % 2], start };
+                let given: Vec<_> = batch(1.0, start).into_iter().enumerate().map(run).collect();
+                lanes = black_box(run_together(&given, RunEnd::OfRecord)).len();
+            }
+            other => panic!("no path {other}: see `cargo xtask bench`"),
         }
     }
-    let lanes = if path == "batch" { BATCH } else { 1 };
     (record.samples().len() - 1) as u64 * u64::from(runs) * lanes as u64
+}
+
+/// Follows a wall by segments: sample by sample, or with demands and no history.
+fn follow_segments(parameters: &Parameters, record: &GroundMotion, with_demands: bool) {
+    let mut simulation = Simulation::new(parameters, None, 0.0, Support::default()).expect("a valid wall");
+    if with_demands {
+        let (excitation, mut demands) =
+            (Excitation::new(record.clone(), None), simulation.demands(Support::default(), &[]));
+        let end = record.duration();
+        simulation.advance_to(end, Some(&excitation), Some(&mut demands)).expect("a bounded motion");
+    } else {
+        for ends in black_box(record.samples()).windows(2) {
+            let [from, to] = [ends[0], ends[1]].map(Support::rigid);
+            let segment = Segment { duration: record.step(), from, to };
+            simulation.advance(&segment).expect("a bounded motion");
+        }
+    }
+    black_box(simulation.progress().state);
 }
