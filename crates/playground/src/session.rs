@@ -90,6 +90,7 @@ impl Session {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,
                 "hinge": body.hinge(),
+                "shape": page::shape(wall, &scene.parameters),
                 "u_ins": [body.instability.positive, body.instability.negative],
             },
             "summary": {

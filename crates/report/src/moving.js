@@ -1,10 +1,12 @@
 const degrees = 180 / Math.PI;
 const within = sine => Math.asin(Math.max(-1, Math.min(1, sine)));
 // Turns the bodies of a wall to the displacement u, with its top displaced by `drift` from its foot, and
-// returns where its tie is. A strip's hinge opens on the other face: the corner (-toe, h1) of the lower body
-// carries the upper one. The wall says its height, thickness, hinge, whether rotations are full, and its tie.
+// returns where its tie is. A strip's hinge opens on the other face: that edge of the lower body, a corner of
+// a rectangle, carries the upper one. The wall says its height, thickness, hinge, whether rotations are full,
+// its tie and, unless it is a rectangle, its shape: toes, edges of the hinge, and the height of u.
 function turnWall(wall, [lower, upper], u, drift = 0) {
-  const { height: h, thickness: b, hinge: h1, full, tie } = wall, toe = (u < 0 ? -1 : 1) * b / 2;
+  const { height: h, thickness: b, hinge: h1, full, tie, shape } = wall, side = u < 0 ? 1 : 0;
+  const toe = (shape?.toes ?? [b / 2, -b / 2])[side];
   // The angle of a body whose point at the height `arm` is displaced by u; it lies flat at u = arm. With full
   // rotations, s is the horizontal distance from the toe: of a strip's hinge (u - b), or of the far corner of
   // a parapet's top (2 u - b).
@@ -13,14 +15,14 @@ function turnWall(wall, [lower, upper], u, drift = 0) {
     const d = Math.hypot(h1 === null ? h : arm, b), s = (h1 === null ? 2 : 1) * Math.abs(u) - b;
     return Math.sign(u) * (within(s / d) + within(b / d));
   };
-  const turn = h1 === null ? angle(u, h / 2) : angle(u + drift * h1 / h, h1);
+  const turn = h1 === null ? angle(u, shape?.centroid ?? h / 2) : angle(u + drift * h1 / h, h1);
   lower.setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
   if (h1 === null) { return toe - toe * Math.cos(turn) + Math.sin(turn) * (tie?.y ?? 0); }
-  const h2 = h - h1, back = angle(u - drift * h2 / h, h2);
-  const x = toe + Math.cos(turn) * (-2 * toe) + Math.sin(turn) * h1;
-  const y = Math.sin(turn) * 2 * toe + Math.cos(turn) * h1;
+  const h2 = h - h1, back = angle(u - drift * h2 / h, h2), edge = shape?.edges[side] ?? -toe;
+  const x = toe + Math.cos(turn) * (edge - toe) + Math.sin(turn) * h1;
+  const y = Math.sin(turn) * (toe - edge) + Math.cos(turn) * h1;
   upper.setAttribute("transform",
-    `translate(${x + toe} ${y - h1}) rotate(${back * degrees} ${-toe} ${h1})`);
+    `translate(${x - edge} ${y - h1}) rotate(${back * degrees} ${edge} ${h1})`);
   return 0;
 }
 function place(element, x, y) {

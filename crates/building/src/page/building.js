@@ -35,9 +35,13 @@ for (const wall of data.walls) {
   const names = wall.hinge === null ? ["lower"] : ["lower", "upper"];
   wall.group = add(world, "g", {});
   const size = part => part === "upper" ? wall.height - wall.hinge : wall.hinge ?? wall.height;
-  wall.parts = names.map(part => add(wall.group, "rect",
+  wall.parts = wall.shape === null ? names.map(part => add(wall.group, "rect",
     { class: "body", x: -wall.thickness / 2, y: part === "upper" ? wall.hinge : 0,
-      width: wall.thickness, height: size(part) }));
+      width: wall.thickness, height: size(part) })) : wall.shape.bodies.map(parts => {
+    const body = add(wall.group, "g", {});
+    parts.forEach(corners => add(body, "polygon", { class: "body", points: corners.join(" ") }));
+    return body;
+  });
 }
 const isFalling = (wall, frame) => wall.falls !== null && data.t[frame] >= wall.falls;
 const readout = [["t (s)", (frame) => data.t[frame].toFixed(2)],

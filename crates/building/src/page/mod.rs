@@ -112,6 +112,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
             "height": body.height,
             "thickness": scene.parameters.thickness,
             "hinge": body.hinge(),
+            "shape": run::page::shape(own, &scene.parameters),
             "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
             "falls": history.fate(times).falling(),
         })

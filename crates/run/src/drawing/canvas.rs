@@ -61,7 +61,7 @@ impl Canvas {
     }
 
     /// An arrow whose tip is at a place, from `[dx, dy]` away, along an axis.
-    pub(super) fn arrow(&mut self, class: &str, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
+    pub(super) fn arrow(&mut self, kind: &str, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
         let length = dx.hypot(dy);
         let along = [dx / length, dy / length];
         let back = |by: f64, across: f64| {
@@ -71,7 +71,7 @@ impl Canvas {
         let ([x2, y2], [x3, y3]) = (back(9.0, 4.5), back(9.0, -4.5));
         let _ = writeln!(
             self.svg,
-            "<path class=\"{class}\" d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}M{x:.1} {y:.1}L{x2:.1} {y2:.1}\
+            "<path data-drawn=\"{kind}\" d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}M{x:.1} {y:.1}L{x2:.1} {y2:.1}\
              L{x3:.1} {y3:.1}z\" stroke=\"{FORCE}\" stroke-width=\"1.8\" fill=\"{FORCE}\" \
              stroke-linejoin=\"round\"/>"
         );
@@ -103,24 +103,29 @@ impl Canvas {
         }
     }
 
-    /// Writes labels one below the other, each as near to its y as the others and `room` let it; a thin line
-    /// leads from `[from, its y]` to one that has moved.
-    pub(super) fn labels(&mut self, labels: Vec<(f64, String)>, from: f64, x: f64, room: [f64; 2]) {
-        let anchor = if x < from { Anchor::End } else { Anchor::Start };
-        let gap = 4.0_f64.copysign(from - x);
-        for (wanted, y, text) in spread(labels, room) {
-            if (y - wanted).abs() > 1.0 || (x - from).abs() > 20.0 {
-                self.line([from, wanted], [x + gap, y], "stroke=\"#999\" stroke-dasharray=\"1 2\"");
+    /// Writes labels one below the other at x, each as near to its place as the others and `room` let it; a
+    /// thin line leads from its place to one that has moved or is far.
+    pub(super) fn labels(&mut self, labels: Vec<Label>, x: f64, anchor: Anchor, room: [f64; 2]) {
+        let gap = if matches!(anchor, Anchor::End) { 4.0 } else { -4.0 };
+        for (Label { from, text }, y) in spread(labels, room) {
+            if (y - from[1]).abs() > 1.0 || (x - from[0]).abs() > 20.0 {
+                self.line(from, [x + gap, y], "stroke=\"#999\" stroke-dasharray=\"1 2\"");
             }
             self.text([x, y + 0.35 * LETTERS], anchor, &text);
         }
     }
 }
 
-/// Moves labels up or down so that none lies on another: `(wanted y, y, text)`.
-fn spread(mut labels: Vec<(f64, String)>, [top, bottom]: [f64; 2]) -> Vec<(f64, f64, String)> {
-    labels.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut places: Vec<f64> = labels.iter().map(|label| label.0.clamp(top, bottom)).collect();
+/// A text beside a place.
+pub(super) struct Label {
+    pub(super) from: [f64; 2],
+    pub(super) text: String,
+}
+
+/// Moves labels up or down so that none lies on another, and returns each with its y.
+fn spread(mut labels: Vec<Label>, [top, bottom]: [f64; 2]) -> Vec<(Label, f64)> {
+    labels.sort_by(|a, b| a.from[1].total_cmp(&b.from[1]));
+    let mut places: Vec<f64> = labels.iter().map(|label| label.from[1].clamp(top, bottom)).collect();
     for index in 1..places.len() {
         places[index] = places[index].max(places[index - 1] + LINE);
     }
@@ -130,18 +135,18 @@ fn spread(mut labels: Vec<(f64, String)>, [top, bottom]: [f64; 2]) -> Vec<(f64, 
         *place = place.min(most);
         most = *place - LINE;
     }
-    labels.into_iter().zip(places).map(|((wanted, text), y)| (wanted, y, text)).collect()
+    labels.into_iter().zip(places).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LINE, spread};
+    use super::{LINE, Label, spread};
 
     #[test]
     fn labels_keep_apart_and_within_their_room() {
         let wanted = [50.0, 51.0, 52.0, 99.0, 100.0];
-        let labels = wanted.map(|y| (y, String::new())).to_vec();
-        let places: Vec<f64> = spread(labels, [0.0, 100.0]).into_iter().map(|label| label.1).collect();
+        let labels = wanted.map(|y| Label { from: [0.0, y], text: String::new() });
+        let places: Vec<f64> = spread(labels.into(), [0.0, 100.0]).into_iter().map(|label| label.1).collect();
         assert!(places.windows(2).all(|pair| pair[1] - pair[0] >= LINE - 1e-9), "{places:?}");
         assert!(places[0] >= 0.0 && *places.last().unwrap() <= 100.0, "{places:?}");
     }

@@ -1,5 +1,5 @@
-//! The front of a wall: widths over the height. Parts are centred and openings spread evenly, since no file says
-//! where along the wall they are.
+//! The front of a wall: widths over the height. Parts are centred and openings spread evenly, since no file
+//! says where along the wall they are.
 
 use report::number;
 use rocking_wall::wall::Opening;

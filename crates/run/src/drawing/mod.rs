@@ -93,5 +93,5 @@ fn masonry(density: f64) -> String {
         &[[247.0, 236.0, 224.0], [222.0, 190.0, 163.0], [176.0, 160.0, 146.0]],
         (density - 1000.0) / 1800.0,
     );
-    format!("class=\"part\" fill=\"{fill}\" stroke=\"#6b4a33\"")
+    format!("data-drawn=\"part\" fill=\"{fill}\" stroke=\"#6b4a33\"")
 }

@@ -3,7 +3,7 @@
 use report::number;
 use rocking_wall::wall::{Load, Parameters, Part, Wall};
 
-use super::canvas::{Anchor, Canvas, FORCE, HINGE, LINE, OPENING, STONE, TIE};
+use super::canvas::{Anchor, Canvas, FORCE, HINGE, LINE, Label, OPENING, STONE, TIE};
 use super::shape::Shape;
 use super::{MOST_LABELS, bar, kilonewtons, metres};
 
@@ -29,8 +29,8 @@ struct Section<'a> {
     middle: f64,
     /// y of the base \[px\].
     foot: f64,
-    /// Labels on the left and on the right of the wall: y and text.
-    labels: [Vec<(f64, String)>; 2],
+    /// Labels on the left and on the right of the wall.
+    labels: [Vec<Label>; 2],
 }
 
 /// Draws the section on the top of a canvas, and returns where it ends \[px\].
@@ -76,6 +76,13 @@ impl Section<'_> {
         [self.x(inner), self.x(outer)]
     }
 
+    /// Adds a label on the outside or the inside, at the face there.
+    fn label(&mut self, is_outside: bool, y: f64, text: String) {
+        let (outer, inner) = self.shape.faces(((self.foot - y) / self.scale).clamp(0.0, self.shape.height));
+        let face = if is_outside { outer } else { inner };
+        self.labels[usize::from(is_outside)].push(Label { from: [self.x(face), y], text });
+    }
+
     fn supports(&mut self, wall: &Wall) {
         let (foot, top) = (self.foot, self.y(self.shape.height));
         self.canvas.rect([AXIS - SUPPORT, AXIS + SUPPORT], [foot, foot + 9.0], STONE);
@@ -98,7 +105,7 @@ impl Section<'_> {
             self.canvas.polygon(&corners, &super::masonry(part.density));
             if few {
                 let y = self.y(part.base + 0.72 * part.height);
-                self.labels[1].push((y, of_part(part)));
+                self.label(true, y, of_part(part));
             }
         }
         if self.shape.parts.is_empty() {
@@ -117,7 +124,7 @@ impl Section<'_> {
         for opening in &shape.openings {
             if let Some(corners) = shape.opened(opening, [0.0, shape.height]) {
                 let corners = corners.map(|corner| self.at(corner));
-                self.canvas.polygon(&corners, &format!("class=\"opening\" {OPENING}"));
+                self.canvas.polygon(&corners, &format!("data-drawn=\"opening\" {OPENING}"));
             }
         }
     }
@@ -131,15 +138,15 @@ impl Section<'_> {
             // through the wall, with a plate on the face that would move away
             let face = self.x(if sign > 0.0 { outer } else { inner });
             let far = AXIS - 1.15 * SUPPORT.copysign(sign);
-            self.canvas.line([face, y], [far, y], &format!("class=\"tie\" {TIE}"));
+            self.canvas.line([face, y], [far, y], &format!("data-drawn=\"tie\" {TIE}"));
             let plate = face + 2.0_f64.copysign(sign);
             self.canvas.line([plate, y - 8.0], [plate, y + 8.0], TIE);
         }
-        let labels = &mut self.labels[usize::from(!tie.holds(1.0))];
-        labels.push((y + 14.0, format!("tie at {}", metres(z))));
-        labels.extend(
-            tie.strength.map(|strength| (y + 14.0 + LINE, format!("up to {}", kilonewtons(strength)))),
-        );
+        let is_outside = !tie.holds(1.0);
+        self.label(is_outside, y + 14.0, format!("tie at {}", metres(z)));
+        if let Some(strength) = tie.strength {
+            self.label(is_outside, y + 14.0 + LINE, format!("up to {}", kilonewtons(strength)));
+        }
     }
 
     /// Loads are arrows downwards to their places, thrusts arrows at the outer face.
@@ -149,11 +156,11 @@ impl Section<'_> {
         for load in &shape.loads {
             let Load { force, height, inside, thrust, .. } = *load;
             let at = self.at([inside, height]);
-            let place = format!("at {}", metres(height));
             if force > 0.0 {
                 self.canvas.arrow("load", at, [0.0, -ARROW]);
                 if few {
-                    self.labels[0].push((at[1] - 0.4 * ARROW, format!("{} {place}", kilonewtons(force))));
+                    let text = format!("{} at {}", kilonewtons(force), metres(height));
+                    self.label(false, at[1] - 0.4 * ARROW, text);
                 }
             }
             if thrust != 0.0 {
@@ -161,12 +168,13 @@ impl Section<'_> {
                 let (tip, tail) = if thrust > 0.0 { (ARROW + 4.0, -ARROW) } else { (2.0, ARROW) };
                 self.canvas.arrow("thrust", [face + tip, at[1]], [tail, 0.0]);
                 if few {
-                    self.labels[1].push((at[1], format!("thrust {}", kilonewtons(thrust.abs()))));
+                    let text = format!("thrust {}", kilonewtons(thrust.abs()));
+                    self.labels[1].push(Label { from: [face + ARROW + 6.0, at[1]], text });
                 }
             }
         }
         if !few {
-            self.labels[0].push((self.foot - 20.0, format!("{} loads", shape.loads.len())));
+            self.label(false, self.foot - 20.0, format!("{} loads", shape.loads.len()));
         }
         if let Some(Load { force, height, inside, .. }) = shape.overburden {
             let [x, mut y] = self.at([inside, height]);
@@ -189,7 +197,7 @@ impl Section<'_> {
             let name = if shape.centroids.len() > 1 { ["W₁", "W₂"][index.min(1)] } else { "W" };
             let weight = number(1e-3 * centroid.mass * parameters.gravity, 3);
             let text = format!("{name} = {weight} kN at {} m", number(centroid.z, 3));
-            self.labels[1].push((y, text));
+            self.label(true, y, text);
         }
     }
 
@@ -201,7 +209,7 @@ impl Section<'_> {
             let mut places = vec![[shape.toes[near], 0.0]];
             places.extend(shape.hinge.map(|hinge| [hinge.edges[far], hinge.height]));
             let fill = if sign > 0.0 { HINGE } else { "#fff" };
-            let look = format!("class=\"hinge\" fill=\"{fill}\" stroke=\"{HINGE}\" stroke-width=\"2\"");
+            let look = format!("data-drawn=\"hinge\" fill=\"{fill}\" stroke=\"{HINGE}\" stroke-width=\"2\"");
             for place in places {
                 let at = self.at(place);
                 self.canvas.circle(at, 4.5, &look);
@@ -215,8 +223,8 @@ impl Section<'_> {
         let beside = if has_thrust { ARROW + 14.0 } else { 14.0 };
         let room = [self.y(self.shape.height) - 20.0, self.foot - 10.0];
         let [on_left, on_right] = std::mem::take(&mut self.labels);
-        self.canvas.labels(on_left, left, left - 12.0, room);
-        self.canvas.labels(on_right, right, right + beside, room);
+        self.canvas.labels(on_left, left - 12.0, Anchor::End, room);
+        self.canvas.labels(on_right, right + beside, Anchor::Start, room);
     }
 
     fn dimensions(&mut self) {

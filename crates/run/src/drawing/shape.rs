@@ -52,7 +52,8 @@ impl Shape {
                 };
                 let profile = Profile::new(vec![part], Vec::new(), Vec::new());
                 // a size beyond those of parts leaves a shape without parts
-                profile.map_or_else(|_| Self::empty(height), |profile| Self::of_parts(wall, &profile))
+                let empty = Self { toes: [0.0, thickness], ..Self::empty(height) };
+                profile.map_or(empty, |profile| Self::of_parts(wall, &profile))
             }
         };
         let force = wall.body().overburden;
@@ -124,8 +125,11 @@ impl Shape {
         faces.fold(self.toes, |[outer, inner], section| [outer.min(section.outer), inner.max(section.inner)])
     }
 
-    /// Returns the outer and the inner face at a height, those of the toes where no part is \[m\].
+    /// Returns the outer and the inner face at a height \[m\]; the axis of a body without parts.
     pub fn faces(&self, z: f64) -> (f64, f64) {
+        if let ([], [centroid]) = (&self.parts[..], &self.centroids[..]) {
+            return (centroid.x, centroid.x);
+        }
         let same = 1e-9 * self.height;
         let at = self.parts.iter().filter(|part| part.base <= z + same && z <= part.top() + same);
         let sections = at.map(|part| part.section(z));

@@ -7,9 +7,16 @@ use rocking_wall::wall::Wall;
 
 use super::{Shape, svg};
 
+/// A file of `scenes/bodies`.
+macro_rules! text {
+    ($name:literal) => {
+        include_str!(concat!("../../../../scenes/bodies/", $name, ".toml"))
+    };
+}
+
 /// A scene, and how many items of each kind its section has.
 struct Drawn {
-    name: &'static str,
+    text: &'static str,
     parts: usize,
     openings: usize,
     loads: usize,
@@ -18,27 +25,21 @@ struct Drawn {
     has_front: bool,
 }
 
-const fn drawn(name: &'static str, parts: usize, hinges: usize) -> Drawn {
-    Drawn { name, parts, openings: 0, loads: 0, thrusts: 0, hinges, has_front: false }
+const fn drawn(text: &'static str, parts: usize, hinges: usize) -> Drawn {
+    Drawn { text, parts, openings: 0, loads: 0, thrusts: 0, hinges, has_front: false }
 }
 
 const SCENES: [Drawn; 9] = [
-    drawn("battered_wall", 1, 2),
-    Drawn { openings: 1, has_front: true, ..drawn("chimney", 2, 2) },
-    Drawn { loads: 3, thrusts: 2, ..drawn("facade", 1, 2) },
-    Drawn { has_front: true, ..drawn("gable", 1, 2) },
-    drawn("rectangle", 1, 2),
-    Drawn { loads: 1, ..drawn("stepped_strip", 2, 4) },
-    drawn("stone_under_brick", 2, 2),
-    Drawn { has_front: true, ..drawn("trapezium", 1, 2) },
-    Drawn { openings: 1, has_front: true, ..drawn("wall_with_opening", 1, 2) },
+    drawn(text!("battered_wall"), 1, 2),
+    Drawn { openings: 1, has_front: true, ..drawn(text!("chimney"), 2, 2) },
+    Drawn { loads: 3, thrusts: 2, ..drawn(text!("facade"), 1, 2) },
+    Drawn { has_front: true, ..drawn(text!("gable"), 1, 2) },
+    drawn(text!("rectangle"), 1, 2),
+    Drawn { loads: 1, ..drawn(text!("stepped_strip"), 2, 4) },
+    drawn(text!("stone_under_brick"), 2, 2),
+    Drawn { has_front: true, ..drawn(text!("trapezium"), 1, 2) },
+    Drawn { openings: 1, has_front: true, ..drawn(text!("wall_with_opening"), 1, 2) },
 ];
-
-fn scene(name: &str) -> (Scene, Wall) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/bodies");
-    let text = std::fs::read_to_string(folder.join(name).with_extension("toml")).unwrap();
-    of(&text)
-}
 
 fn of(text: &str) -> (Scene, Wall) {
     let scene = Scene::parse("scene.toml", text, Path::new(".")).unwrap();
@@ -46,13 +47,13 @@ fn of(text: &str) -> (Scene, Wall) {
     (scene, wall)
 }
 
-fn count(svg: &str, class: &str) -> usize {
-    svg.matches(&format!("class=\"{class}\"")).count()
+fn count(svg: &str, kind: &str) -> usize {
+    svg.matches(&format!("data-drawn=\"{kind}\"")).count()
 }
 
-/// Corners of the polygons of a class \[px\].
-fn polygons(svg: &str, class: &str) -> Vec<Vec<[f64; 2]>> {
-    let lines = svg.lines().filter(|line| line.contains(&format!("class=\"{class}\"")));
+/// Corners of the polygons of a kind \[px\].
+fn polygons(svg: &str, kind: &str) -> Vec<Vec<[f64; 2]>> {
+    let lines = svg.lines().filter(|line| line.contains(&format!("data-drawn=\"{kind}\"")));
     let points = lines.map(|line| line.split('"').nth(1).unwrap().split(' '));
     let corner = |point: &str| {
         let (x, y) = point.split_once(',').unwrap();
@@ -64,20 +65,20 @@ fn polygons(svg: &str, class: &str) -> Vec<Vec<[f64; 2]>> {
 #[test]
 fn a_section_has_every_part_opening_load_thrust_and_hinge() {
     for expected in SCENES {
-        let (scene, wall) = scene(expected.name);
+        let (scene, wall) = of(expected.text);
         let svg = svg(&wall, &scene.parameters);
-        let found = ["part", "opening", "load", "thrust", "hinge"].map(|class| count(&svg, class));
+        let found = ["part", "opening", "load", "thrust", "hinge"].map(|kind| count(&svg, kind));
         let Drawn { parts, openings, loads, thrusts, hinges, .. } = expected;
-        assert_eq!(found, [parts, openings, loads, thrusts, hinges], "{}", expected.name);
-        assert_eq!(count(&svg, "front") > 0, expected.has_front, "{}", expected.name);
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", expected.name);
+        assert_eq!(found, [parts, openings, loads, thrusts, hinges], "{}", scene.title);
+        assert_eq!(count(&svg, "front") > 0, expected.has_front, "{}", scene.title);
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", scene.title);
     }
 }
 
 /// The scale is one in both directions, and the outside is on the right.
 #[test]
 fn parts_are_to_scale() {
-    let (scene, wall) = scene("battered_wall");
+    let (scene, wall) = of(text!("battered_wall"));
     let svg = svg(&wall, &scene.parameters);
     // outer and inner corner at the bottom, inner and outer one at the top: 0.5 m, 4 m, 0.3 m
     let [b_out, b_in, t_in, t_out] = polygons(&svg, "part")[0][..] else { panic!("four corners") };
@@ -93,7 +94,7 @@ fn parts_are_to_scale() {
 /// Bodies that are cut by a hinge have the area of the whole.
 #[test]
 fn a_hinge_cuts_parts_without_loss() {
-    let (scene, wall) = scene("stepped_strip");
+    let (scene, wall) = of(text!("stepped_strip"));
     let shape = Shape::new(&wall, &scene.parameters);
     let area = |[[x0, z0], [x1, _], [x2, z1], [x3, _]]: [[f64; 2]; 4]| 0.5 * (z1 - z0) * (x1 - x0 + x2 - x3);
     let areas: Vec<f64> = shape
@@ -114,7 +115,7 @@ fn a_body_by_integrals_is_drawn_without_an_outline() {
                             height = 1.6\n[[geometry.load]]\nforce = 1e3\nheight = 1.6\ninside = 0.3\n\
                             thrust = 200\n[damping]\ndamping_model = \"none\"\n");
     let svg = svg(&wall, &scene.parameters);
-    let found = ["part", "load", "thrust", "hinge"].map(|class| count(&svg, class));
+    let found = ["part", "load", "thrust", "hinge"].map(|kind| count(&svg, kind));
     assert_eq!(found, [0, 1, 1, 2]);
     assert!(svg.contains("only its integrals") && svg.contains("W = 8.63 kN at 0.89 m"), "{svg}");
 }

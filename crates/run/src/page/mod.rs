@@ -46,10 +46,11 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
     let drawn = response.samples.partition_point(|sample| sample.time <= end);
     let frames: Vec<_> = frames(drawn).into_iter().map(|i| &response.samples[i]).collect();
     let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
-    let u_ins = wall.body().instability;
-    let hinge = wall.body().hinge();
+    let body = wall.body();
+    let (u_ins, hinge) = (body.instability, body.hinge());
     // the top of a parapet, or the rotation of a strip's lower body in %
-    let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
+    let [second, scale] = hinge.map_or([body.height / body.centroid_height, 1000.0], |h1| [1.0 / h1, 100.0]);
+    let moving = bodies::Moving::new(wall, &scene.parameters);
     let data = serde_json::json!({
         "t": column(|sample| sample.time),
         "u": column(|sample| sample.outputs.displacement),
@@ -57,8 +58,9 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
         "a": column(|sample| sample.support.bottom),
         "f": column(|sample| sample.outputs.restoring_force),
         "u_ins": [u_ins.positive, u_ins.negative],
-        "height": wall.body().height,
-        "thickness": scene.parameters.thickness,
+        "height": body.height,
+        "thickness": moving.base(),
+        "shape": moving.data(),
         "tie": tie::data(wall, response, &frames),
         "hinge": hinge,
         "full": wall.rotations().is_some(),
@@ -67,8 +69,10 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
     });
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
-    let figures =
-        figures(scene, wall, response, end) + &rotations(scene, response, end) + &demands(wall, response);
+    let figures = figures(scene, wall, response, end)
+        + &rotations(scene, response, end)
+        + &demands(wall, response)
+        + &section(scene, wall);
     Ok(page(&Moving {
         title: &scene.title,
         subtitle: &subtitle,
@@ -107,7 +111,8 @@ fn said(response: &Response) -> String {
 
 /// Draws the wall at rest, to scale, y upwards, as `wall.css` styles it; scripts turn its bodies.
 pub fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
-    let (h, b) = (wall.body().height, scene.parameters.thickness);
+    let moving = bodies::Moving::new(wall, &scene.parameters);
+    let (h, b) = (wall.body().height, moving.breadth());
     let half = if response.summary.overturned { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
     let (top, bottom) = (0.12 * h, 0.1 * h);
     let line = 0.004 * h.max(half);
@@ -127,6 +132,9 @@ pub fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         String::new()
     };
     let body = |id: &str, from: f64, to: f64| {
+        if !scene.parameters.is_rectangle() {
+            return format!("<g id=\"{id}\">{}</g>", moving.body([from, to], line));
+        }
         let load = if to == h { &*load } else { "" };
         format!("<g id=\"{id}\">{}{load}</g>", rect("body", [-b / 2.0, from], [b, to - from]))
     };
@@ -159,7 +167,7 @@ pub fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
 
 /// The largest exaggeration of the drawn rotation that keeps it below its limit.
 pub fn factor(wall: &Wall, response: &Response) -> f64 {
-    let arm = wall.body().hinge().map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
+    let arm = wall.body().hinge().map_or(wall.body().centroid_height, |h1| h1.min(wall.body().height - h1));
     let largest = response.summary.u_max / arm;
     let fits = |factor: &&f64| largest * **factor <= LARGEST_DRAWN && !response.summary.overturned;
     FACTORS.iter().rev().find(fits).copied().unwrap_or(1.0)
@@ -179,7 +187,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
                 "{}, {} m × {} m",
                 parameters.mechanism.name().replace('_', " "),
                 body.height,
-                parameters.thickness
+                number(bodies::Moving::new(wall, parameters).base(), 6)
             ),
         ),
         ("static instability u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
@@ -218,6 +226,20 @@ fn demands(wall: &Wall, response: &Response) -> String {
     let rows: String = lines.iter().map(|(name, value)| row(name, value)).collect();
     let until = demands::until(response).map_or_else(String::new, |until| format!(", {until}"));
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
+}
+
+/// Draws a body that is no rectangle with what its picture leaves out: forces, dimensions and its front.
+fn section(scene: &Scene, wall: &Wall) -> String {
+    if scene.parameters.is_rectangle() {
+        return String::new();
+    }
+    let svg = crate::drawing::svg(wall, &scene.parameters);
+    format!("<figure><figcaption>The wall to scale</figcaption>{svg}</figure>")
+}
+
+/// What turns a wall that is no rectangle, as `moving.js` reads it; null for a rectangle.
+pub fn shape(wall: &Wall, parameters: &Parameters) -> serde_json::Value {
+    bodies::Moving::new(wall, parameters).data()
 }
 
 fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String {
@@ -284,6 +306,7 @@ fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
         )
 }
 
+mod bodies;
 pub mod tie;
 
 #[cfg(test)]

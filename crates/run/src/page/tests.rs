@@ -124,6 +124,43 @@ fn a_tie_is_drawn_slack_pulling_yielding_and_broken() {
     assert!(elastic.contains("id=\"tie_force\"") && !elastic.contains("id=\"tie_elongation\""));
 }
 
+fn page_of(text: &str) -> (String, serde_json::Value) {
+    let mut scene = Scene::parse("scene.toml", text, std::path::Path::new(".")).unwrap();
+    scene.stop_time = 3.0;
+    let response = Response::of(&scene).unwrap();
+    let html = render(&scene, &Wall::new(&scene.parameters).unwrap(), &response).unwrap();
+    let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
+    let data = serde_json::from_str(data).unwrap();
+    (html, data)
+}
+
+/// Parts and loads move; toes and the height of u are those of the body, not of its rectangle.
+#[test]
+fn a_body_of_parts_moves_with_its_loads() {
+    let near = |found: &serde_json::Value, expected: f64| {
+        assert!((found.as_f64().unwrap() - expected).abs() < 1e-9, "{found} for {expected}");
+    };
+    let (html, data) = page_of(include_str!("../../../../scenes/bodies/facade.toml"));
+    let moving = html.split("id=\"lower\"").nth(1).and_then(|rest| rest.split("</svg>").next()).unwrap();
+    let found = ["class=\"body\"", "class=\"force\"", "class=\"force thrust\""];
+    assert_eq!(found.map(|class| moving.matches(class).count()), [1, 3, 2]);
+    near(&data["shape"]["toes"][0], 0.3);
+    near(&data["shape"]["toes"][1], -0.3);
+    assert!(html.contains("The wall to scale"));
+
+    let (_, data) = page_of(include_str!("../../../../scenes/bodies/gable.toml"));
+    near(&data["shape"]["centroid"], 0.8);
+    // the hinge is where the upper, thinner part stands: for u > 0 about its inner edge
+    let (_, data) = page_of(include_str!("../../../../scenes/bodies/stepped_strip.toml"));
+    near(&data["shape"]["edges"][0], -0.2);
+    near(&data["shape"]["edges"][1], 0.05);
+    let bodies = data["shape"]["bodies"].as_array().unwrap();
+    assert!(bodies.iter().all(|parts| parts.as_array().unwrap().len() == 1), "{bodies:?}");
+
+    let rectangle = page(|_| {});
+    assert!(rectangle.contains("\"shape\":null") && !rectangle.contains("The wall to scale"));
+}
+
 #[test]
 fn the_restitution_shown_is_one_that_matters() {
     assert!(page(|_| {}).contains("none; the damping stands for e = 0.936"));

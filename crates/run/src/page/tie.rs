@@ -78,7 +78,7 @@ pub fn data(wall: &Wall, response: &Response, frames: &[&Sample]) -> Value {
 }
 
 fn height(wall: &Wall, tie: &Tie) -> f64 {
-    0.5 * tie.lever * wall.body().height
+    tie.lever * wall.body().centroid_height
 }
 
 /// Ties, on the side that they pull to; the script draws them from the edge of the view box, at `edge`.

@@ -1,7 +1,8 @@
 const ratio = frame => data.u[frame] / (data.u[frame] < 0 ? data.u_ins[1] : data.u_ins[0]);
 const strip = data.hinge !== null;
+const measured = strip ? "hinge" : data.shape ? "centroid" : "mid-height";
 const readout = [["t (s)", frame => data.t[frame].toFixed(2)],
-  [strip ? "u, hinge (mm)" : "u, mid-height (mm)", frame => (1000 * data.u[frame]).toFixed(1)],
+  [`u, ${measured} (mm)`, frame => (1000 * data.u[frame]).toFixed(1)],
   [strip ? "rotation (%)" : "top (mm)", frame => data.second[frame].toFixed(1)],
   ["u / u_ins", frame => ratio(frame).toFixed(3)],
   [`${strip ? "a, bottom" : "a, base"} (m/s²)`, frame => data.a[frame].toFixed(2)]];
