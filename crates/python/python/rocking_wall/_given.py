@@ -54,6 +54,19 @@ class Given:
     overburden = Attribute[float]()
     overburden_eccentricity = Attribute[float]()
     eccentricity_mode = Attribute[str]()
+    body_mass = Attribute[float]()
+    centroid_height = Attribute[float]()
+    inertia = Attribute[float]()
+    arm = Attribute[float]()
+    arm_inner = Attribute[float]()
+    load_force = Attribute[float]()
+    load_height = Attribute[float]()
+    load_arm = Attribute[float]()
+    load_mass = Attribute[float]()
+    load_mass_height = Attribute[float]()
+    load_inertia = Attribute[float]()
+    thrust = Attribute[float]()
+    thrust_height = Attribute[float]()
     force_law = Attribute[str]()
     a1 = Attribute[float]()
     a3 = Attribute[float]()
@@ -84,12 +97,12 @@ class Given:
     F0 = Attribute[float]("Rigid restoring force at zero displacement, side u > 0 [N].")
     F0_negative = Attribute[float](
         "Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]; where "
-        "overburden_eccentricity is not 0 and overburden is not 0."
+        "overburden_eccentricity is not 0 and overburden is not 0, or mechanism = rigid_body."
     )
     u_ins = Attribute[float]("Static instability displacement, side u > 0 [m].")
     u_ins_negative = Attribute[float](
         "Static instability displacement, side u < 0, as an absolute value [m]; where "
-        "overburden_eccentricity is not 0 and overburden is not 0."
+        "overburden_eccentricity is not 0 and overburden is not 0, or mechanism = rigid_body."
     )
     omega1 = Attribute[float](
         "Angular frequency of the elastic branch; zero for rigid_linear [rad/s]; where force_law = bilinear"

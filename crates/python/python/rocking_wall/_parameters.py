@@ -11,11 +11,14 @@ class Parameters(TypedDict, total=False):
     """The parameters of a wall, by the names of the FMU's variables; in SI units.
 
     - mechanism: Rocking mechanism; default "parapet".
-    - height: Height of the wall [m], at least 0.001, at most 1000; default 4.0.
-    - thickness: Thickness of the wall [m], at least 0.0001, at most 100; default 0.4.
+    - height: Height of the wall, or of the top of a rigid body [m], at least 0.001, at most 1000; default
+      4.0.
+    - thickness: Thickness of the wall [m], at least 0.0001, at most 100; where mechanism = parapet or
+      vertical_spanning; default 0.4.
     - width: Length along the wall; mass and self-weight are proportional to it [m], at least 0.001, at most
-      1000; default 1.0.
-    - density: Density of the masonry [kg/m3], at least 1, at most 100000; default 1800.0.
+      1000; where mechanism = parapet or vertical_spanning; default 1.0.
+    - density: Density of the masonry [kg/m3], at least 1, at most 100000; where mechanism = parapet or
+      vertical_spanning; default 1800.0.
     - gravity: Acceleration of gravity [m/s2], at least 0.001, at most 1000; default 9.81.
     - hinge_ratio: Height of the intermediate hinge as a fraction of height, at least 0.01, at most 0.99;
       where mechanism = vertical_spanning; default 0.5.
@@ -25,6 +28,32 @@ class Parameters(TypedDict, total=False):
       +u [m], at least -100, at most 100; where overburden is not 0; default 0.0.
     - eccentricity_mode: Whether the eccentricity changes sides with the wall; where overburden_eccentricity
       is not 0 and overburden is not 0; default "fixed_to_wall".
+    - body_mass: Mass of a rigid body, without its loads [kg], at least 1e-06, at most 1e+12; where mechanism
+      = rigid_body; default 2880.0.
+    - centroid_height: Height of the centroid of a rigid body above its base, where u is measured [m], at
+      least 0.0005, at most 1000; where mechanism = rigid_body; default 2.0.
+    - inertia: Integral of z squared over the mass of a rigid body, z from its base [kg.m2], at least 1e-09,
+      at most 1e+18; where mechanism = rigid_body; default 15360.0.
+    - arm: Distance of the centroid of a rigid body from the hinge of u > 0 [m], at least 0, at most 100;
+      where mechanism = rigid_body; default 0.2.
+    - arm_inner: Distance of the centroid of a rigid body from the hinge of u < 0; -1: as arm [m], at least
+      -1, at most 100; where mechanism = rigid_body; default -1.0.
+    - load_force: Sum of the loads P on a rigid body, downwards, without its weight [N], at least 0, at most
+      1e+12; where mechanism = rigid_body; default 0.0.
+    - load_height: Height of the loads: sum of P z over the sum of P [m], at least 0, at most 1000; where
+      load_force is not 0 and mechanism = rigid_body; default 0.0.
+    - load_arm: Distance of the loads from the hinge of u > 0, weighted by P [m], at least -100, at most 100;
+      where load_force is not 0 and mechanism = rigid_body; default 0.0.
+    - load_mass: Mass of the loads that moves along with a rigid body [kg], at least 0, at most 1e+12; where
+      mechanism = rigid_body; default 0.0.
+    - load_mass_height: Height of the centroid of load_mass [m], at least 0, at most 1000; where load_mass is
+      not 0 and mechanism = rigid_body; default 0.0.
+    - load_inertia: Sum of z squared times mass over the loads that move along [kg.m2], at least 0, at most
+      1e+18; where load_mass is not 0 and mechanism = rigid_body; default 0.0.
+    - thrust: Sum of the thrusts H on a rigid body, towards u > 0 [N], at least -1e+12, at most 1e+12; where
+      mechanism = rigid_body; default 0.0.
+    - thrust_height: Height of the thrusts: sum of H z over the sum of H [m], at least 0, at most 1000; where
+      thrust is not 0 and mechanism = rigid_body; default 0.0.
     - force_law: Shape of the restoring force; default "bilinear".
     - a1: End of the elastic branch as a fraction of u_ins, at least 1e-09, at most 1; where force_law =
       bilinear or trilinear; default 0.03.
@@ -60,8 +89,8 @@ class Parameters(TypedDict, total=False):
       newmark; default 0.001.
     - tie_height: Height of the tie above the base, at most height [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.
-    - tie_stiffness: Stiffness of the tie between a parapet and its support; 0 for none [N/m], at least 0, at
-      most 1e+15; default 0.0.
+    - tie_stiffness: Stiffness of the tie between a wall of one body and its support; 0 for none [N/m], at
+      least 0, at most 1e+15; default 0.0.
     - tie_slack: Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.
     - tie_strength: Force at which the tie yields, or a limit state of an elastic one; 0 where none is given
@@ -82,7 +111,7 @@ class Parameters(TypedDict, total=False):
     - bar_young_modulus: Young's modulus of the bar; 210e9 Pa by default [Pa], above 0.
     """
 
-    mechanism: Literal["parapet", "vertical_spanning"]
+    mechanism: Literal["parapet", "vertical_spanning", "rigid_body"]
     height: float
     thickness: float
     width: float
@@ -92,6 +121,19 @@ class Parameters(TypedDict, total=False):
     overburden: float
     overburden_eccentricity: float
     eccentricity_mode: Literal["fixed_to_wall", "follows_pivot"]
+    body_mass: float
+    centroid_height: float
+    inertia: float
+    arm: float
+    arm_inner: float
+    load_force: float
+    load_height: float
+    load_arm: float
+    load_mass: float
+    load_mass_height: float
+    load_inertia: float
+    thrust: float
+    thrust_height: float
     force_law: Literal["rigid_linear", "bilinear", "trilinear", "multilinear"]
     a1: float
     a3: float
@@ -103,7 +145,7 @@ class Parameters(TypedDict, total=False):
     xi: float
     c_bar: float
     impact: Literal["none", "restitution"]
-    restitution_source: Literal["analytic", "calibrated", "momentum"]
+    restitution_source: Literal["analytic", "calibrated", "momentum", "impulses"]
     restitution: float
     rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
     u_start: float
