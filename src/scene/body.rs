@@ -18,8 +18,11 @@ pub(super) const OPENING: &str = "opening";
 pub(super) const LOAD: &str = "load";
 pub(super) const BODY: &str = "body";
 
+/// The keys in `[geometry]` that stand in place of the parameters of a rectangle.
+pub const BODIES: [&str; 2] = [PART, BODY];
+
 /// The parameters of a rectangle, which parts replace.
-pub(super) const OF_RECTANGLE: [&str; 4] = ["height", "thickness", "width", "density"];
+pub const OF_RECTANGLE: [&str; 4] = ["height", "thickness", "width", "density"];
 
 /// A size that is constant, or changes linearly from the bottom to the top of a part.
 #[derive(Clone, Copy, Debug)]
@@ -148,7 +151,7 @@ impl Described for Ends {
     fn describe(_key: &str, tables: &mut Tables) -> Schema {
         let one = f64::describe("", tables);
         let two = <[f64; 2]>::describe("", tables);
-        Schema::from_iter([("oneOf".to_owned(), Value::from(vec![Value::Table(one), Value::Table(two)]))])
+        Schema::from_iter([("anyOf".to_owned(), Value::from(vec![Value::Table(one), Value::Table(two)]))])
     }
 }
 

@@ -27,7 +27,7 @@ use crate::variables::{BooleanVariable, Mechanism, RealVariable};
 use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
-pub use body::{BodyTable, LoadTable, OpeningTable, PartTable};
+pub use body::{BODIES, BodyTable, LoadTable, OF_RECTANGLE, OpeningTable, PartTable};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
@@ -35,7 +35,7 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{input_names, parameter_text, set_names};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
-use body::{OF_RECTANGLE, profile_text};
+use body::profile_text;
 pub use error::SceneError;
 use keys::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, check_limits};

@@ -26,8 +26,10 @@ HEAD = '''"""The parameters of a wall.
 Written by `cargo xtask generate python` from the schema of scenes.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Literal, TypedDict
+from typing import Literal, Required, TypedDict
 '''
 ABOUT = "The parameters of a wall, by the names of the FMU's variables; in SI units."
 GROUPS = ("geometry", "force_law", "damping", "impact", "start", "solver", "tie")
@@ -50,8 +52,8 @@ def text() -> str:
     tables = schemas()[0]["properties"]
     known = {name: value for group in GROUPS for name, value in tables[group]["properties"].items()}
     bar = {f"bar_{name}": value for name, value in known["bar"]["properties"].items()}
-    names = [*rw.Wall().parameters, "kinematics", "points"]
-    made = Options({"$defs": {}, "properties": {}})
+    names = [*rw.Wall().parameters, "kinematics", "points", "part", "opening", "load"]
+    made = Options({"$defs": schemas()[0]["$defs"], "properties": {}})
     made.table("Parameters", {"description": ABOUT, "properties": {n: known[n] for n in names} | bar})
     return HEAD + "".join(made.classes.values())
 

@@ -10,12 +10,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, parameter_text,
-    set_names, to_toml,
+    Floors, GROUPS, KINEMATICS, MotionTable, OF_RECTANGLE, POINTS, Scene, StoreyTable, SupportsTable,
+    parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::Wall as Equation;
+use rocking_wall::wall::{Parameters, Wall as Equation};
 use run::capacity::plot;
 use run::walls::{assumed, read_scene};
 use scene_fmu::General;
@@ -46,10 +46,17 @@ type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
 
 #[pymethods]
 impl Wall {
+    /// Makes a wall; `body` has parts, openings and loads as lines of `[geometry]`.
     #[new]
-    fn new(parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let scene = Scene { title: "rocking wall".into(), ..Scene::default() };
-        Self::of(scene, None, assumed(|_, _| false), parameters)
+    #[pyo3(signature = (parameters, body=None))]
+    fn new(parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
+        let mut scene = Scene { title: "rocking wall".into(), ..Scene::default() };
+        let mut assumed = assumed(|_, _| false);
+        if let Some(body) = body {
+            set_body(&mut scene, body)?;
+            assumed.retain(|name| !OF_RECTANGLE.contains(name));
+        }
+        Self::of(scene, None, assumed, parameters)
     }
 
     /// Reads a scene file.
@@ -60,8 +67,13 @@ impl Wall {
     }
 
     /// Returns the same wall with other values of some parameters.
-    fn replaced(&self, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
-        Self::of(self.scene.clone(), self.start, self.assumed.clone(), parameters)
+    #[pyo3(signature = (parameters, body=None))]
+    fn replaced(&self, parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
+        let mut scene = self.scene.clone();
+        if let Some(body) = body {
+            set_body(&mut scene, body)?;
+        }
+        Self::of(scene, self.start, self.assumed.clone(), parameters)
     }
 
     /// Returns the same wall on floors of storeys, given as mass, stiffness, period and damping ratio.
@@ -142,7 +154,9 @@ impl Wall {
     /// Returns the parameters as texts of a scene file.
     #[getter]
     fn parameters(&self) -> Vec<(&'static str, String)> {
+        let has_parts = self.scene.parameters.profile.is_some();
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
+        let names = names.filter(|name| !(has_parts && OF_RECTANGLE.contains(name)));
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
     }
 
@@ -249,6 +263,15 @@ impl<'a> From<&'a Wall> for Subject<'a> {
     fn from(wall: &'a Wall) -> Self {
         Self { assumed: &wall.assumed, ..Self::from(&wall.scene) }
     }
+}
+
+/// Makes the wall of a scene one of parts, given as lines of `[geometry]`.
+fn set_body(scene: &mut Scene, body: &str) -> PyResult<()> {
+    let text = format!("[geometry]\n{body}");
+    let given = Scene::parse("a wall of parts", &text, Path::new(".")).map_err(of_scene)?.parameters;
+    let Parameters { height, thickness, width, density, profile, .. } = given;
+    scene.parameters = Parameters { height, thickness, width, density, profile, ..scene.parameters.clone() };
+    Ok(())
 }
 
 /// Sets parameters by name, as a scene file does.

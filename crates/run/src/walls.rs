@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
-    Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parameters,
-    read_floors,
+    BODIES, Floors, GROUPS, Group, OF_RECTANGLE, Scene, SceneError, StoreyTable, SupportsTable, apply_group,
+    parameters, read_floors,
 };
 use rocking_wall::wall::{Bar, Parameters};
 use serde::Deserialize;
@@ -18,7 +18,10 @@ use crate::wall_parameters::{OF_MODELS, WALL_GROUPS, is_of_models};
 use crate::wall_table;
 
 /// Returns the parameters that a file states, by their groups, and the numbers of a bar, of the group `bar`.
+/// Parts and given integrals state those of the rectangle.
 fn stated(is_stated: impl Fn(&str, &str) -> bool) -> Vec<&'static str> {
+    let has_body = BODIES.iter().any(|key| is_stated("geometry", key));
+    let is_stated = |group: &str, key: &str| is_stated(group, key) || has_body && OF_RECTANGLE.contains(&key);
     let parameters = GROUPS.iter().flat_map(|(group, names)| names.iter().map(|name| (*group, *name, *name)));
     let of_bar = Bar::NUMBERS.map(|number| ("bar", number.key(), number.usual.name));
     let stated = parameters.chain(of_bar).filter(|(group, key, _)| is_stated(group, key));

@@ -3,8 +3,10 @@
 Written by `cargo xtask generate python` from the schema of scenes.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Literal, TypedDict
+from typing import Literal, Required, TypedDict
 
 
 class Parameters(TypedDict, total=False):
@@ -101,6 +103,9 @@ class Parameters(TypedDict, total=False):
     - kinematics: Small rotations, or full ones (rigid_linear without damping, not in an FMU); default
       "linear".
     - points: Corners [u/u_ins, F/F0] of a multilinear law after the origin.
+    - part: Parts of the masonry, in place of one rectangle.
+    - opening: Openings and hollows in the parts.
+    - load: Loads on the parts or the body.
     - bar_anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the
       bar [N], above 0.
     - bar_diameter: Diameter of the bar [m], above 0.
@@ -161,6 +166,9 @@ class Parameters(TypedDict, total=False):
     tie_ultimate: float
     kinematics: Literal["linear", "trigonometric"]
     points: Sequence[Sequence[float]]
+    part: Sequence[Part]
+    opening: Sequence[Opening]
+    load: Sequence[Load]
     bar_anchor_capacity: float
     bar_diameter: float
     bar_length: float
@@ -168,3 +176,60 @@ class Parameters(TypedDict, total=False):
     bar_ultimate_strain: float
     bar_yield_stress: float
     bar_young_modulus: float
+
+
+class Part(TypedDict, total=False):
+    """A part of the masonry, from the base up.
+
+    - base: Height of its lower edge above the base [m]; by default the top of the part before, at least 0, at
+      most 1000.
+    - density: Density [kg/m³], at least 1, at most 100000; default 1800.
+    - height: Height of the part [m], at least 0.001, at most 1000.
+    - outer: Outer face, inwards from that of the lowest part at its foot [m], or that at the bottom and at
+      the top; by default 0.
+    - thickness: Thickness, or that at the bottom and at the top [m].
+    - width: Length along the wall, or that at the bottom and at the top [m]; by default 1 m.
+    """
+
+    base: float
+    density: float
+    height: Required[float]
+    outer: float | Sequence[float]
+    thickness: Required[float | Sequence[float]]
+    width: float | Sequence[float]
+
+
+class Opening(TypedDict, total=False):
+    """An opening or, with a thickness, a hollow.
+
+    - base: Height of its lower edge above the base [m], at least 0, at most 1000.
+    - height: Height of the opening [m], above 0, at most 1000.
+    - outer: Outer face of a hollow, inwards from that of the lowest part at its foot [m].
+    - thickness: Thickness of a hollow [m]; by default the opening goes through the wall, above 0, at most
+      100.
+    - width: Length along the wall [m], above 0, at most 1000.
+    """
+
+    base: Required[float]
+    height: Required[float]
+    outer: float
+    thickness: float
+    width: Required[float]
+
+
+class Load(TypedDict, total=False):
+    """A load at a height.
+
+    - force: Force downwards [N], at least 0, at most 1e+12.
+    - height: Height above the base [m], above 0, at most 1000.
+    - inside: Distance inwards from the outer face of the lowest part at its foot [m]. With [geometry.body]:
+      from the outer hinge, at least -100, at most 100.
+    - moving_mass: Share of force/g that moves along with the wall [-], at least 0, at most 1; default 0.
+    - thrust: Thrust, positive outwards [N], at least -1e+12, at most 1e+12; default 0.
+    """
+
+    force: Required[float]
+    height: Required[float]
+    inside: Required[float]
+    moving_mass: float
+    thrust: float

@@ -62,6 +62,12 @@ class Storey:
     """Damping ratio [-]; by default 0.05."""
 
 
+def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None]:
+    """Returns the parameters without the tables of a body, and these as TOML."""
+    body = {key: parameters.pop(key) for key in ("part", "opening", "load") if key in parameters}
+    return parameters, toml_lines(body) if body else None
+
+
 class Wall(Given):
     def __init__(
         self,
@@ -76,7 +82,7 @@ class Wall(Given):
                 raise TypeError(f"{name} is given twice, by place and by name; leave one out")
         places = {name: value for name, value in sizes.items() if value is not None}
         parameters = {**places, **parameters}  # type: ignore[typeddict-item]
-        object.__setattr__(self, "_native", _native.Wall(dict(parameters)))
+        object.__setattr__(self, "_native", _native.Wall(*_split(dict(parameters))))
 
     @classmethod
     def _of(cls, native: _native.Wall) -> Wall:
@@ -118,7 +124,7 @@ class Wall(Given):
         >>> Wall(height=3).replace(height=4) == Wall(height=4)
         True
         """
-        return self._of(self._native.replaced(dict(parameters)))
+        return self._of(self._native.replaced(*_split(dict(parameters))))
 
     def on_storeys(
         self,
@@ -487,4 +493,10 @@ impact='restitution', ...)
 What follows from them, such as `u_ins`, can be read, too. `kinematics`, `points` of `force_law="multilinear"`
 and the bar of a tie are those of scenes only. A bar and its anchor stand for `tie_stiffness`, `tie_strength`
 and `tie_ultimate`.
+
+`part`, `opening` and `load` are lists of dictionaries that describe a wall in place of height, thickness,
+width and density, such as a gable of 2.4 m:
+
+>>> Wall(part=[{{"height": 2.4, "thickness": 0.25, "width": [6.0, 0.0]}}]).u_ins
+0.125
 """
