@@ -260,6 +260,23 @@ def test_a_link_holds_the_check(browser, page):
     assert visit(browser, page, link.split("#")[1])["toml"] == shown["toml"]
 
 
+def test_a_shape_fills_in_its_parts(browser, page, wall, tmp_path):
+    visit(browser, page)
+    Select(browser.find_element(By.ID, "field_shape")).select_by_value("facade")
+    shown = answered(browser)
+    assert shown["wall"]["height"] == 9.6 and shown["check"] is None
+    assert not browser.find_element(By.ID, "field_thickness").is_displayed()
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#wall .force")) == 4
+    compare_with_command_line(browser, wall, tmp_path, shown["toml"])
+    parts = browser.find_element(By.ID, "field_parts").get_attribute("value")
+    put(browser, "parts", parts.replace("height = 9.6", "height = 9.5", 1))
+    assert "load 3" in text_of(browser, "fault_parts")
+    shown = put(browser, "parts", parts.replace("thickness = 0.6", "thickness = 0.7"))
+    assert shown["wall"]["thickness"] == 0.7
+    link = wait(browser, lambda: "thickness+%3D+0.7" in browser.current_url and browser.current_url)
+    assert visit(browser, page, link.split("#")[1])["toml"] == shown["toml"]
+
+
 def test_wrong_input_is_told_beside_its_field(browser, page):
     before = visit(browser, page)
     put(browser, "height", "-3")

@@ -40,6 +40,9 @@ pub(crate) enum Request {
 pub(crate) struct Inputs {
     /// Parameters of the wall by the names of the model description, those that differ from the default.
     pub(crate) parameters: Fields,
+    /// Parts, openings and loads as tables of a scene file, in place of a rectangle; none where empty.
+    #[serde(default)]
+    pub(crate) parts: String,
     /// `kind`, and the keys of this kind of motion.
     pub(crate) motion: Fields,
     /// Keys of the table `[check]`, those of its tables with a dot: `SLV.ag`.

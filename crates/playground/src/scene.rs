@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError, to_toml};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::Wall;
+use rocking_wall::wall::{Profile, Wall};
 
 use crate::check_table;
 use crate::request::{Faults, Fields, Inputs, fault_of};
@@ -26,6 +27,9 @@ pub(crate) struct Prepared {
 /// Prepares the scene that the inputs describe.
 pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, Faults> {
     let (mut scene, motion) = shaken(&inputs.motion, upload)?;
+    if !inputs.parts.trim().is_empty() {
+        scene.parameters.set_profile(profile(&inputs.parts)?);
+    }
     let mut faults = Faults::new();
     for (name, text) in &inputs.parameters {
         if let Err(error) = scene.set(name, text) {
@@ -46,7 +50,18 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
     Ok(Prepared { scene, wall, toml })
 }
 
+/// Reads the parts of a wall with their openings and loads.
+fn profile(text: &str) -> Result<Profile, Faults> {
+    let fault = |message| fault_of("parts", message);
+    let scene = Scene::parse("parts", text, Path::new(".")).map_err(|error| fault(error.to_string()))?;
+    let profile = scene.parameters.profile.map(Arc::unwrap_or_clone);
+    profile.ok_or_else(|| fault("a wall needs a table [[geometry.part]]".to_owned()))
+}
+
 fn title(scene: &Scene) -> String {
+    if scene.parameters.profile.is_some() {
+        return format!("A wall of parts, {} m high", scene.parameters.height);
+    }
     let kind = match scene.parameters.mechanism {
         Mechanism::Parapet => "parapet",
         Mechanism::RigidBody => "rigid body",

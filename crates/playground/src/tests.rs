@@ -51,6 +51,35 @@ fn the_scene_file_computes_the_same() {
     }
 }
 
+/// A wall of parts is drawn with them, and its scene file computes the same.
+#[test]
+fn parts_take_the_place_of_the_rectangle() {
+    let mut session = Session::default();
+    let run = |session: &mut Session, parts: &str| {
+        let motion = json!({ "kind": "sine_cycle", "amplitude": "1.5", "frequency": "1" });
+        let inputs = json!({ "parameters": {}, "motion": motion, "parts": parts, "width": 600 });
+        ask(session, &json!({ "run": inputs }))
+    };
+    let facade = "[[geometry.part]]\nheight = 6\nthickness = 0.5\n\
+                  [[geometry.load]]\nforce = 8e3\nheight = 3\ninside = 0.4\n";
+    let answer = run(&mut session, facade);
+    let answer = &answer["answer"];
+    let toml = answer["toml"].as_str().unwrap_or_else(|| panic!("{answer}"));
+    let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
+    assert_eq!(ask(&mut session, &json!("csv"))["answer"], Response::of(&scene).unwrap().csv());
+    assert!(answer["drawing"].as_str().unwrap().contains("class=\"force\""), "{answer}");
+    assert_eq!(answer["wall"]["shape"]["toes"], json!([0.25, -0.25]));
+    for (parts, words) in [
+        ("[[geometry.part]]\nheight = 6\n", "thickness"),
+        ("[geometry]\nheight = 3\n", "[[geometry.part]]"),
+        (&facade.replace("= 3", "= 7"), "load 1"),
+    ] {
+        let refused = run(&mut session, parts);
+        let fault = refused["faults"]["parts"].as_str().unwrap_or_else(|| panic!("{refused}"));
+        assert!(fault.contains(words), "{fault}");
+    }
+}
+
 /// Browsers have windows of any width, and zoom makes widths of any digits.
 #[test]
 fn charts_have_any_width() {

@@ -3,12 +3,66 @@
 // shown.
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
+const rectangle = v => v.shape === "rectangle";
 const parapet = v => v.mechanism === "parapet";
 const bar = v => parapet(v) && v.tie_given === "bar";
 const numbers = v => parapet(v) && v.tie_given === "numbers";
-const code = v => v.code === "circolare-2019";
-const fractions = v => v.code === "fractions";
+const code = v => rectangle(v) && v.code === "circolare-2019";
+const fractions = v => rectangle(v) && v.code === "fractions";
 const high = v => code(v) && v.place === "building";
+// parts of shapes that are no rectangle, as tables of a scene file
+const SHAPES = {
+  gable: `[[geometry.part]]
+height = 2.4
+thickness = 0.25
+width = [6.0, 0.0]  # bottom, top
+density = 1800
+`,
+  facade: `[[geometry.part]]
+height = 9.6
+thickness = 0.6
+density = 1800
+
+[[geometry.load]]
+force = 12e3
+height = 3.2
+inside = 0.5  # from the outer face
+moving_mass = 1.0
+
+[[geometry.load]]
+force = 12e3
+height = 6.4
+inside = 0.5
+moving_mass = 1.0
+
+[[geometry.load]]
+force = 8e3
+height = 9.6
+inside = 0.4
+moving_mass = 1.0
+thrust = 1000  # outwards
+`,
+  chimney: `[[geometry.part]]
+height = 1.5
+thickness = 0.6
+width = 0.6
+density = 1800
+
+[[geometry.part]]  # a cap that juts out
+height = 0.1
+thickness = 0.8
+width = 0.8
+density = 2400
+outer = -0.1
+
+[[geometry.opening]]  # the flue
+base = 0.0
+height = 1.5
+width = 0.3
+thickness = 0.3
+outer = 0.15
+`,
+};
 const CHECK = "Check by the code";
 // a limit state; SLD and SLC are checked where their a_g is given
 const limitState = (name, [ag, f0, tc, xi], more) => [
@@ -25,15 +79,20 @@ const GROUPS = [
   ["Wall", [
     { name: "mechanism", label: "Kind",
       names: { parapet: "parapet", vertical_spanning: "strip between floors" } },
-    { name: "height", label: "Height", range: [0.5, 8, 0.05] },
-    { name: "thickness", label: "Thickness", range: [0.08, 1, 0.01] },
+    { name: "shape", label: "Shape", start: "rectangle", page: true,
+      names: { rectangle: "rectangle", gable: "gable", facade: "façade with floors",
+        chimney: "hollow chimney" } },
+    { name: "parts", label: "Its parts, openings and loads", start: "", lines: true, page: true,
+      when: v => !rectangle(v) },
+    { name: "height", label: "Height", range: [0.5, 8, 0.05], when: rectangle },
+    { name: "thickness", label: "Thickness", range: [0.08, 1, 0.01], when: rectangle },
     { name: "overburden", label: "Load on top", range: [0, 100000, 500] },
     { name: "overburden_eccentricity", label: "Eccentricity of the load", range: [-0.3, 0.3, 0.01] },
     { name: "eccentricity_mode", label: "The load bears",
       names: { fixed_to_wall: "at a fixed point", follows_pivot: "towards the pivot" } },
     { name: "hinge_ratio", label: "Hinge height / height", range: [0.3, 0.9, 0.01] },
-    { name: "width", label: "Width", more: true },
-    { name: "density", label: "Density", more: true },
+    { name: "width", label: "Width", more: true, when: rectangle },
+    { name: "density", label: "Density", more: true, when: rectangle },
     { name: "gravity", label: "Gravity", more: true },
   ]],
   ["Motion", [
@@ -62,7 +121,7 @@ const GROUPS = [
     { name: "channel", label: "Channel, if several", start: "", more: true, when: v => v.kind === "record" },
   ]],
   [CHECK, [
-    { name: "code", label: "Code", start: "circolare-2019",
+    { name: "code", label: "Code", start: "circolare-2019", when: rectangle,
       names: { "circolare-2019": "Circolare 7/2019", "fractions": "Capacity at fractions", "": "none" } },
     { name: "spectrum", label: "Spectrum: [[T, Sa], ...], T in s from 0 on",
       start: "[[0, 2], [0.1, 5], [0.5, 5], [1, 2.5], [2, 1.25], [4, 0.6]]", when: fractions },

@@ -76,6 +76,12 @@ function row(field, about) {
     const input = make("input", { type: "file", id });
     input.addEventListener("change", () => input.files.length && load(input.files[0]));
     element.append(input);
+  } else if (field.lines) {
+    const area = make("textarea", { id, rows: 12, spellcheck: false });
+    area.setAttribute("aria-describedby", fault.id);
+    area.addEventListener("input", () => set(field.name, area.value));
+    element.classList.add("lines");
+    element.append(area);
   } else if (names) {
     const options = names.map(name => make("option", {
       value: name, textContent: field.names?.[name] ?? name.replaceAll("_", " "),
@@ -112,9 +118,9 @@ function refresh() {
   for (const field of FIELDS) {
     const element = rows[field.name], value = values[field.name];
     element.hidden = unused.includes(field.name) || !(field.when?.(values) ?? true);
-    for (const input of element.querySelectorAll("input:not([type=file]), select")) {
+    for (const input of element.querySelectorAll("input:not([type=file]), select, textarea")) {
       const shown = value === "" && input.type === "range" ? computed[field.name] ?? "" : value;
-      if (input.value !== shown && !(input === document.activeElement && input.type === "text")) {
+      if (input.value !== shown && !(input === document.activeElement && input.type.startsWith("text"))) {
         input.value = shown;
       }
     }
@@ -124,12 +130,18 @@ function refresh() {
       element.querySelector("small").textContent = value === "" ? "computed" : "given";
     }
   }
-  for (const details of document.querySelectorAll("form details")) {
-    details.hidden = ![...details.querySelectorAll(".field")].some(element => !element.hidden);
+  for (const group of document.querySelectorAll("form details, form fieldset")) {
+    group.hidden = ![...group.querySelectorAll(".field")].some(element => !element.hidden);
   }
+}
+// Fills in the parts of a shape. Measured restitution is that of rectangles.
+function fillIn(shape) {
+  const source = shape === "rectangle" ? starts.restitution_source : "impulses";
+  Object.assign(values, { parts: SHAPES[shape] ?? "", restitution_source: source });
 }
 function set(name, value) {
   values[name] = value;
+  if (name === "shape") { fillIn(value); }
   if (name === "kind" && value === "none") { values.u_start = "0.18"; }
   if (name === "rocking" && value !== "two_sided") {
     // transverse walls turn the wall back by restitution
@@ -157,7 +169,7 @@ function inputs(width) {
     if (field.computable && values[field.name] === "") { continue; }
     (field.parameter ? parameters : field.check ? check : motion)[field.name] = values[field.name];
   }
-  return { parameters, motion, check, width };
+  return { parameters, motion, check, parts: rectangle(values) ? "" : values.parts, width };
 }
 let waiting = false;
 function schedule() {
@@ -323,6 +335,7 @@ function recall() {
   for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
     if (Object.hasOwn(values, name)) { values[name] = value; }
   }
+  if (!rectangle(values) && values.parts === "") { fillIn(values.shape); }
   refresh();
   schedule();
 }
