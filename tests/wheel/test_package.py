@@ -125,7 +125,8 @@ def test_pictures(record):
     wall = rw.Wall(height=3, thickness=0.25)
     for shown in (record._repr_svg_(), wall.simulate(record)._repr_svg_()):
         assert shown.startswith("<svg") or "<svg" in shown[:200]
-    assert "u_ins" in wall.describe()._repr_html_() and "<svg" in wall.describe()._repr_html_()
+    html = wall.describe()._repr_html_()
+    assert "u_ins" in html and "the wall to scale" in html and html.count("<svg") == 2
 
 
 def test_tables_and_plots(record):

@@ -190,7 +190,7 @@ impl Wall {
     }
 
     /// Returns the solver in words, u and F at the corners of the restoring force, what is unusual about the
-    /// wall, and the capacity curve of u > 0 as SVG.
+    /// wall, and the wall to scale with the capacity curve of u > 0, as two SVGs.
     fn description(&self) -> PyResult<Description> {
         let Self { scene, equation, .. } = self;
         let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
@@ -198,7 +198,8 @@ impl Wall {
         let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        let picture = plot(&[("u > 0", points)], Vec::new()).picture();
+        let curve = plot(&[("u > 0", points)], Vec::new()).picture();
+        let picture = run::drawing::svg(equation, &scene.parameters) + &curve;
         Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
 
