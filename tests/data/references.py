@@ -440,8 +440,144 @@ def case(name):
         yield "overturn_time", time + 0.1, Decimal(time), Decimal(time), Decimal("4e-9")
 
 
+class Body:
+    """A body of parts by exact integrals of polynomials in z, from moments about its toes.
+
+    `points` of a stretch are the sums Σ of m, m x, m z, m x², m z², W x, W z and W of its masonry and loads.
+    """
+
+    def __init__(self, scene):
+        geometry = scene["geometry"]
+        self.strip = geometry.get("mechanism") == "vertical_spanning"
+        self.gravity = Decimal("9.81")
+        self.prisms, top = [], Decimal(0)
+        for part in geometry["part"]:
+            base = Decimal(repr(part["base"])) if "base" in part else top
+            height = Decimal(repr(part["height"]))
+            top = base + height
+            lines = [self.line(part.get(key, other), base, height)
+                     for key, other in [("thickness", None), ("width", 1.0), ("outer", 0.0)]]
+            self.prisms.append((base, top, *lines, Decimal(repr(part["density"]))))
+        masonry = list(self.prisms)
+        for hole in geometry.get("opening", []):
+            base, width = (Decimal(repr(hole[key])) for key in ["base", "width"])
+            end = base + Decimal(repr(hole["height"]))
+            for first, last, thickness, _, outer, density in masonry:
+                if "thickness" in hole:
+                    thickness, outer = ([Decimal(repr(hole[key])), Decimal(0)] for key in ["thickness", "outer"])
+                if max(base, first) < min(end, last):
+                    self.prisms.append(
+                        (max(base, first), min(end, last), thickness, [width, Decimal(0)], outer, -density)
+                    )
+        self.height = max(prism[1] for prism in masonry)
+        names = ["force", "height", "inside", "moving_mass", "thrust"]
+        self.loads = [[Decimal(repr(load.get(name, 0.0))) for name in names] for load in geometry.get("load", [])]
+        # faces at the foot, inwards from the outer toe
+        foot = masonry[0]
+        self.toes = [foot[4][0], foot[4][0] + foot[2][0]]
+        self.hinge = Decimal(repr(geometry.get("hinge_ratio", 0.5))) * self.height
+        self.masonry = masonry
+
+    @staticmethod
+    def line(value, base, height):
+        """Coefficients over z of a size with these values at the bottom and at the top."""
+        bottom, top = (Decimal(repr(end)) for end in (value if isinstance(value, list) else [value, value]))
+        slope = (top - bottom) / height
+        return [bottom - slope * base, slope]
+
+    def points(self, low, high, loads=True):
+        sums = [Decimal(0)] * 8
+        for base, top, t, w, o, density in self.prisms:
+            a, b = max(base, low), min(top, high)
+            if a >= b:
+                continue
+
+            def over(*factors, a=a, b=b):
+                polynomial = [Decimal(1)]
+                for factor in factors:
+                    product = [Decimal(0)] * (len(polynomial) + len(factor) - 1)
+                    for i, x in enumerate(polynomial):
+                        for j, y in enumerate(factor):
+                            product[i + j] += x * y
+                    polynomial = product
+                return density * sum(  # noqa: B023
+                    c * (b ** (k + 1) - a ** (k + 1)) / (k + 1) for k, c in enumerate(polynomial)
+                )
+
+            z = [Decimal(0), Decimal(1)]
+            mass, x = over(t, w), over(t, w, o) + over(t, t, w) / 2
+            xx = over(t, w, o, o) + over(t, t, w, o) + over(t, t, t, w) / 3
+            g = self.gravity
+            own = [mass, x, over(t, w, z), xx, over(t, w, z, z), g * x, g * over(t, w, z), g * mass]
+            sums = [total + one for total, one in zip(sums, own, strict=True)]
+        for force, z, x, share, _ in self.loads if loads else []:
+            if low < z <= high:
+                m = share * force / self.gravity
+                own = [m, m * x, m * z, m * x * x, m * z * z, force * x, force * z, force]
+                sums = [total + one for total, one in zip(sums, own, strict=True)]
+        return sums
+
+    def values(self):
+        return self.values_of_strip() if self.strip else self.values_of_one()
+
+    def values_of_one(self):
+        m, _, mz, *_ = self.points(Decimal(0), self.height, loads=False)
+        z_g = mz / m
+        moving, mx, mz, mxx, mzz, wx, wz, w = self.points(Decimal(0), self.height)
+        thrust = sum(h * z for _, z, _, _, h in self.loads)
+        outer, inner = self.toes
+        force = [(wx - w * outer - thrust) / z_g, (w * inner - wx + thrust) / z_g]
+        stiffness = wz / z_g**2
+        # ∫(x − x_A)(x − x_B) dm and ∫(x − x_B)² dm
+        both = mxx - mx * (outer + inner) + moving * outer * inner
+        after = mxx - 2 * mx * inner + moving * inner**2
+        return {
+            "mass": m, "effective_mass": mzz / z_g**2, "participation": mz * z_g / mzz,
+            "F0": force[0], "F0_negative": force[1],
+            "u_ins": force[0] / stiffness, "u_ins_negative": force[1] / stiffness,
+            "restitution_used": (mzz + both) / (mzz + after),
+        }  # fmt: skip
+
+    def values_of_strip(self):
+        h, h1 = self.height, self.hinge
+        h2 = h - h1
+        lower, upper = self.points(Decimal(0), h1), self.points(h1, h)
+        faces = [[line[0] + line[1] * h1 for line in (prism[4], prism[2])]
+                 for prism in self.masonry if prism[0] <= h1 <= prism[1]]
+        edges = [max(outer for outer, _ in faces), min(outer + thickness for outer, thickness in faces)]
+
+        # places rise by (x − x_A)/h₁ below, and (x_B − x_A)/h₁ + (x_B − x)/h₂ above; ρ = p + q x
+        def rise(sign):
+            toe, edge = (self.toes[0], edges[1]) if sign > 0 else (self.toes[1], edges[0])
+            below = (-toe / h1 * sign, sign / h1)
+            return below, (((edge - toe) / h1 + edge / h2) * sign, -sign / h2)
+
+        force = [2 * sum(p * s[7] + q * s[5] for (p, q), s in zip(rise(sign), [lower, upper], strict=True))
+                 for sign in [1, -1]]
+        k1, k2 = lower[6] + h1 * upper[7], upper[6] - h1 * upper[7]
+        stiffness = 2 * (k1 / h1**2 + k2 / h2**2)
+        phi = lower[2] / h1 + (h * upper[0] - upper[2]) / h2
+        phi2 = lower[4] / h1**2 + (h * h * upper[0] - 2 * h * upper[2] + upper[4]) / h2**2
+
+        def product(one, other):
+            return sum(p * r * s[0] + (p * t + q * r) * s[1] + q * t * s[3]
+                       for (p, q), (r, t), s in zip(one, other, [lower, upper], strict=True))
+
+        old, new = rise(1), rise(-1)
+        return {
+            "mass": self.points(Decimal(0), h, loads=False)[0], "effective_mass": 2 * phi2, "participation": phi / phi2,
+            "F0": force[0], "F0_negative": force[1],
+            "u_ins": force[0] / stiffness, "u_ins_negative": force[1] / stiffness,
+            "restitution_used": (phi2 - product(old, new)) / (phi2 + product(new, new)),
+        }  # fmt: skip
+
+
 def rows(name, scene, motion):
     """Every reference of a scene."""
+    if name.startswith("body_"):
+        values = Body(tomllib.loads(scene)).values()
+        # the sums of a body cancel some digits
+        return [(variable, 0.0, value, value, 10 * ROUNDING) for variable, value in values.items()]
     if name[0] in "cto" and name[1:3].isdigit():
         return list(case(name))
     wall = Wall(tomllib.loads(scene), motion)
