@@ -464,14 +464,16 @@ class Body:
             end = base + Decimal(repr(hole["height"]))
             for first, last, thickness, _, outer, density in masonry:
                 if "thickness" in hole:
-                    thickness, outer = ([Decimal(repr(hole[key])), Decimal(0)] for key in ["thickness", "outer"])
+                    faces = [Decimal(repr(hole[key])) for key in ["thickness", "outer"]]
+                    thickness, outer = ([face, Decimal(0)] for face in faces)
                 if max(base, first) < min(end, last):
                     self.prisms.append(
                         (max(base, first), min(end, last), thickness, [width, Decimal(0)], outer, -density)
                     )
         self.height = max(prism[1] for prism in masonry)
         names = ["force", "height", "inside", "moving_mass", "thrust"]
-        self.loads = [[Decimal(repr(load.get(name, 0.0))) for name in names] for load in geometry.get("load", [])]
+        loads = geometry.get("load", [])
+        self.loads = [[Decimal(repr(load.get(name, 0.0))) for name in names] for load in loads]
         # faces at the foot, inwards from the outer toe
         foot = masonry[0]
         self.toes = [foot[4][0], foot[4][0] + foot[2][0]]
@@ -565,7 +567,8 @@ class Body:
 
         old, new = rise(1), rise(-1)
         return {
-            "mass": self.points(Decimal(0), h, loads=False)[0], "effective_mass": 2 * phi2, "participation": phi / phi2,
+            "mass": self.points(Decimal(0), h, loads=False)[0],
+            "effective_mass": 2 * phi2, "participation": phi / phi2,
             "F0": force[0], "F0_negative": force[1],
             "u_ins": force[0] / stiffness, "u_ins_negative": force[1] / stiffness,
             "restitution_used": (phi2 - product(old, new)) / (phi2 + product(new, new)),
