@@ -25,7 +25,7 @@ impl Model for Unit {
     const GUID: &'static str = GUID;
     const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
     const PAYLOAD: &'static str = "scene.bin";
-    const STATE_VERSION: u64 = 3;
+    const STATE_VERSION: u64 = 4;
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
         let exchange = (environment.interface == Interface::ModelExchange).then(Exchange::default);

@@ -75,7 +75,7 @@ def test_every_limit_is_checked_and_named(unpacked):
                 unit.slave.reset()
                 unit.set(**{variable.name: limit})
         checked += 1
-    assert checked == 27
+    assert checked == 40
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def test_a_state_of_another_version_is_refused_with_that_word(either):
 
 
 @pytest.mark.parametrize(
-    ("archive", "model", "length"), [("unpacked", 3, 566), ("unpacked_floor", 1, 501)]
+    ("archive", "model", "length"), [("unpacked", 4, 670), ("unpacked_floor", 1, 501)]
 )
 def test_a_change_of_the_state_raises_its_version(request, archive, model, length):
     """The values of a state are a list of `transfer_state`; another length is another version of it."""

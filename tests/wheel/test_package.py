@@ -47,7 +47,8 @@ def test_the_version_has_commit_and_profile():
 def test_help_names_every_parameter_with_its_unit():
     for name in rw.Wall().parameters:
         assert f"- {name}: " in rw.Wall.__doc__
-    assert "- height: Height of the wall [m], at least 0.001, at most 1000; default 4.0." in rw.Wall.__doc__
+    text = "- gravity: Acceleration of gravity [m/s2], at least 0.001, at most 1000; default 9.81."
+    assert text in rw.Wall.__doc__
 
 
 @pytest.mark.parametrize("module", MODULES)

@@ -64,7 +64,8 @@ class Storey:
 
 def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None]:
     """Returns the parameters without the tables of a body, and these as TOML."""
-    body = {key: parameters.pop(key) for key in ("part", "opening", "load") if key in parameters}
+    keys = [key for key in ("part", "opening", "load") if key in parameters]
+    body: dict[str, Any] = {key: parameters.pop(key) for key in keys}
     return parameters, toml_lines(body) if body else None
 
 
@@ -497,6 +498,7 @@ and `tie_ultimate`.
 `part`, `opening` and `load` are lists of dictionaries that describe a wall in place of height, thickness,
 width and density, such as a gable of 2.4 m:
 
->>> Wall(part=[{{"height": 2.4, "thickness": 0.25, "width": [6.0, 0.0]}}]).u_ins
+>>> gable = Wall(part=[{{"height": 2.4, "thickness": 0.25, "width": [6.0, 0.0]}}])
+>>> round(gable.u_ins, 12)
 0.125
 """
