@@ -16,6 +16,10 @@ use super::warning::{USUAL_STEP, Warning};
 /// Largest usual ω₁ times that step: 16 vibrations.
 const MOST_USUAL_ANGLE: f64 = 100.0;
 
+/// Slenderness angle from which small rotations are off by some per cent \[rad\]. Rectangles have full
+/// rotations to compare with, and are not warned of.
+const LARGE_ROTATIONS: f64 = 0.25;
+
 /// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
 pub(super) fn collect(
     parameters: &Parameters,
@@ -41,6 +45,9 @@ pub(super) fn collect(
     let is_computed = parameters.restitution < 0.0 && (computed.is_some() || restitution.is_some());
     if !body.is_rectangle && is_of_rectangles && is_computed {
         warnings.push(Warning::ByImpulses { name: source.name() });
+    }
+    if !body.is_rectangle && body.slenderness.most() >= LARGE_ROTATIONS {
+        warnings.push(Warning::LargeRotations { slenderness: body.slenderness.most() });
     }
     if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
         warnings.push(Warning::OutsideFit { a1: force.elastic_fraction });

@@ -268,6 +268,26 @@ fn a_thrust_needs_a_side_that_bears_it() {
     assert!(simulation.progress().state.displacement <= 0.0 && simulation.progress().work.impacts > 0);
 }
 
+/// Small rotations of a squat body, and formulas of rectangles for a body that is none, are warned of.
+#[test]
+fn what_is_of_slender_rectangles_is_warned_of() {
+    let gable = Part { height: 2.4, width: [6.0, 0.0], ..PRISM };
+    for (thickness, is_squat) in [(0.3, false), (0.6, true)] {
+        let part = Part { thickness: [thickness; 2], ..gable };
+        for (source, is_of_rectangles) in
+            [(RestitutionSource::Impulses, false), (RestitutionSource::Calibrated, true)]
+        {
+            let parameters = Parameters { restitution_source: source, ..of_parts(&[part], &[], &[]) };
+            let wall = Wall::new(&parameters).unwrap();
+            let told: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
+            let told = told.join("\n");
+            assert_eq!(told.contains("the slenderness angle of this body is 0.359 rad"), is_squat, "{told}");
+            let by_impulses = "the restitution of this body is by impulses, times the ratio measured";
+            assert_eq!(told.contains(by_impulses), is_of_rectangles, "{told}");
+        }
+    }
+}
+
 /// The base bears the inertia of the masonry and of what moves along, less the thrusts, also at rest.
 #[test]
 fn the_base_bears_masses_and_thrusts() {
