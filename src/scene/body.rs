@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use toml::{Spanned, Value};
 
 use crate::choices::Mechanism;
-use crate::wall::{COMPUTED, Hollow, Item, Load, Opening, Parameters, Part, Profile};
+use crate::wall::{COMPUTED, Hollow, Item, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile};
 
 use super::keys::Group;
 
@@ -21,8 +21,22 @@ pub(super) const BODY: &str = "body";
 /// The keys in `[geometry]` that stand in place of the parameters of a rectangle.
 pub const BODIES: [&str; 2] = [PART, BODY];
 
-/// The parameters of a rectangle, which parts replace.
-pub const OF_RECTANGLE: [&str; 4] = ["height", "thickness", "width", "density"];
+/// The parameters of a rigid body, which `[geometry.body]` states.
+const OF_BODY: [&str; 13] = [
+    "body_mass",
+    "centroid_height",
+    "inertia",
+    "arm",
+    "arm_inner",
+    "load_force",
+    "load_height",
+    "load_arm",
+    "load_mass",
+    "load_mass_height",
+    "load_inertia",
+    "thrust",
+    "thrust_height",
+];
 
 /// A size that is constant, or changes linearly from the bottom to the top of a part.
 #[derive(Clone, Copy, Debug)]
@@ -200,8 +214,12 @@ pub(super) fn apply_body(
         let message = "[geometry.body] states the whole body; leave [[geometry.opening]] out";
         return Err(place.error(opening.clone(), message));
     }
-    let replaced = entries.keys().find(|key| OF_RECTANGLE.contains(&key.get_ref().as_str()));
-    if let Some(key) = replaced {
+    let stated = |names: &[&str]| entries.keys().find(|key| names.contains(&key.get_ref().as_str()));
+    if let (Some(_), Some(key)) = (body, stated(&OF_BODY)) {
+        let message = "follows from [geometry.body] and its loads; leave out one of them";
+        return Err(place.error(key.span(), format!("{} {message}", key.get_ref())));
+    }
+    if let Some(key) = stated(&OF_RECTANGLE) {
         let name = key.get_ref();
         let message =
             format!("{name} is that of a rectangle; [[geometry.part]] or [geometry.body] states it");
@@ -254,6 +272,9 @@ fn read<T: serde::de::DeserializeOwned + Described>(
         Ok((table.span(), read))
     };
     match own.get_ref() {
+        DeValue::Array(_) if key == BODY => {
+            Err(file.place().error(own.span(), "[geometry.body] is one table; give one body"))
+        }
         DeValue::Array(tables) => tables.iter().map(read).collect(),
         _ => Ok(vec![read(own)?]),
     }
@@ -313,8 +334,12 @@ fn set_integrals(parameters: &mut Parameters, body: &BodyTable, loads: &[Load]) 
     let mass = |load: &Load| load.moving_mass * load.force / p.gravity;
     let (force, moving, thrust) = (sum(&|l| l.force), sum(&mass), sum(&|l| l.thrust));
     let moment = sum(&|l| l.thrust * l.height);
-    if thrust == 0.0 && moment != 0.0 {
-        return Err("the thrusts add to 0 but turn the body; give parts, or one thrust".to_owned());
+    let thrust_height = mean(moment, thrust);
+    if !(0.0..=body.height).contains(&thrust_height) || (thrust == 0.0 && moment != 0.0) {
+        return Err(format!(
+            "the thrusts add to {thrust} N with a moment of {moment} N m, which no single thrust on the body \
+             has; give thrusts of one sign, or the body as [[geometry.part]]"
+        ));
     }
     let [load_height, load_arm] =
         [sum(&|l| l.force * l.height), sum(&|l| l.force * l.inside)].map(|sum| mean(sum, force));
@@ -326,7 +351,7 @@ fn set_integrals(parameters: &mut Parameters, body: &BodyTable, loads: &[Load]) 
     (p.arm, p.arm_inner) = (body.arm, body.arm_inner.unwrap_or(COMPUTED));
     (p.load_force, p.load_height, p.load_arm) = (force, load_height, load_arm);
     (p.load_mass, p.load_mass_height, p.load_inertia) = (moving, load_mass_height, load_inertia);
-    (p.thrust, p.thrust_height) = (thrust, mean(moment, thrust));
+    (p.thrust, p.thrust_height) = (thrust, thrust_height);
     Ok(())
 }
 

@@ -24,10 +24,10 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{BooleanVariable, Mechanism, RealVariable};
-use crate::wall::{Bar, Kinematics, Parameters, is_computable, usage};
+use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
-pub use body::{BODIES, BodyTable, LoadTable, OF_RECTANGLE, OpeningTable, PartTable};
+pub use body::{BODIES, BodyTable, LoadTable, OpeningTable, PartTable};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};

@@ -5,9 +5,9 @@ use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::Value;
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
-use crate::wall::{Bar, Kinematics, ParameterError, Parameters};
+use crate::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
 
-use super::body::{BODY, LOAD, OF_RECTANGLE, OPENING, PART, apply_body};
+use super::body::{BODY, LOAD, OPENING, PART, apply_body};
 use super::error::SceneError;
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
 use super::schema::groups;
@@ -53,7 +53,10 @@ pub fn apply_group(
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
             }
-            (_, name) => return Err(place.error(key.span(), unknown_key(name, group, names, &groups()))),
+            (_, name) => {
+                let known = groups().remove(group).unwrap_or_default();
+                return Err(place.error(key.span(), unknown_key(name, group, &known, &groups())));
+            }
         }
     }
     match (law, points) {

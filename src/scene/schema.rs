@@ -7,13 +7,13 @@ use toml::Value;
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, BarNumber, Kinematics};
 
-use super::body::describe_body;
+use super::body::{BODY, LOAD, OPENING, PART, describe_body};
 use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
 
 /// Returns the keys of the groups that who applies a group checks, and knows the place of.
 pub(super) fn groups() -> Groups {
     let mut groups: Groups = GROUPS.iter().map(|(group, names)| (*group, names.to_vec())).collect();
-    groups.entry(KINEMATICS_GROUP).or_default().push(KINEMATICS);
+    groups.entry(KINEMATICS_GROUP).or_default().extend([KINEMATICS, PART, OPENING, LOAD, BODY]);
     groups
 }
 

@@ -41,6 +41,8 @@ impl UnitScene {
 
     /// Reads the bytes of the file.
     ///
+    /// Parts of a wall are taken as they were checked when the FMU was packaged.
+    ///
     /// # Errors
     /// If they are not a scene of this layout, or have a value that the description or a record cannot have.
     pub fn read(bytes: &[u8]) -> Result<Self, Failure> {

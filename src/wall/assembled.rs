@@ -313,7 +313,8 @@ impl Strip {
 // one loop for all sums: they are made once a wall, and the library of an FMU is to be small
 #[inline(never)]
 fn total(points: &[Point], of: &dyn Fn(&Point) -> f64) -> f64 {
-    points.iter().map(of).sum()
+    // the sum of none is -0
+    points.iter().map(of).sum::<f64>() + 0.0
 }
 
 /// Returns the coefficient of restitution by impulses of points that move by φ and have risen by `old`, and

@@ -29,14 +29,18 @@ pub enum ParameterError {
     /// Loads and thrusts leave no positive F₀ on a side of a body that is no rectangle.
     #[error(
         "no rocking strength for {side}: F0 = {force} N must be positive, but {}",
-        if *thrust == 0.0 {
-            "the weights overturn the wall by themselves; move its centroid and its loads between the toes"
-                .to_owned()
+        if *thrust_moment > 0.0 {
+            format!(
+                "thrusts with a moment of {thrust_moment} N m overturn it; reduce thrust, or add weight that \
+                 holds it"
+            )
         } else {
-            format!("thrusts of {thrust} N overturn it; reduce thrust, or add weight that holds it")
+            "the weights overturn the wall by themselves; move its centroid, its loads and the overburden \
+             between the toes"
+                .to_owned()
         }
     )]
-    Overturns { side: &'static str, force: f64, thrust: f64 },
+    Overturns { side: &'static str, force: f64, thrust_moment: f64 },
     /// Parts, openings or loads that make no wall.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -74,8 +78,12 @@ pub enum ParameterError {
     Points { number: usize, displacement: f64, force: f64, reason: &'static str },
     /// A squat wall.
     #[error(
-        "restitution_source = {source} gives e = {value}, outside 0 to 1: the wall is too squat for this \
-         formula; set restitution"
+        "restitution_source = {source} gives e = {value}, outside 0 to 1: {}; set restitution",
+        if *value > 1.0 {
+            "a load without moving mass holds a centroid beyond its toe"
+        } else {
+            "the wall is too squat for this formula"
+        }
     )]
     Restitution {
         #[allow(missing_docs)]

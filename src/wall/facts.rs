@@ -60,7 +60,7 @@ impl Wall {
         let (body, e) = (self.body(), self.restitution());
         let is_known = e != Sides::both(COMPUTED);
         let known = |e: f64| is_known.then_some(e);
-        let differs = |e: Sides| (e.negative != e.positive).then_some(e.negative);
+        let differs = |e: Sides| ((e.negative - e.positive).abs() > 1e-12).then_some(e.negative);
         let equivalent = |f: fn(f64) -> f64| known(e.least()).map(f);
         let [analytic, calibrated] = [RestitutionSource::Analytic, RestitutionSource::Calibrated]
             .map(|source| body.is_rectangle.then(|| of_rectangle(source, body).positive));

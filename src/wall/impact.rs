@@ -47,7 +47,11 @@ pub(super) fn coefficient(
             ];
             Err(ParameterError::conflict(
                 choices,
-                if body.is_strip() { "restitution_source = impulses, or restitution" } else { "restitution" },
+                if body.is_strip() {
+                    "restitution_source = impulses, or restitution"
+                } else {
+                    "restitution, or xi and impact = none: a rigid body states no toes to compute it from"
+                },
             ))
         }
     }

@@ -4,7 +4,7 @@ use crate::choices::{EccentricityMode, Mechanism};
 
 use super::error::ParameterError;
 use super::parameters::Parameters;
-use super::profile::Profile;
+use super::profile::{OF_RECTANGLE, Profile};
 use super::restitution;
 use super::sides::Sides;
 
@@ -132,7 +132,9 @@ impl Body {
         if self.is_rectangle {
             return ParameterError::NoStrength { side, force, eccentricity, overburden };
         }
-        ParameterError::Overturns { side, force, thrust: self.contact.thrust }
+        let moment = parameters.thrust_moment();
+        let thrust_moment = if side == "u > 0" { moment } else { -moment };
+        ParameterError::Overturns { side, force, thrust_moment }
     }
 
     fn rectangle(parameters: &Parameters) -> Self {
@@ -252,8 +254,8 @@ impl Body {
 /// [`ParameterError::OfParts`].
 fn check_stated(parameters: &Parameters, profile: &Profile) -> Result<(), ParameterError> {
     let Parameters { height, thickness, width, density, .. } = *parameters;
-    let names = ["height", "thickness", "width", "density"];
-    let stated = names.into_iter().zip([height, thickness, width, density]).zip(profile.as_rectangle());
+    let stated =
+        OF_RECTANGLE.into_iter().zip([height, thickness, width, density]).zip(profile.as_rectangle());
     let changed = stated.into_iter().find(|((_, value), own)| value != own);
     changed.map_or(Ok(()), |((name, value), own)| Err(ParameterError::OfParts { name, value, own }))
 }
@@ -267,6 +269,13 @@ impl Contact {
 }
 
 impl Parameters {
+    /// Returns the moment of the thrusts about the base, outwards \[N m\].
+    fn thrust_moment(&self) -> f64 {
+        let of_body = self.thrust * self.thrust_height;
+        let of_parts = |profile: &Profile| profile.loads().iter().map(|load| load.thrust * load.height).sum();
+        self.profile.as_deref().map_or(of_body, of_parts)
+    }
+
     /// Returns the eccentricity of the overburden towards each side \[m\].
     pub(super) fn eccentricity_of_sides(&self) -> Sides {
         let c = self.overburden_eccentricity;

@@ -69,7 +69,7 @@ pub use mechanism::{Body, Contact, MassShares};
 pub use parameters::{Kinematics, Parameters};
 pub use part::{Hollow, Item, Load, Opening, Part, ProfileError};
 pub use points::Centroid;
-pub use profile::{MOST_ITEMS, Profile};
+pub use profile::{MOST_ITEMS, OF_RECTANGLE, Profile};
 pub use ratio::Ratio;
 pub use section::Section;
 pub use sides::Sides;

@@ -3,12 +3,15 @@
 use super::part::{Item, Load, Opening, Part, ProfileError, fault_of_size};
 use super::section::Section;
 
+/// The parameters of a rectangle, which parts replace: height, thickness, width and density.
+pub const OF_RECTANGLE: [&str; 4] = ["height", "thickness", "width", "density"];
+
 /// Most parts, openings or loads of a wall; more is a mistake.
-pub const MOST_ITEMS: usize = 1000;
+pub const MOST_ITEMS: usize = 200;
 /// Heights and faces that differ by less than this share of the height are the same.
 pub(super) const SAME: f64 = 1e-9;
 
-/// A wall of parts, with its openings and loads: checked, and never changed.
+/// A wall of parts, with its openings and loads; it never changes.
 ///
 /// ```
 /// use rocking_wall::wall::{Part, Profile};
@@ -43,6 +46,7 @@ impl Profile {
         profile.check_count()?;
         profile.check_parts()?;
         profile.check_openings()?;
+        profile.parts.iter().try_for_each(|part| profile.check_left(part))?;
         profile.check_loads()?;
         Ok(profile)
     }
@@ -167,19 +171,20 @@ impl Profile {
         Ok(())
     }
 
-    /// Returns whether a part stands on the ground or on a part before it, or touches the side of one.
+    /// Returns whether a part stands on a part before it, or touches the side of one.
     fn is_carried(&self, index: usize) -> bool {
         let (part, same) = (&self.parts[index], SAME * self.height());
         let foot = part.section(part.base);
         let touches = |other: &Part| {
             if (other.top() - part.base).abs() <= same {
-                return foot.overlap(&other.section(other.top())) > same;
+                let below = other.section(other.top());
+                return below.width > 0.0 && foot.overlap(&below) > same;
             }
             part.common(other.base, other.top()).is_some_and(|heights| {
                 heights.iter().all(|z| part.section(*z).overlap(&other.section(*z)) >= -same)
             })
         };
-        part.base <= same || self.parts[..index].iter().any(touches)
+        self.parts[..index].iter().any(touches)
     }
 
     fn check_openings(&self) -> Result<(), ProfileError> {
@@ -201,13 +206,12 @@ impl Profile {
                 self.parts.iter().filter_map(|part| Some((part, opening.cut(part, same)?))).collect();
             for &(part, heights) in &cuts {
                 if !opening.is_within(part, heights, same) {
+                    let number = self.parts.iter().position(|own| std::ptr::eq(own, part)).unwrap_or(0) + 1;
                     let narrow = heights.map(|z| part.section(z).width).into_iter().fold(f64::MAX, f64::min);
                     return refused(format!(
-                        "width = {width} m must be smaller than that of the wall there, {narrow} m"
+                        "width = {width} m must be smaller than that of part {number} there, {narrow} m; an \
+                         opening in other parts alone has their thickness and outer"
                     ));
-                }
-                for z in heights {
-                    self.check_left(index, part, z)?;
                 }
             }
             if cuts.is_empty() {
@@ -217,24 +221,32 @@ impl Profile {
         Ok(())
     }
 
-    /// Checks that the openings up to `last` leave some of a part at a height.
-    fn check_left(&self, last: usize, part: &Part, z: f64) -> Result<(), ProfileError> {
-        let own = self.openings[last].section(part, z);
+    /// Checks that openings at the same heights and depths leave some of a part between them: they count as
+    /// beside each other.
+    fn check_left(&self, part: &Part) -> Result<(), ProfileError> {
         let same = SAME * self.height();
-        let beside = self.openings[..=last].iter().filter(|other| {
-            let reaches = other.base <= z + same && z - same <= other.top();
-            let meets_at_end = (other.top() - self.openings[last].base).abs() <= same
-                || (other.base - self.openings[last].top()).abs() <= same;
-            reaches && !meets_at_end && other.section(part, z).overlap(&own) > same
-        });
-        let taken: f64 = beside.map(|other| other.width).sum();
-        let width = part.section(z).width;
-        if taken < width {
-            return Ok(());
+        let cuts = self.openings.iter().enumerate();
+        let cuts: Vec<_> =
+            cuts.filter_map(|(at, opening)| Some((at, opening, opening.cut(part, same)?))).collect();
+        let ends = rising(cuts.iter().flat_map(|(.., heights)| *heights));
+        for stretch in ends.windows(2).filter(|stretch| stretch[1] - stretch[0] > same) {
+            let reaches = |heights: [f64; 2]| heights[0] <= stretch[0] && stretch[1] <= heights[1];
+            let here: Vec<_> = cuts.iter().filter(|(.., heights)| reaches(*heights)).collect();
+            // widths and faces are straight: what holds at both ends holds between them
+            for &z in stretch {
+                let sections: Vec<_> =
+                    here.iter().map(|(at, opening, _)| (*at, opening.section(part, z))).collect();
+                let (last, taken) = most_taken(&sections);
+                let width = part.section(z).width;
+                if taken >= width {
+                    return Err(Item::Opening(last).refused(format!(
+                        "at {z} m openings take {taken} m of a width of {width} m; leave some of the wall \
+                         between them"
+                    )));
+                }
+            }
         }
-        Err(Item::Opening(last).refused(format!(
-            "at {z} m openings take {taken} m of a width of {width} m; leave some of the wall between them"
-        )))
+        Ok(())
     }
 
     fn check_loads(&self) -> Result<(), ProfileError> {
@@ -276,11 +288,37 @@ fn faces(sections: impl Iterator<Item = Section>) -> [f64; 2] {
     })
 }
 
-/// Returns whether two parts share a place: at the ends or in the middle of the heights they share.
+/// Returns whether two parts share a place.
 fn overlaps(part: &Part, other: &Part) -> bool {
     let same = SAME * part.top().max(other.top());
     part.common(other.base, other.top()).is_some_and(|[from, to]| {
-        let heights = [from, 0.5 * (from + to), to];
-        to - from > same && heights.iter().any(|z| part.section(*z).overlap(&other.section(*z)) > same)
+        // faces are straight: the shared thickness is largest at an end or where two of them cross
+        let gaps = |z: f64| {
+            let (own, other) = (part.section(z), other.section(z));
+            [own.outer - other.outer, own.inner - other.inner]
+        };
+        let crossings = gaps(from).into_iter().zip(gaps(to)).filter(|(at, end)| at * end < 0.0);
+        let crossings = crossings.map(|(at, end)| from + (to - from) * at / (at - end));
+        let shares = |z: f64| part.section(z).overlap(&other.section(z)) > same;
+        to - from > same && [from, to].into_iter().chain(crossings).any(shares)
     })
+}
+
+/// Returns the largest width that numbered openings take at one depth, and the last of these openings.
+fn most_taken(sections: &[(usize, Section)]) -> (usize, f64) {
+    let faces = rising(sections.iter().flat_map(|(_, section)| [section.outer, section.inner]));
+    let depths = faces.windows(2).map(|faces| 0.5 * (faces[0] + faces[1]));
+    let taken = depths.map(|x| {
+        let across = sections.iter().filter(|(_, own)| own.outer < x && x < own.inner);
+        across.fold((0, 0.0), |(_, taken), (at, section)| (*at, taken + section.width))
+    });
+    taken.max_by(|(_, one), (_, other)| one.total_cmp(other)).unwrap_or_default()
+}
+
+/// Returns numbers in rising order, each once.
+fn rising(numbers: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut numbers: Vec<_> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers.dedup();
+    numbers
 }

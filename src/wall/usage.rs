@@ -6,6 +6,7 @@ use crate::choices::{
 };
 
 use super::parameters::{Kinematics, Parameters};
+use super::profile::OF_RECTANGLE;
 
 /// Says whether a variable of the model description has an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +47,7 @@ pub fn usage(parameters: &Parameters) -> impl Iterator<Item = Usage> + use<> {
             Usage { matters: false, condition: NAMED_LAW, ..usage }
         }
         // they stand for the parts, and the user has not set them
-        "height" | "thickness" | "width" | "density" if has_parts => {
+        name if has_parts && OF_RECTANGLE.contains(&name) => {
             Usage { is_start: true, matters: false, condition: A_RECTANGLE, ..usage }
         }
         "F0_negative" | "u_ins_negative" if has_parts => Usage { matters: true, ..usage },

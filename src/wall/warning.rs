@@ -24,8 +24,8 @@ pub enum Warning {
     ByImpulses { name: &'static str },
     /// A body whose rotations are not small, and that has no full ones \[rad\].
     #[error(
-        "the slenderness angle of this body is {slenderness:.3} rad: small rotations are off by some per cent \
-         from 0.25 rad on, 3 % in the time of a swing up to 0.9 u_ins at 0.33 rad"
+        "the slenderness angle of this body is {slenderness:.3} rad: small rotations are off by some per \
+         cent from 0.25 rad on, 3 % in the time of a swing up to 0.9 u_ins at 0.33 rad"
     )]
     LargeRotations { slenderness: f64 },
     /// Viscous damping computed from e, and e applied at impacts as well.

@@ -108,7 +108,22 @@ impl Parameters {
             (has_tie && tie_strength > 0.0, tie_strength, usual("tie_strength", "N", [1e3, 2e6], FORCES)),
         ];
         let of_shape = of_shape.map(|(value, usual)| (is_rectangle, value, usual));
-        let all = of_shape.into_iter().chain(of_wall);
+        let parts = self.profile.iter().flat_map(|profile| profile.parts());
+        let of_parts = parts.flat_map(|part| {
+            let thickest = part.thickness[0].max(part.thickness[1]);
+            [
+                (true, part.height, usual("height", "m", [0.02, 30.0], LENGTHS)),
+                (true, thickest, usual("thickness", "m", [0.03, 3.0], LENGTHS)),
+                (true, part.density, density),
+            ]
+        });
+        let loads = self.profile.iter().flat_map(|profile| profile.loads());
+        let of_loads = loads.map(|load| {
+            let range = [100.0, 1e6].map(|force| force * width);
+            (load.force > 0.0, load.force, usual("force", "N", range, FORCES))
+        });
+        let of_profile: Vec<_> = of_parts.chain(of_loads).collect();
+        let all = of_shape.into_iter().chain(of_profile).chain(of_wall);
         all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_bar)
     }
 }

@@ -258,7 +258,7 @@ fn a_thrust_needs_a_side_that_bears_it() {
     let parameters = of_parts(&[PRISM], &[], &[load]);
     let Err(error) = Wall::new(&parameters) else { panic!("there is a wall") };
     assert!(matches!(error, ParameterError::Overturns { side: "u > 0", .. }), "{error}");
-    assert!(error.to_string().contains("thrusts of 1000 N overturn it"), "{error}");
+    assert!(error.to_string().contains("thrusts with a moment of 3000 N m overturn it"), "{error}");
     let one_sided = Parameters { rocking: Rocking::OneSidedNegative, restitution: 0.3, ..parameters };
     let wall = Wall::new(&one_sided).unwrap();
     assert!(wall.stated(1.0)[0] < 0.0 && wall.stated(1.0)[1] == 0.0 && wall.stated(-1.0)[0] > 0.0);

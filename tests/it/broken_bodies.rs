@@ -29,6 +29,22 @@ fn parts_that_make_no_wall_are_refused_at_their_table() {
         ),
         (part("height = 1.0\nouter = 0.5"), "line 4: part 2: floats"),
         (part("base = 2.0\nheight = 2.0"), "line 4: part 2: overlaps part 1 between 2 m and 4 m; give base"),
+        (part("base = 0.0\nheight = 1.0\nouter = 5.0"), "line 4: part 2: floats"),
+        (
+            "[[geometry.part]]\nheight = 3.0\nthickness = 0.1\nouter = [0.0, 1.0]\n\
+             [[geometry.part]]\nbase = 0.0\nheight = 3.0\nthickness = 0.1\nouter = [0.7, -0.3]"
+                .into(),
+            "part 2: overlaps part 1",
+        ),
+        (
+            format!("{PART}width = [1.0, 0.0]\n[[geometry.part]]\nheight = 1.0\nthickness = 0.3"),
+            "line 5: part 2: floats",
+        ),
+        (
+            "[[geometry.parts]]\nheight = 3.0".into(),
+            "unknown key \"parts\" in [geometry] (did you mean \"part\"?)",
+        ),
+        ("[[part]]\nheight = 3.0".into(), "\"part\" belongs in [geometry]"),
         (part("densty = 1800"), "unknown key \"densty\" in [geometry.part] (did you mean \"density\"?)"),
         (PART.replace("0.3", "-0.3"), "line 1: part 1: thickness = -0.3 m must be from 0.0001 to 100 m"),
         (PART.replace("0.3", "[0, 0]"), "part 1: thickness = 0 m must be"),
@@ -51,8 +67,8 @@ fn parts_that_make_no_wall_are_refused_at_their_table() {
         let found = refused(&text);
         assert!(found.contains(message), "{text}\n{found}");
     }
-    let many = format!("[geometry]\npart = [{}]", "{ height = 1.0, thickness = 0.3 }, ".repeat(1001));
-    assert!(refused(&many).contains("a wall has at most 1000, this one has 1001"));
+    let many = format!("[geometry]\npart = [{}]", "{ height = 1.0, thickness = 0.3 }, ".repeat(201));
+    assert!(refused(&many).contains("a wall has at most 200, this one has 201"));
 }
 
 #[test]
@@ -61,7 +77,10 @@ fn openings_and_loads_that_do_not_fit_are_refused_at_their_table() {
     let load = |keys: &str| format!("{PART}{LOAD}{keys}");
     for (text, message) in [
         (opening("base = 2.5\nwidth = 0.5"), "line 4: opening 1: from 2.5 m to 3.5 m is not within the wall"),
-        (opening("base = 1.0\nwidth = 1.0"), "opening 1: width = 1 m must be smaller than that of the wall"),
+        (
+            opening("base = 1.0\nwidth = 1.0"),
+            "opening 1: width = 1 m must be smaller than that of part 1 there",
+        ),
         (
             opening("base = 1.0\nwidth = 0.5\nouter = 0.2"),
             "line 4: outer is that of a hollow; give its thick",
@@ -74,17 +93,22 @@ fn openings_and_loads_that_do_not_fit_are_refused_at_their_table() {
             opening("base = 1.0\nwidth = 0.6\n[[geometry.opening]]\nbase = 1.5\nheight = 1.0\nwidth = 0.5"),
             "line 8: opening 2: at 1.5 m openings take 1.1 m of a width of 1 m; leave some of the wall",
         ),
-        (load("force = -1e3"), "line 7: geometry.load.force = -1000 must be at least 0"),
         (
-            load("force = 1e3\nmoving_mass = 2"),
-            "geometry.load.moving_mass = 2 must be at least 0 and at most 1",
+            // the first is within the second
+            opening("base = 1.4\nwidth = 0.6\n[[geometry.opening]]\nbase = 1.0\nheight = 2.0\nwidth = 0.6"),
+            "opening 2: at 1.4 m openings take 1.2 m of a width of 1 m",
         ),
+        (load("force = -1e3"), "line 7: force = -1000 must be at least 0"),
+        (load("force = 1e3\nmoving_mass = 2"), "moving_mass = 2 must be at least 0 and at most 1"),
         (
             load("force = 1e3").replace("2.5", "3.5"),
             "line 4: load 1: height = 3.5 m must be above 0 and at most",
         ),
         (load("force = 1e3").replace("= 0.1", "= 100"), "load 1: inside = 100 m is farther from the wall"),
-        (load("force = 1e3\nthrust = 1e5"), "for u > 0: F0 = -165010.78 N must be positive, but thrusts of"),
+        (
+            load("force = 1e3\nthrust = 1e5"),
+            "for u > 0: F0 = -165010.78 N must be positive, but thrusts with a moment of",
+        ),
         (format!("{LOAD}force = 1e3"), "openings and loads are those of a wall of parts; give the wall as"),
     ] {
         let found = refused(&text);
@@ -103,6 +127,21 @@ fn bodies_that_cannot_rock_are_refused() {
         (
             BODY.to_owned(),
             "restitution_source = calibrated does not go with mechanism = rigid_body; set restit",
+        ),
+        (
+            format!("[geometry]\nthrust = 5e3\n{BODY}{given}"),
+            "line 2: thrust follows from [geometry.body] and",
+        ),
+        (
+            format!("{}{}", BODY.replace("[geometry.body]", "[[geometry.body]]"), given),
+            "[geometry.body] is one table; give one body",
+        ),
+        (
+            format!(
+                "{BODY}{given}{LOAD}force = 0.0\nthrust = 1e3\n{}force = 0.0\nthrust = -900.0",
+                LOAD.replace("2.5", "1.0")
+            ),
+            "the thrusts add to 100 N with a moment of 1600 N m, which no single thrust on the body has",
         ),
         (format!("{strip}{BODY}"), "line 3: [geometry.body] is one body; a strip has two: give it as"),
         (BODY.replace("2e3", "200.0") + given, "inertia = 200 kg m2 must be at least 1000 times 1 squared"),

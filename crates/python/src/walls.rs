@@ -10,12 +10,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, MotionTable, OF_RECTANGLE, POINTS, Scene, StoreyTable, SupportsTable,
-    parameter_text, set_names, to_toml,
+    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, parameter_text,
+    set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::{Parameters, Wall as Equation};
+use rocking_wall::wall::{OF_RECTANGLE, Parameters, Wall as Equation};
 use run::capacity::plot;
 use run::walls::{assumed, read_scene};
 use scene_fmu::General;

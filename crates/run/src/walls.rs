@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
-    BODIES, Floors, GROUPS, Group, OF_RECTANGLE, Scene, SceneError, StoreyTable, SupportsTable, apply_group,
-    parameters, read_floors,
+    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parameters,
+    read_floors,
 };
-use rocking_wall::wall::{Bar, Parameters};
+use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;

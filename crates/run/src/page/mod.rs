@@ -190,8 +190,11 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
                 number(bodies::Moving::new(wall, parameters).base(), 6)
             ),
         ),
-        ("static instability u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
-        ("strength F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
+        (
+            "static instability u_ins",
+            sides(body.instability.positive, body.instability.negative, 1000.0, 1, "mm"),
+        ),
+        ("strength F0", sides(body.strength.positive, body.strength.negative, 1e-3, 3, "kN")),
         ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
@@ -199,6 +202,12 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     ];
     let tie = tie::fact(wall, parameters.weaker_part()).map(|tie| ("tie", tie));
     rows.iter().chain(&tie).map(|(name, value)| row(name, value)).collect()
+}
+
+/// A number in another unit, of both sides where they differ.
+fn sides(positive: f64, negative: f64, factor: f64, decimals: usize, unit: &str) -> String {
+    let [out, back] = [positive, negative].map(|number| format!("{:.decimals$}", factor * number));
+    if out == back { format!("{out} {unit}") } else { format!("{out} {unit} (u > 0), {back} {unit} (u < 0)") }
 }
 
 /// A name with its number, without the number if it is 0: a rigid wall has no ω₁.

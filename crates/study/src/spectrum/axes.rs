@@ -82,6 +82,9 @@ pub enum SpectrumError {
     /// R or α is given for a wall that is not a parapet.
     #[error("{name} is for parapets only; for a vertical spanning wall give heights and h/b")]
     ParapetOnly { name: &'static str },
+    /// The wall is none of a height and a thickness.
+    #[error("a rocking spectrum takes rectangles: leave [[geometry.part]] and [geometry.body] out")]
+    Body,
     /// A wall of a height and thickness \[m\] is invalid.
     #[error("wall of {height} m by {thickness} m: {source}")]
     Wall { height: f64, thickness: f64, source: ParameterError },

@@ -117,6 +117,9 @@ pub fn over_walls(
     threads: usize,
 ) -> Result<RockingSpectrum, SpectrumError> {
     check_count(sizes.len() * rows.len())?;
+    if !parameters.is_rectangle() {
+        return Err(SpectrumError::Body);
+    }
     if parameters.mechanism != Mechanism::Parapet {
         let names = [
             (size.quantity().label, size == Size::SemiDiagonal),
