@@ -7,12 +7,15 @@ use anyhow::{Context, Result};
 use clap::Args;
 use report::table::significant;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::{Fact, TiePart, Wall};
+use rocking_wall::wall::{Fact, Parameters, TiePart, Wall, usage};
 
 use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
 use run::capacity::Capacity;
 use run::drawing;
+
+/// Difference of a coefficient of restitution from that by impulses which is worth saying.
+const LARGEST_DIFFERENCE: f64 = 0.05;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -55,6 +58,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     console.save(arguments.drawing.as_ref(), || drawing::svg(&wall, parameters))?;
     let facts = wall.facts();
+    let warnings = wall.warnings().iter().map(ToString::to_string).chain(disagreement(parameters, &wall));
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let weaker = parameters.weaker_part().map(|part| match part {
         TiePart::Bar => "of its bar, which yields first",
@@ -77,8 +81,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
         object.insert("backbone".into(), serde_json::to_value(backbone)?);
         object.insert("capacity".into(), capacity.json());
-        let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
-        object.insert("warnings".into(), warnings.into());
+        object.insert("warnings".into(), warnings.collect::<Vec<_>>().into());
         return console.json(&object.into());
     }
     let mut text = String::new();
@@ -92,11 +95,25 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     text.push('\n');
     text.push_str(&capacity.table().text());
-    for warning in wall.warnings() {
+    for warning in warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
     text += &output::written("\nwritten ", arguments.outputs());
     console.print(&text)
+}
+
+/// Says where a formula of restitution that counts is far from the impulses of the impact.
+fn disagreement(parameters: &Parameters, wall: &Wall) -> Option<String> {
+    let counts = usage(parameters).any(|usage| usage.name == "restitution_source" && usage.matters);
+    let (e, impulses) = (wall.restitution().positive, wall.body().impulses?.positive);
+    let is_far = counts && wall.free_side().is_none() && (e - impulses).abs() > LARGEST_DIFFERENCE;
+    is_far.then(|| {
+        let source = parameters.restitution_source.name();
+        format!(
+            "restitution_source = {source} gives e = {e:.3}, the impulses of an impact {impulses:.3}; \
+             docs/model.md says which of them tests support"
+        )
+    })
 }
 
 /// The solver in words.

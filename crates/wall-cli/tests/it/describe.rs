@@ -27,6 +27,25 @@ fn describe_writes_the_curve() {
     fails(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
 }
 
+/// A formula of restitution that is far from the impulses of an impact is said, where it counts.
+#[test]
+fn describe_says_where_restitution_is_doubtful() {
+    let folder = folder("doubtful_restitution");
+    let strip = ["describe", "--set", "mechanism=vertical_spanning", "--set", "thickness=0.25", "--set"];
+    let told = |more: &[&str]| printed(&folder, &[&strip[..], more].concat());
+    let words = "restitution_source = calibrated gives e = 0.794, the impulses of an impact 0.625";
+    assert!(told(&["height=2"]).contains(words));
+    // slender, given, by impulses, and of no effect
+    for more in [
+        &["height=3.5"][..],
+        &["height=2", "--set", "restitution=0.8"],
+        &["height=2", "--set", "restitution_source=impulses"],
+        &["height=2", "--set", "xi=0.05"],
+    ] {
+        assert!(!told(more).contains("the impulses of an impact"), "{more:?}");
+    }
+}
+
 #[test]
 fn describe_draws_the_wall() {
     let folder = folder("drawn_wall");
