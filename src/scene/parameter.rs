@@ -54,8 +54,9 @@ pub fn apply_group(
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
             }
             (_, name) => {
-                let known = groups().remove(group).unwrap_or_default();
-                return Err(place.error(key.span(), unknown_key(name, group, &known, &groups())));
+                let groups = groups();
+                let known = groups.get(group).map_or(&[][..], Vec::as_slice);
+                return Err(place.error(key.span(), unknown_key(name, group, known, &groups)));
             }
         }
     }

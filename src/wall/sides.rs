@@ -32,7 +32,8 @@ impl Sides {
         self.positive.max(self.negative)
     }
 
-    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    /// Computes another quantity of each side from this one.
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self { positive: f(self.positive), negative: f(self.negative) }
     }
 

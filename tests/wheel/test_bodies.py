@@ -30,6 +30,7 @@ def test_a_facade_has_the_numbers_of_an_independent_program():
     assert described["restitution_impulses"] == pytest.approx(0.995386965496, rel=1e-11)
     assert described["restitution_impulses_negative"] == pytest.approx(0.993899098848, rel=1e-11)
     assert "height" not in wall.parameters
+    assert rw.Wall(a1=0.05).replace(**FACADE).F0 == wall.F0
 
 
 def test_a_wall_of_parts_is_that_of_its_scene(tmp_path):

@@ -52,10 +52,7 @@ impl Wall {
     fn new(parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
         let mut scene = Scene { title: "rocking wall".into(), ..Scene::default() };
         let mut assumed = assumed(|_, _| false);
-        if let Some(body) = body {
-            set_body(&mut scene, body)?;
-            assumed.retain(|name| !OF_RECTANGLE.contains(name));
-        }
+        set_body(&mut scene, &mut assumed, body)?;
         Self::of(scene, None, assumed, parameters)
     }
 
@@ -69,11 +66,9 @@ impl Wall {
     /// Returns the same wall with other values of some parameters.
     #[pyo3(signature = (parameters, body=None))]
     fn replaced(&self, parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
-        let mut scene = self.scene.clone();
-        if let Some(body) = body {
-            set_body(&mut scene, body)?;
-        }
-        Self::of(scene, self.start, self.assumed.clone(), parameters)
+        let (mut scene, mut assumed) = (self.scene.clone(), self.assumed.clone());
+        set_body(&mut scene, &mut assumed, body)?;
+        Self::of(scene, self.start, assumed, parameters)
     }
 
     /// Returns the same wall on floors of storeys, given as mass, stiffness, period and damping ratio.
@@ -266,8 +261,11 @@ impl<'a> From<&'a Wall> for Subject<'a> {
     }
 }
 
-/// Makes the wall of a scene one of parts, given as lines of `[geometry]`.
-fn set_body(scene: &mut Scene, body: &str) -> PyResult<()> {
+/// Makes the wall of a scene one of parts, if they are given as lines of `[geometry]`. They state what a
+/// rectangle has.
+fn set_body(scene: &mut Scene, assumed: &mut Vec<&'static str>, body: Option<&str>) -> PyResult<()> {
+    let Some(body) = body else { return Ok(()) };
+    assumed.retain(|name| !OF_RECTANGLE.contains(name));
     let text = format!("[geometry]\n{body}");
     let given = Scene::parse("a wall of parts", &text, Path::new(".")).map_err(of_scene)?.parameters;
     let Parameters { height, thickness, width, density, profile, .. } = given;

@@ -5,7 +5,7 @@ use report::{escaped, number};
 use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Impact;
-use rocking_wall::wall::{Parameters, Wall, usage};
+use rocking_wall::wall::{Parameters, Sides, Wall, usage};
 
 use crate::counterpart::Counterpart;
 use crate::{demands, figure as plots};
@@ -190,11 +190,8 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
                 number(bodies::Moving::new(wall, parameters).base(), 6)
             ),
         ),
-        (
-            "static instability u_ins",
-            sides(body.instability.positive, body.instability.negative, 1000.0, 1, "mm"),
-        ),
-        ("strength F0", sides(body.strength.positive, body.strength.negative, 1e-3, 3, "kN")),
+        ("static instability u_ins", of_sides(body.instability.map(|u| 1000.0 * u), 1, "mm")),
+        ("strength F0", of_sides(body.strength.map(|force| force / 1000.0), 3, "kN")),
         ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
@@ -204,9 +201,9 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     rows.iter().chain(&tie).map(|(name, value)| row(name, value)).collect()
 }
 
-/// A number in another unit, of both sides where they differ.
-fn sides(positive: f64, negative: f64, factor: f64, decimals: usize, unit: &str) -> String {
-    let [out, back] = [positive, negative].map(|number| format!("{:.decimals$}", factor * number));
+/// A number with its unit, of both sides where they differ.
+fn of_sides(Sides { positive, negative }: Sides, decimals: usize, unit: &str) -> String {
+    let [out, back] = [positive, negative].map(|number| format!("{number:.decimals$}"));
     if out == back { format!("{out} {unit}") } else { format!("{out} {unit} (u > 0), {back} {unit} (u < 0)") }
 }
 
