@@ -15,7 +15,7 @@ use crate::words::formulas::markup;
 use crate::words::ledger::{Ledger, numbers};
 use crate::words::markup::side_head;
 use crate::words::names::Sides;
-use crate::words::{Language, Sentence, Written, governing, passed, said, say, side};
+use crate::words::{Language, Sentence, Written, fixed, governing, passed, said, say, side};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {
@@ -29,6 +29,8 @@ pub struct Verdict<'a> {
     pub side: Sides,
     /// Capacity over demand of what governs \[-\].
     pub zeta: f64,
+    /// The ratio from which on a check passes \[-\].
+    pub target: f64,
     /// A row for each check of each side; of sides that are alike, one.
     pub rows: Vec<Row>,
     /// What a rule of the code replaces, where that lets the wall pass, or governs one that fails.
@@ -64,6 +66,8 @@ pub struct Row {
     pub side: Sides,
     /// Capacity over demand \[-\].
     pub zeta: f64,
+    /// The same before a rule of the code replaces it by a larger one \[-\].
+    pub ratio: f64,
     /// Whether it passes.
     pub passed: bool,
     /// Whether it decides; otherwise it informs.
@@ -89,6 +93,7 @@ impl Row {
             title,
             side,
             zeta,
+            ratio: zeta,
             passed,
             decides,
             ground,
@@ -222,20 +227,30 @@ impl Verdict<'_> {
         let title = self.rows.iter().find(|row| row.check == self.governs).map(|row| row.title.clone());
         let (governs, symbol) = (title.unwrap_or_else(|| Sentence::same(self.governs)), self.code.ratio());
         let zeta = Written(format!("{:.3}", self.zeta));
-        let of = governing(self.side);
+        let (of, target) = (governing(self.side), self.against());
         if self.passed {
             say! {
-                "PASSED{raised}: {governs} governs with {symbol} = {zeta} ({of})",
-                "VERIFICA SODDISFATTA{raised}: {governs} è determinante con {symbol} = {zeta} ({of})",
-                raised, governs, symbol, zeta, of
+                "PASSED{target}{raised}: {governs} governs with {symbol} = {zeta} ({of})",
+                "VERIFICA SODDISFATTA{target}{raised}: {governs} è determinante con {symbol} = {zeta} ({of})",
+                target, raised, governs, symbol, zeta, of
             }
         } else {
             say! {
-                "NOT PASSED: {governs} governs with {symbol} = {zeta}{raised} ({of})",
-                "VERIFICA NON SODDISFATTA: {governs} è determinante con {symbol} = {zeta}{raised} ({of})",
-                governs, symbol, zeta, raised, of
+                "NOT PASSED{target}: {governs} governs with {symbol} = {zeta}{raised} ({of})",
+                "VERIFICA NON SODDISFATTA{target}: {governs} è determinante con {symbol} = {zeta}{raised} \
+                 ({of})",
+                target, governs, symbol, zeta, raised, of
             }
         }
+    }
+
+    /// The target that the verdict is about, behind its first word; empty where that is 1.
+    fn against(&self) -> Sentence {
+        if self.target == 1.0 {
+            return Sentence::default();
+        }
+        let symbol = self.code.ratio();
+        say!(" for {symbol} ≥ {target}", " per {symbol} ≥ {target}", symbol, target = fixed(self.target, 2))
     }
 
     /// The rows as a table: for people four digits, for files SI units and every digit.

@@ -238,6 +238,7 @@ impl Code for Statement {
             governs: "displacement",
             side: checked.of(&worst),
             zeta: worst.displacement_ratio,
+            target: 1.0,
             raise: None,
             rows: checked.rows(),
             notes: checked.notes(),

@@ -9,10 +9,10 @@ use crate::circolare::{PARAPET, checked, near};
 /// Where ζ is flat, a searched hinge is known less well than ζ.
 const HINGE: f64 = 1e-4;
 
-/// The site and the building of the examples, with the place of the wall.
+/// The site and the building of the examples, with the place of the wall; SLD raises SLC, too.
 pub(crate) fn palazzo(height_ratio: f64, more: &str) -> String {
     format!(
-        "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n{more}\n\
+        "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nraise_slc = true\n{more}\n\
          building = {{ storeys = 3, period = 0.32, height_ratio = {height_ratio} }}\n\
          SLD = {{ ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }}\n\
          SLV = {{ ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.10 }}\n\

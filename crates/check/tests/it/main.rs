@@ -15,6 +15,7 @@ mod circolare_messages;
 mod circolare_properties;
 mod circolare_refusals;
 mod circolare_site;
+mod circolare_target;
 mod circolare_ties;
 mod circolare_warnings;
 mod codes;

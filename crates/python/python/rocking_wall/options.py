@@ -36,6 +36,7 @@ class Check(TypedDict, total=False):
     - method: What decides: displacement, q, or runs under records; default "nonlinear".
     - overburden_mass: Share r of the overburden whose mass moves with a parapet (-), at least 0.
     - polarities: Signs with which each record acts; default "both".
+    - raise_slc: Whether SLD raises SLC, too, by analogy with SLV (C8.7.1.2.1.8); default False.
     - record_range: Periods between which records are held against the spectrum [s].
     - record_scale: What records become in the dynamic check: their peaks a_g S, as they are, or scaled to the
       spectrum of the ground; default "ag".
@@ -44,6 +45,8 @@ class Check(TypedDict, total=False):
     - site: The site on a grid of the hazard, for limit states without ag.
     - soil: Soil of NTC 3.2.2.
     - stress_block: κ of the rectangular stress block (-), above 0, at most 1; default 0.85.
+    - target: ζ_E from which on a check passes (-): below 1 for an improvement (NTC 8.4.2, 8.4.3), above 0, at
+      most 1; default 1.
     - tie: The tie in the check.
     - topography: Topography of NTC 3.2.2, or S_T (-); default "T1".
     - use_class: Use class of NTC 2.4.2; in class IV SLD decides too.
@@ -69,6 +72,7 @@ class Check(TypedDict, total=False):
     method: Literal["nonlinear", "linear", "dynamic"]
     overburden_mass: float
     polarities: Literal["both", "as_recorded"]
+    raise_slc: bool
     record_range: Sequence[float]
     record_scale: Literal["ag", "none", "spectrum"]
     records: Records
@@ -76,6 +80,7 @@ class Check(TypedDict, total=False):
     site: Site
     soil: Literal["A", "B", "C", "D", "E"]
     stress_block: float
+    target: float
     tie: Tie
     topography: Literal["T1", "T2", "T3", "T4"] | float
     use_class: Literal["I", "II", "III", "IV"]

@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     /// With --find: write capacity over demand over the parameter as a chart (SVG)
     #[arg(long, value_name = "FILE", requires = "find", value_parser = svg_file())]
     plot: Option<PathBuf>,
+    /// Ratio from which on a check passes, in place of target of [check], such as 0.6
+    #[arg(long, value_name = "RATIO")]
+    target: Option<f64>,
     /// Write the rows as CSV: one for each check, or for each wall of a file of walls, the worst first
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -53,6 +56,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let (name, text) = (path.display().to_string(), Scene::text(path)?);
     let (of_check, of_wall): (Vec<String>, Vec<String>) =
         arguments.scene.set.iter().cloned().partition(|set| set.trim_start().starts_with("check."));
+    let of_check =
+        of_check.into_iter().chain(arguments.target.map(|target| format!("check.target={target}")));
+    let of_check: Vec<_> = of_check.collect();
     let extended = with_assignments(&text, &of_check).map_err(|message| anyhow!("--set {message}"))?;
     let file = CheckFile::parse_with(&name, &extended, text.len())?;
     let code = || read(&file).map_err(|error| file.located(error));

@@ -349,7 +349,7 @@ fn hinges_have_their_own_section() {
             "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3.4\nthickness = 0.4\ndensity = 1900\n\
              overburden = 60e3\noverburden_eccentricity = 0.05\n{ratio}\n[force_law]\na1 = 0.03\n\
              [check]\ncode = \"circolare-2019\"\nhinge = {hinge:?}\nbefore_activation = \"law\"\n\
-             soil = \"B\"\nmasonry_strength = 1.5e6\nconfidence_factor = 1.2\n\
+             soil = \"B\"\nraise_slc = true\nmasonry_strength = 1.5e6\nconfidence_factor = 1.2\n\
              building = {{ storeys = 3, period = 0.32, height_ratio = 0.83 }}\n\
              SLD = {{ ag = 0.104, F0 = 2.332, TC = 0.281, building_damping = 0.05 }}\n\
              SLV = {{ ag = 0.261, F0 = 2.364, TC = 0.347, building_damping = 0.1 }}\n\

@@ -46,11 +46,12 @@ fn add_hinge(own: Option<f64>, side: Option<f64>, ledger: &mut Ledger) {
 }
 
 /// Adds the last lines of a check: `a_g` and the result.
-fn add_end(given: &StateStatement, zeta: f64, ag: f64, ledger: &mut Ledger) {
+fn add_end(of: OfCheck<'_>, zeta: f64, ag: f64, ledger: &mut Ledger) {
+    let OfCheck { given, side, .. } = of;
     ledger.know(&[("ζ_E", zeta), ("a_g", given.ag)]);
     let words = say!("Acceleration that it bears", "Accelerazione sopportata");
     ledger.add(Quantity::new("ag", "a_g,cap = ζ_E a_g", Unit::GRAVITY, ag, words));
-    ledger.say(say!("Result", "Esito"), result(zeta >= 1.0));
+    ledger.say(say!("Result", "Esito"), result(zeta >= side.statement.target));
 }
 
 impl ActivationCheck {
@@ -87,7 +88,7 @@ impl ActivationCheck {
         ledger.add(
             Quantity::new("ratio", "ζ_E", Unit::NONE, self.ratio, words).at("NTC 8.3").with_numbers(put),
         );
-        add_end(given, self.ratio, self.ag, ledger);
+        add_end(of, self.ratio, self.ag, ledger);
         ledger.begin(key, "required");
         self.add_required(check, of, q, ledger);
     }
@@ -120,14 +121,18 @@ impl ActivationCheck {
         ledger.add(Quantity::new("demand", equation, Unit::ACCELERATION, self.demand, words).at(clause));
     }
 
-    /// Adds the strength that brings `ζ_E` to 1.
+    /// Adds the strength that brings `ζ_E` to the target.
     fn add_required(&self, check: Deciding, of: OfCheck<'_>, q: f64, ledger: &mut Ledger) {
         let OfCheck { curve, is_tied, .. } = of;
         let demand = if q == 1.0 { "S_a" } else { "S_a/q" };
-        let own = curve.own_symbol();
-        let equation = format!("N = max[0; (FC {demand} − {own}) (W + 2 r O) e*/(g 2 y/h)]");
-        let words = say!("Required force for ζ_E = 1, {check}", "Tiro richiesto per ζ_E = 1, {check}", check);
-        ledger.know(&[("S_a", self.demand)]);
+        let (own, target) = (curve.own_symbol(), of.side.statement.target);
+        let factor = if target == 1.0 { "" } else { "ζ_t " };
+        let equation = format!("N = max[0; ({factor}FC {demand} − {own}) (W + 2 r O) e*/(g 2 y/h)]");
+        let words = say! {
+            "Required force for ζ_E = {target}, {check}",
+            "Tiro richiesto per ζ_E = {target}, {check}", target, check
+        };
+        ledger.know(&[("S_a", self.demand), ("ζ_t", target)]);
         let force = Quantity::new("tie_required", equation, Unit::KILONEWTONS, self.required, words);
         // a tie that does not count here changes the period, and with it the demand
         ledger.add(if is_tied || curve.t0 == 0.0 { force } else { force.with_numbers("") });
@@ -185,7 +190,7 @@ impl DisplacementCheck {
             let equation = format!("ζ_E = d_{state}/S_d");
             Quantity::new("zeta_E", equation, Unit::NONE, self.zeta, words).at("NTC 8.3").with_numbers("")
         });
-        add_end(given, self.zeta, self.ag, ledger);
+        add_end(of, self.zeta, self.ag, ledger);
         ledger.fact("limited_by_tie", self.limited_by_tie);
         ledger.fact("raised_to_SLD", self.raised);
         self.tie.iter().for_each(|tie| tie.add_to(curve.anchors, ledger));

@@ -7,7 +7,7 @@ mod spectrum;
 use report::apart;
 
 use super::curve::case::Case;
-use super::curve::tie::TieAtLimit;
+use super::curve::tie::{TieAtLimit, TieState};
 use super::curve::{Curve, TieBreak};
 use super::statement::states::StateStatement;
 use super::statement::table::{AtActivation, Hinge, Method};
@@ -98,10 +98,9 @@ impl Checks {
             .transpose()?;
         let floor = sld.map(|sld| sld.ag);
         let by_displacement = |state: LimitState, is_wanted: bool| {
-            let rules = statement.rules(state);
             of(state)
                 .filter(|_| is_wanted)
-                .map(|(given, demand)| displacement(curve, given, demand, rules, floor))
+                .map(|(given, demand)| displacement(curve, statement, given, demand, floor))
                 .transpose()
         };
         let slv = by_displacement(LimitState::Slv, wants_slv)?;
@@ -171,7 +170,7 @@ pub struct ActivationCheck {
     pub ratio: f64,
     /// `a_g` that just brings the wall there \[g\].
     pub ag: f64,
-    /// Strength of the tie at which `ζ_E` is 1; `None` without a tie, and for one with slack \[N\].
+    /// Strength of the tie at which `ζ_E` is the target; `None` without a tie, and for one with slack \[N\].
     pub required: Option<f64>,
     /// a of the activation, without FC and q \[m/s²\].
     pub acceleration: f64,
@@ -224,10 +223,10 @@ fn activation(
     let AtActivationNumbers { acceleration, t0, .. } = at_activation(curve, statement)?;
     let capacity = factor * acceleration / statement.confidence_factor;
     let required = match curve.tie() {
-        // N = max(0, [FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
+        // N = max(0, [ζ FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
         Some(tie) if tie.slack == 0.0 => {
             let demand = demand.acceleration(given.state, curve.tied_period(), xi)?;
-            let lacking = statement.confidence_factor * demand / factor - own;
+            let lacking = statement.target * statement.confidence_factor * demand / factor - own;
             Some((lacking / curve.of_force(tie.lever)).max(0.0))
         }
         _ => None,
@@ -309,15 +308,23 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
     })
 }
 
+/// Whether the acceleration of activation at SLD is the least one of a limit state, C8.7.1.2.1.8: always of
+/// SLV; of SLC where that is stated, and not by a tie that SLD counts and that is broken at `d_SLC`.
+fn is_raised(statement: &Statement, state: LimitState, tie: Option<TieAtLimit>) -> bool {
+    let counts = statement.at_activation() == AtActivation::Yield;
+    let is_broken = counts && tie.is_some_and(|tie| tie.state == TieState::Broken);
+    state == LimitState::Slv || statement.table.raise_slc && !is_broken
+}
+
 fn displacement(
     curve: &Curve,
+    statement: &Statement,
     given: &StateStatement,
     demand: &Demand,
-    rules: Displacements,
     floor: Option<f64>,
 ) -> Result<DisplacementCheck, CheckError> {
     let state = given.state;
-    let Displacements { fraction, period_factor } = rules;
+    let Displacements { fraction, period_factor } = statement.rules(state);
     let (u, limited_by_tie) = limit(curve, given, fraction)?;
     let (d, a) = (curve.d_per_u * u, curve.tied(u));
     if a <= 0.0 {
@@ -335,11 +342,11 @@ fn displacement(
     let t0 = curve.tied_period().min(period);
     let (acceleration, demand, demand_terms) = demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
-    let least = floor.unwrap_or(0.0);
+    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
+    let least = floor.filter(|_| is_raised(statement, state, tie)).unwrap_or(0.0);
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
-    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
     Ok(DisplacementCheck {
         hinge: curve.hinge,
         d,

@@ -336,7 +336,7 @@ fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
             parameter,
             value,
             zeta: zeta.filter(|zeta| zeta.is_finite()),
-            passed: zeta.map(|zeta| zeta >= 1.0),
+            passed: zeta.map(|zeta| zeta >= statement.target),
             slv: checks.and_then(|checks| Some(checks.slv?.zeta)),
             slc: checks.and_then(|checks| Some(checks.slc?.zeta)),
             zetas: checks.map_or([f64::NAN; 4], |checks| checks.zetas()),

@@ -52,7 +52,7 @@ impl Statement {
         let sides = SideVerdicts::new(&case)?;
         let dynamic = dynamic::check(subject.parameters, &case, &sides)?;
         let governs = governing(self, &sides, dynamic.as_ref())?;
-        let passed = governs.zeta >= 1.0
+        let passed = governs.zeta >= self.target
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
         // the wall as it is drawn: with the hinge of the side that governs
         let mut parameters = case.parameters.clone();
@@ -61,7 +61,9 @@ impl Statement {
         let wall = drawn(&parameters)?;
         let demands = case.demands_at(wall.body())?;
         let (alike, rule, floors) = (case.alike, case.rule, subject.floors);
-        let outcome = Outcome { code: NAME, passed, governs, alike, sides, dynamic, warnings: Vec::new() };
+        let target = self.target;
+        let outcome =
+            Outcome { code: NAME, passed, target, governs, alike, sides, dynamic, warnings: Vec::new() };
         let mut checked = Checked { statement: self, parameters, floors, wall, rule, demands, outcome };
         checked.outcome.warnings = warnings::all(&case, &checked, subject.parameters);
         Ok(checked)

@@ -55,6 +55,9 @@ pub struct Outcome {
     pub code: &'static str,
     /// Whether every limit state that decides holds on every side.
     pub passed: bool,
+    /// `ζ_E` from which on a limit state holds, where it is not 1 \[-\].
+    #[serde(skip_serializing_if = "is_one")]
+    pub target: f64,
     /// What governs: the smallest `ζ_E` of those that decide.
     pub governs: Governs,
     /// Whether both sides are alike.
@@ -68,6 +71,11 @@ pub struct Outcome {
     pub dynamic: Option<DynamicCheck>,
     /// What the engineer should know; none of it stops the check.
     pub warnings: Vec<Sentence>,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_one(target: &f64) -> bool {
+    *target == 1.0
 }
 
 /// What governs a verdict.

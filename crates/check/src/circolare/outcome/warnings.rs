@@ -158,7 +158,8 @@ fn of_rules(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict, found: Leas
     let own = verdict.checks.governing(case.statement).1;
     let [least, lowest] = [found.zeta, found.worst].map(|zeta| zeta.unwrap_or(f64::INFINITY));
     let place = fixed(found.worst_hinge.unwrap_or(f64::NAN), 4);
-    let turns = (lowest >= 1.0) != (own >= 1.0);
+    let passes = |zeta: f64| zeta >= case.statement.target;
+    let turns = passes(lowest) != passes(own);
     match case.rule? {
         Hinge::Given if turns || lowest < own * (1.0 - LOWER) => Some(say! {
             "{side}: the hinge is given at {given}; at {place} {check} has zeta_E = {zeta}, {result}; state \
@@ -166,14 +167,14 @@ fn of_rules(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict, found: Leas
             "{side}: la cerniera è fornita a {given}; a {place} {check} ha ζ_E = {zeta}, {result}; \
              dichiarare hinge = \"worst\"",
             side, given = case.parameters.hinge_ratio, place, check = found.worst_check?,
-            zeta = fixed(lowest, 3), result = passed(lowest >= 1.0)
+            zeta = fixed(lowest, 3), result = passed(passes(lowest))
         }),
-        Hinge::Worst | Hinge::LeastAlpha0 if (lowest >= 1.0) != (least >= 1.0) => Some(say! {
+        Hinge::Worst | Hinge::LeastAlpha0 if passes(lowest) != passes(least) => Some(say! {
             "{side}: the hinge turns the verdict: {lowest}, {one}, at the least favourable hinge {place}; \
              {least}, {other}, at that of the least alpha0, {hinge}",
             "{side}: la cerniera cambia l'esito: {lowest}, {one}, con la cerniera più sfavorevole {place}; \
              {least}, {other}, con quella del minimo α0, {hinge}",
-            side, one = passed(lowest >= 1.0), other = passed(least >= 1.0), lowest = fixed(lowest, 3),
+            side, one = passed(passes(lowest)), other = passed(passes(least)), lowest = fixed(lowest, 3),
             least = fixed(least, 3), place, hinge = fixed(found.hinge, 4)
         }),
         _ => None,
@@ -281,36 +282,33 @@ fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<
 /// What a verdict owes to the raise by SLD, or lacks without it.
 fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> Vec<Sentence> {
     let (mut warnings, statement) = (Vec::new(), case.statement);
-    let decides = statement.table.method != Method::Linear;
+    let (decides, target) = (statement.table.method != Method::Linear, statement.target);
     for (side, verdict) in sides.iter() {
         let side = case.told(side);
-        for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < 1.0) {
+        for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < target) {
             let [ratio, zeta] = [found.ratio, found.zeta].map(|value| fixed(value, 3));
-            if statement.state(LimitState::Sld).is_none() {
+            let is_broken =
+                verdict.activation.force > 0.0 && found.tie.is_some_and(|tie| tie.state == TieState::Broken);
+            if statement.state(LimitState::Sld).is_none() && state == LimitState::Slv {
                 warnings.push(say! {
                     "{side}: {state} by displacement is {ratio}; without [check.SLD] no a_g of activation \
                      raises it (C8.7.1.2.1.8)",
                     "{side}: {state} in spostamento vale {ratio}; senza [check.SLD] nessuna a_g di \
                      attivazione lo innalza (C8.7.1.2.1.8)", side, state, ratio
                 });
-            } else if state == LimitState::Slc && decides && found.raised && found.zeta < 1.0 {
-                let is_tied = verdict.activation.force > 0.0;
-                let is_broken = found.tie.is_some_and(|tie| tie.state == TieState::Broken);
-                let tie = if is_tied && is_broken {
-                    say! {
-                        "; SLD counts the tie, which is broken at d_SLC",
-                        "; lo SLD considera la catena, che a d_SLC è rotta"
-                    }
-                } else {
-                    Sentence::default()
-                };
+            } else if state == LimitState::Slc && decides && found.raised && found.zeta < target {
                 warnings.push(say! {
                     "{side}: SLC by displacement has zeta_E = {ratio}; {zeta} is by analogy with \
-                     C8.7.1.2.1.8, which has the raise for SLV only{tie}",
+                     C8.7.1.2.1.8, which has the raise for SLV only",
                     "{side}: lo SLC ha ζ_E = {ratio} in spostamento; {zeta} è per analogia con C8.7.1.2.1.8, \
-                     che lo prevede per il solo SLV{tie}", side, ratio, zeta, tie
+                     che lo prevede per il solo SLV", side, ratio, zeta
                 });
-            } else if passes && decides && found.zeta >= 1.0 {
+            } else if state == LimitState::Slc && statement.table.raise_slc && is_broken {
+                warnings.push(say! {
+                    "{side}: SLD does not raise SLC: it counts the tie, which is broken at d_SLC",
+                    "{side}: lo SLD non innalza lo SLC: considera la catena, che a d_SLC è rotta", side
+                });
+            } else if passes && decides && found.zeta >= target {
                 let only = if state == LimitState::Slc {
                     say!("; the text has the raise for SLV only", "; la norma lo prevede per il solo SLV")
                 } else {
@@ -321,6 +319,15 @@ fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> Vec<Senten
                      to {zeta}{only}",
                     "{side}: lo SLD cambia l'esito di {state}: {ratio} in spostamento, portato a \
                      {zeta}{only}", side, state, ratio, zeta, only
+                });
+            }
+            if state == LimitState::Slv && found.raised && is_broken {
+                warnings.push(say! {
+                    "{side}: SLV has {zeta} by SLD, which counts the tie; at d_SLV the tie is broken. The \
+                     letter of C8.7.1.2.1.8 admits it; by displacement it is {ratio}",
+                    "{side}: lo SLV vale {zeta} per lo SLD, che considera la catena; a d_SLV la catena è \
+                     rotta. La lettera di C8.7.1.2.1.8 lo ammette; in spostamento vale {ratio}",
+                    side, zeta, ratio
                 });
             }
         }
@@ -350,17 +357,17 @@ fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sentence> {
         return Vec::new();
     }
     let mut warnings = Vec::new();
+    let passes = |zeta: f64| zeta >= statement.target;
     for (name, side) in sides.iter() {
         for (index, varied) in side.sensitivity.iter().enumerate() {
             let (own, zetas) = (side.checks.zetas(), varied.zetas);
-            let is_turned = |at: &usize| {
-                statement.decides(Deciding::ALL[*at]) && (own[*at] >= 1.0) != (zetas[*at] >= 1.0)
-            };
-            let passes = side.checks.governing(statement).1 >= 1.0;
-            let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!passes)) else {
+            let is_turned =
+                |at: &usize| statement.decides(Deciding::ALL[*at]) && passes(own[*at]) != passes(zetas[*at]);
+            let holds = passes(side.checks.governing(statement).1);
+            let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!holds)) else {
                 continue;
             };
-            let before = sides.iter().all(|(_, side)| side.checks.governing(statement).1 >= 1.0);
+            let before = sides.iter().all(|(_, side)| passes(side.checks.governing(statement).1));
             let after = sides.iter().all(|(_, side)| side.sensitivity[index].passed == Some(true));
             let what = if before == after {
                 say! {
@@ -375,7 +382,7 @@ fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sentence> {
                 "{side}: {parameter} {what}: con {assigned} lo {check} passa da {from} a {to}, {result}",
                 side = case.told(name), parameter = varied.parameter, what,
                 assigned = varied.assigned(), check = Deciding::ALL[at], from = fixed(own[at], 3),
-                to = fixed(zetas[at], 3), result = passed(!passes)
+                to = fixed(zetas[at], 3), result = passed(!holds)
             });
         }
     }

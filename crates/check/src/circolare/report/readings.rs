@@ -29,8 +29,8 @@ fn is_by_code(case: &Checked<'_>) -> bool {
 #[allow(clippy::too_many_lines, reason = "texts in two languages, one below the other")]
 pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<Sentence> {
     let at_height = is_at_height(case);
-    let raises =
-        case.outcome.sides.iter().any(|(_, side)| side.checks.sld.is_some() && side.checks.slc.is_some());
+    let raises = case.statement.table.raise_slc
+        && case.outcome.sides.iter().any(|(_, side)| side.checks.sld.is_some() && side.checks.slc.is_some());
     let has_modes =
         any_demand(case, |demand| matches!(demand, Demand::Floor(floor) if floor.modes().len() > 1));
     let is_given = any_demand(case, |demand| matches!(demand, Demand::Points(..) | Demand::Records(_)));

@@ -22,6 +22,9 @@ use crate::words::{
     Language, Sentence, Written, apart, at_most, fixed, joined, passed, say, side as told_side,
 };
 
+/// The least `ζ_E` of a retrofit (adeguamento), NTC 8.4.3 c) and e) \[-\].
+const LEAST_OF_RETROFITS: f64 = 0.80;
+
 impl<'a> Checked<'a> {
     /// The verdict.
     pub(crate) fn verdict(self, code: Entry) -> Verdict<'a> {
@@ -32,6 +35,7 @@ impl<'a> Checked<'a> {
             governs: governs.limit_state.name(),
             side: self.which(governs.side),
             zeta: governs.zeta,
+            target: self.statement.target,
             raise: self.raise(),
             rows: self.rows(),
             notes: self.notes(),
@@ -43,6 +47,7 @@ impl<'a> Checked<'a> {
     fn rows(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         let method = self.statement.table.method;
+        let target = self.statement.target;
         let class_iv = self.statement.table.use_class == Some(UseClass::IV);
         let site = |state| self.statement.state(state).map_or(f64::NAN, |given| given.ag);
         for (side, verdict) in self.sides() {
@@ -55,6 +60,7 @@ impl<'a> Checked<'a> {
                 let Some(found) = found else { continue };
                 let ends = Ends::Accelerations([found.capacity, found.demand]);
                 rows.push(Row {
+                    passed: found.ratio >= target,
                     decides,
                     ground: Some([found.ag, site(check.state())]),
                     clause,
@@ -62,6 +68,8 @@ impl<'a> Checked<'a> {
                 });
             }
             rows.extend(verdict.by_displacement().map(|(state, found)| Row {
+                passed: found.zeta >= target,
+                ratio: found.ratio,
                 decides: method == Method::Nonlinear,
                 ground: Some([found.ag, site(state)]),
                 displacement: Some(found.d / verdict.curve.d_per_u),
@@ -103,7 +111,7 @@ impl<'a> Checked<'a> {
         for (side, verdict) in sides.iter() {
             for (state, check) in verdict.by_displacement() {
                 let is_told = *passed || (side, state) == (governs.side, governs.limit_state.state());
-                if is_told && check.raised && check.ratio < 1.0 {
+                if is_told && check.raised && check.ratio < self.statement.target {
                     raised.push((check.ratio, state));
                 }
             }
@@ -133,9 +141,9 @@ impl<'a> Checked<'a> {
             },
             say! {
                 "zeta_E is the a_g that just brings the wall to a limit state, over that of the site (NTC \
-                 8.3); a check passes for zeta_E ≥ 1. NTC 8.4.2 has what an improvement needs.",
+                 8.3); a check passes for zeta_E ≥ {against}",
                 "ζ_E è l'a_g che porta la parete allo stato limite, divisa per quella del sito (NTC 8.3). \
-                 L'esito è riferito a ζ_E ≥ 1; per gli interventi di miglioramento si veda NTC 8.4.2."
+                 L'esito è riferito a ζ_E ≥ {against}", against = self.against()
             },
             say! {
                 "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; one resultant per body (C8.7.1.1), e* = 1.",
@@ -175,6 +183,28 @@ impl<'a> Checked<'a> {
             notes.extend(of_runs(state, found));
         }
         notes
+    }
+
+    /// The target, and which intervention it is of, NTC 8.4.
+    fn against(&self) -> Sentence {
+        let target = self.statement.target;
+        let written = fixed(target, 2);
+        if target == 1.0 {
+            say! {
+                "1. NTC 8.4.2 has what an improvement needs.",
+                "1; per gli interventi di miglioramento si veda NTC 8.4.2."
+            }
+        } else if target < LEAST_OF_RETROFITS {
+            say! {
+                "{written}, the target of an improvement (NTC 8.4.2).",
+                "{written}: intervento di miglioramento (NTC 8.4.2).", written
+            }
+        } else {
+            say! {
+                "{written}, the target of an improvement (NTC 8.4.2) or of a retrofit (NTC 8.4.3).",
+                "{written}: intervento di miglioramento (NTC 8.4.2) o di adeguamento (NTC 8.4.3).", written
+            }
+        }
     }
 
     /// What is to be said of a side: its hinge, its tie, what raises it, and what a₁ or E changes.

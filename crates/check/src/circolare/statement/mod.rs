@@ -49,6 +49,8 @@ pub struct Statement {
     pub confidence_factor: f64,
     /// q \[-\].
     pub behaviour_factor: f64,
+    /// `ζ_E` from which on a check passes \[-\].
+    pub target: f64,
     /// SLD, SLV and SLC; `None` for a check that is not made.
     pub states: [Option<StateStatement>; 3],
     /// Rules of SLV and SLC by displacement.
@@ -139,11 +141,13 @@ impl Statement {
             return refused("record_range", message);
         }
         let behaviour_factor = table.behaviour_factor.unwrap_or(2.0);
+        let target = table.target.unwrap_or(1.0);
         let (records, displacements) = (Records::default(), Displacements::OF_CODE);
         Ok(Self {
             table,
             confidence_factor,
             behaviour_factor,
+            target,
             states,
             displacements,
             records,

@@ -76,6 +76,13 @@ tables! {
         #[serde(default)]
         #[key(default = "nonlinear")]
         pub method: Method,
+        /// `ζ_E` from which on a check passes (-): below 1 for an improvement (NTC 8.4.2, 8.4.3).
+        #[key(exclusiveMinimum = 0, maximum = 1, default = 1)]
+        pub target: Option<f64>,
+        /// Whether SLD raises SLC, too, by analogy with SLV (C8.7.1.2.1.8).
+        #[serde(default)]
+        #[key(default = false)]
+        pub raise_slc: bool,
         /// The site on a grid of the hazard, for limit states without `ag`.
         pub site: Option<SiteTable>,
         /// Limit state of damage.
