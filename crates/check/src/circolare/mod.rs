@@ -34,7 +34,7 @@ use crate::error::CheckError;
 use crate::file::site::{Level, Records};
 use crate::words::entry::Entry;
 use crate::words::names::{Deciding, LimitState};
-use crate::words::say;
+use crate::words::{Sentence, say};
 
 pub use crate::ntc::demand::{Demand, MEAN_COUNTS_FROM};
 pub use crate::ntc::floor::{FloorSpectrum, Mode};
@@ -112,8 +112,12 @@ impl InStudies for Statement {
         self.with_bar(parameters)
     }
 
-    fn blocks(&self, subject: Subject<'_>, check: &str, sought: Sought) -> Option<String> {
+    fn blocks(&self, subject: Subject<'_>, check: &str, sought: Sought) -> Option<Sentence> {
         blocks::reason(self, subject, check, sought)
+    }
+
+    fn target(&self) -> f64 {
+        self.target
     }
 
     fn takes_runs(&self) -> bool {
@@ -129,7 +133,7 @@ impl InStudies for Statement {
     }
 
     fn states_building(&self) -> bool {
-        self.table.building.is_some()
+        self.building().is_some()
     }
 
     fn level(&self, subject: Subject<'_>, state: &str) -> Result<Option<Level>, CheckError> {

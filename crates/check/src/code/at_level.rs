@@ -58,6 +58,6 @@ pub fn at_level(
     let mut scene = scene.clone();
     scene.parameters = code.prepared(&scene.parameters)?;
     scene.floors = floors;
-    let warnings = records.warnings.iter().cloned().chain(warnings).collect();
+    let warnings = records.warnings.iter().map(ToString::to_string).chain(warnings).collect();
     Ok(AtLevel { scene, motions, factors, both_signs, warnings })
 }

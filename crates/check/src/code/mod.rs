@@ -31,6 +31,7 @@ use rocking_wall::wall::Parameters;
 use crate::code::sought::Sought;
 use crate::error::CheckError;
 use crate::file::site::{Level, Records};
+use crate::words::Sentence;
 use crate::words::entry::Entry;
 use verdict::Verdict;
 
@@ -62,8 +63,13 @@ pub trait InStudies {
 
     /// Says why a check does not pass a wall, whose value of what is sought is the last of its range; `None`
     /// where there is nothing to say.
-    fn blocks(&self, _subject: Subject<'_>, _check: &str, _sought: Sought) -> Option<String> {
+    fn blocks(&self, _subject: Subject<'_>, _check: &str, _sought: Sought) -> Option<Sentence> {
         None
+    }
+
+    /// The ratio from which on a check passes \[-\].
+    fn target(&self) -> f64 {
+        1.0
     }
 
     /// Whether a verdict takes runs under records: a search then tries fewer values.

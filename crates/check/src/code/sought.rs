@@ -4,6 +4,9 @@ use rocking_wall::wall::Parameters;
 
 use crate::error::CheckError;
 
+/// Force of a tie over W + O above which it is large \[-\].
+pub(crate) const LARGE: f64 = 0.5;
+
 /// What is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sought {

@@ -15,6 +15,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use crate::error::CheckError;
+use crate::words::Sentence;
 use project::ReportTable;
 use project::SiteOfProject;
 use site::Records;
@@ -270,6 +271,7 @@ impl<'a> CheckFile<'a> {
             files = found.into_iter().map(|file| file.path).collect();
         }
         warnings.extend(copies(&named));
+        let warnings = warnings.into_iter().map(Sentence::same).collect();
         Ok(Records { named, files, warnings })
     }
 

@@ -9,6 +9,7 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 
 use crate::error::CheckError;
+use crate::words::Sentence;
 
 /// The records of a check: motions of the ground at the site.
 #[derive(Clone, Debug, Default)]
@@ -17,8 +18,8 @@ pub struct Records {
     pub named: Vec<NamedRecord>,
     /// Files that they were read from.
     pub files: Vec<PathBuf>,
-    /// Warnings of a quick check of the records.
-    pub warnings: Vec<String>,
+    /// Warnings of a quick check of the records and of a grid of the hazard.
+    pub warnings: Vec<Sentence>,
 }
 
 /// The level of shaking of a limit state.

@@ -1,10 +1,8 @@
 //! The smallest thickness or tie, or the largest height, with which a wall passes each of its checks.
 
 mod figure;
+mod text;
 
-use std::fmt::Write;
-
-use report::number;
 use rocking_wall::wall::Parameters;
 use run::bisection::first_true;
 use run::parallel;
@@ -15,6 +13,7 @@ use crate::code::sought::{Sought, load};
 use crate::code::verdict::Verdict;
 use crate::code::{Code, Subject};
 use crate::error::CheckError;
+use crate::words::Sentence;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 241;
@@ -22,8 +21,6 @@ const TRIED: u32 = 241;
 const TRIED_UNDER_RECORDS: u32 = 31;
 /// Halvings of the step in which the wall begins to pass: the value is then known to 1e-9 of it.
 const HALVINGS: u32 = 30;
-/// Force of a tie over W + O above which it is said to be large \[-\].
-const LARGE: f64 = 0.5;
 
 /// What was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,14 +29,20 @@ pub struct Found {
     pub sought: Sought,
     /// The value from which on the wall passes every check that decides; `None` if there is none.
     pub value: Option<f64>,
+    /// The same without the rules of the code that replace the ratio of a check by a larger one.
+    pub value_without_raise: Option<f64>,
     /// The range that was searched.
     pub range: [f64; 2],
     /// Each check, in the order of the verdict.
     pub checks: Vec<FoundCheck>,
     /// Force of the tie at the value over W + O \[-\].
     pub force_ratio: Option<f64>,
+    /// What is to be said of the checks that pass at the value only by such a rule.
+    remarks: Vec<Sentence>,
     /// Symbol of capacity over demand.
     symbol: &'static str,
+    /// The ratio from which on a check passes \[-\].
+    target: f64,
 }
 
 /// What was found for one check.
@@ -47,17 +50,25 @@ pub struct Found {
 pub struct FoundCheck {
     /// Its name.
     pub check: &'static str,
+    /// The same for people.
+    #[serde(skip)]
+    title: Sentence,
     /// Whether it decides.
     pub decides: bool,
     /// The value from which on the wall passes it, up to the end of the range (a height: down to its start).
     pub value: Option<f64>,
+    /// The same without the rules of the code that replace its ratio by a larger one.
+    pub value_without_raise: Option<f64>,
+    /// Whether such a rule replaces it anywhere in the range.
+    #[serde(skip)]
+    can_be_raised: bool,
     /// Whether the wall passes it all over the range.
     #[serde(rename = "passes_everywhere")]
     pub everywhere: bool,
     /// Intervals of values that pass, apart from that one.
     pub intervals: Vec<[f64; 2]>,
     /// Why there is no value, where that can be said.
-    pub reason: Option<String>,
+    pub reason: Option<Sentence>,
     /// (value, capacity over demand) over the range; NaN where the wall or its check is impossible.
     pub curve: Vec<(f64, f64)>,
 }
@@ -68,48 +79,13 @@ impl Found {
         self.checks.iter().filter(|check| check.decides).all(|check| check.everywhere)
     }
 
-    /// What was found, in lines.
-    pub fn text(&self) -> String {
-        let (name, unit) = (self.sought.name(), self.sought.unit());
-        let [from, to] = self.range.map(|end| number(end, 5));
-        let is_height = self.sought == Sought::Height;
-        let extreme = if is_height { "largest" } else { "smallest" };
-        let mut text = match self.value {
-            None => format!("no {name} from {from} to {to} {unit} passes\n"),
-            Some(_) if self.everywhere() => format!("every {name} from {from} to {to} {unit} passes\n"),
-            Some(value) => format!("{extreme} {name} that passes: {value:.6} {unit}\n"),
-        };
-        for found in &self.checks {
-            let FoundCheck { check, decides, value, .. } = found;
-            let informs = if *decides { "" } else { " (for information)" };
-            let end = if is_height { "up to" } else { "from" };
-            let line = match value {
-                Some(_) if found.everywhere => format!("  {check}{informs}: every value\n"),
-                Some(value) => format!("  {check}{informs}: {end} {} {unit}\n", number(*value, 6)),
-                None => {
-                    let reason = found.reason.as_deref().map_or_else(String::new, |why| format!("; {why}"));
-                    format!("  {check}{informs}: none{reason}\n")
-                }
-            };
-            text.push_str(&line);
-            for [low, high] in &found.intervals {
-                let [low, high] = [low, high].map(|end| number(*end, 5));
-                let _ = writeln!(text, "    passes from {low} to {high} {unit}, too, and fails beyond");
-            }
-        }
-        if let Some(ratio) = self.force_ratio {
-            let _ = write!(text, "  the tie has {} of W + O", number(ratio, 3));
-            text += if ratio > LARGE { ": a large force for an anchor in masonry\n" } else { "\n" };
-        }
-        text
-    }
-
     /// What was found, by names.
     pub fn json(&self) -> Value {
-        let Self { sought, value, range, checks, force_ratio, symbol: _ } = self;
+        let Self { sought, value, value_without_raise, range, checks, force_ratio, .. } = self;
         json!({
             "parameter": sought.name(),
             "value": value,
+            "value_without_raise": value_without_raise,
             "range": range,
             "checks": checks,
             "force_over_load": force_ratio,
@@ -118,8 +94,20 @@ impl Found {
     }
 }
 
-/// Name, capacity over demand, whether it passes, and whether it decides.
-type Outcome = (&'static str, f64, bool, bool);
+/// A check at a value that was tried: the least capacity over demand of all sides.
+#[derive(Clone)]
+#[allow(clippy::struct_excessive_bools, reason = "what a row says, and no state")]
+struct Outcome {
+    check: &'static str,
+    title: Sentence,
+    zeta: f64,
+    passed: bool,
+    /// Whether it passes without a rule that replaces its ratio.
+    passes_itself: bool,
+    /// Whether such a rule replaces it.
+    raised: bool,
+    decides: bool,
+}
 
 /// Finds the smallest value, or the largest height, from which on a wall passes each of its checks. Counts
 /// each value that was tried as [done](parallel::count_done).
@@ -146,60 +134,113 @@ type Outcome = (&'static str, f64, bool, bool);
 /// [`CheckError`] of the wall as it is, so that a statement that is missing is named; and of a tie that is
 /// sought for a wall without one.
 pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Found, CheckError> {
-    let Subject { floors, assumed, .. } = subject;
     let parameters = &code.prepared(subject.parameters)?;
     check_tie(parameters, sought)?;
     let deciding = code.deciding();
-    let code = deciding.as_deref().unwrap_or(code);
-    let tried = if code.takes_runs() { TRIED_UNDER_RECORDS } else { TRIED };
-    let with = |value: f64| -> Result<Vec<Outcome>, CheckError> {
-        let parameters = sought.applied(parameters, value)?;
-        Ok(outcomes(&code.check(Subject { parameters: &parameters, floors, assumed })?))
-    };
-    let range = sought.range(parameters);
-    let at = |index: u32| match index {
-        0 => range[0],
-        _ if index == tried - 1 => range[1],
-        _ => range[0] * libm::pow(range[1] / range[0], f64::from(index) / f64::from(tried - 1)),
-    };
-    let mut tries = Vec::new();
-    for index in 0..tried {
-        tries.push((at(index), with(at(index))));
-        parallel::count_done(tried as usize);
-    }
-    let mut checks: Vec<(&'static str, bool)> = Vec::new();
-    for (check, .., decides) in tries.iter().filter_map(|(_, tried)| tried.as_ref().ok()).flatten() {
-        if !checks.iter().any(|(name, _)| name == check) {
-            checks.push((*check, *decides));
+    let search = Search { code: deciding.as_deref().unwrap_or(code), subject, parameters, sought };
+    let tries = search.tries();
+    let mut checks: Vec<Outcome> = Vec::new();
+    for one in tries.iter().filter_map(|(_, tried)| tried.as_ref().ok()).flatten() {
+        match checks.iter_mut().find(|own| own.check == one.check) {
+            Some(own) => own.raised |= one.raised,
+            None => checks.push(one.clone()),
         }
     }
     if checks.is_empty() {
         // whatever is wrong is wrong with the wall as it is
-        code.check(Subject { parameters, floors, assumed })?;
+        search.check(parameters, |_| ())?;
     }
-    // of heights the largest is sought: the end that passes is the first
-    if sought == Sought::Height {
-        tries.reverse();
-    }
-    let mut found = Vec::new();
-    for (check, decides) in checks {
-        let passes = |value: f64| Ok(with(value).is_ok_and(|all| of(&all, check).is_some_and(|one| one.2)));
-        found.push(one_check(&tries, check, decides, passes)?);
-    }
-    let (best, _) = &tries[tries.len() - 1];
-    let last = sought.applied(parameters, *best)?;
-    let last = Subject { parameters: &last, floors, assumed };
-    for one in found.iter_mut().filter(|one| one.value.is_none()) {
-        one.reason = code.blocks(last, one.check, sought);
-    }
-    let values = || found.iter().filter(|one| one.decides).map(|one| one.value);
-    let all = values().all(|value| value.is_some()) && values().next().is_some();
+    let found = checks.iter().map(|one| search.one(&tries, one)).collect::<Result<Vec<_>, _>>()?;
     let extreme = if sought == Sought::Height { f64::min } else { f64::max };
-    let value = values().flatten().reduce(extreme).filter(|_| all);
+    let of_all = |bound: fn(&FoundCheck) -> Option<f64>| {
+        let values: Option<Vec<f64>> = found.iter().filter(|one| one.decides).map(bound).collect();
+        values.and_then(|values| values.into_iter().reduce(extreme))
+    };
+    let value = of_all(|one| one.value);
+    let value_without_raise = of_all(|one| one.value_without_raise);
     let strength = value.filter(|_| sought.is_of_tie() && sought != Sought::TieStiffness);
     let strength = strength.map(|value| sought.applied(parameters, value)).transpose()?;
-    let force_ratio = strength.map(|tied| tied.tie_strength / load(&tied));
-    Ok(Found { sought, value, range, checks: found, force_ratio, symbol: code.entry().symbol })
+    let raised = value.filter(|_| value != value_without_raise);
+    Ok(Found {
+        sought,
+        value,
+        value_without_raise,
+        range: sought.range(parameters),
+        checks: found,
+        force_ratio: strength.map(|tied| tied.tie_strength / load(&tied)),
+        remarks: raised.map(|value| search.remarks(value)).transpose()?.unwrap_or_default(),
+        symbol: code.entry().symbol,
+        target: code.target(),
+    })
+}
+
+/// A search: a wall and what varies of it.
+struct Search<'a> {
+    code: &'a dyn Code,
+    subject: Subject<'a>,
+    /// The wall with the tie of the check.
+    parameters: &'a Parameters,
+    sought: Sought,
+}
+
+impl Search<'_> {
+    /// What a verdict on a wall says.
+    fn check<T>(&self, parameters: &Parameters, of: impl FnOnce(&Verdict<'_>) -> T) -> Result<T, CheckError> {
+        Ok(of(&self.code.check(Subject { parameters, ..self.subject })?))
+    }
+
+    fn outcomes(&self, value: f64) -> Result<Vec<Outcome>, CheckError> {
+        self.check(&self.sought.applied(self.parameters, value)?, outcomes)
+    }
+
+    /// The range in equal ratios, with the checks of each value; the end that may pass is the last.
+    fn tries(&self) -> Vec<Tried> {
+        let tried = if self.code.takes_runs() { TRIED_UNDER_RECORDS } else { TRIED };
+        let range = self.sought.range(self.parameters);
+        let at = |index: u32| match index {
+            0 => range[0],
+            _ if index == tried - 1 => range[1],
+            _ => range[0] * libm::pow(range[1] / range[0], f64::from(index) / f64::from(tried - 1)),
+        };
+        let mut tries = Vec::new();
+        for index in 0..tried {
+            tries.push((at(index), self.outcomes(at(index))));
+            parallel::count_done(tried as usize);
+        }
+        // of heights the largest is sought
+        if self.sought == Sought::Height {
+            tries.reverse();
+        }
+        tries
+    }
+
+    /// Finds the bounds of a check, and why there is none.
+    fn one(&self, tries: &[Tried], check: &Outcome) -> Result<FoundCheck, CheckError> {
+        let bounds = |rule: fn(&Outcome) -> bool| {
+            Bounds::find(tries, check.check, rule, |value| {
+                let outcomes = self.outcomes(value);
+                Ok(outcomes.is_ok_and(|all| of(&all, check.check).is_some_and(rule)))
+            })
+        };
+        let ruled = bounds(|outcome| outcome.passed)?;
+        let itself = if check.raised { bounds(|outcome| outcome.passes_itself)?.value } else { ruled.value };
+        let reason = match (ruled.value, tries.last()) {
+            (None, Some((best, _))) => {
+                let parameters = &self.sought.applied(self.parameters, *best)?;
+                self.code.blocks(Subject { parameters, ..self.subject }, check.check, self.sought)
+            }
+            _ => None,
+        };
+        Ok(FoundCheck { value_without_raise: itself, reason, ..FoundCheck::new(check, tries, ruled) })
+    }
+
+    /// What is to be said of the checks that pass at a value only by a rule that replaces their ratio.
+    fn remarks(&self, value: f64) -> Result<Vec<Sentence>, CheckError> {
+        self.check(&self.sought.applied(self.parameters, value)?, |verdict| {
+            let raised = verdict.rows.iter().filter(|row| row.decides && row.zeta > row.ratio);
+            raised.map(|row| row.remark.clone()).collect()
+        })
+    }
 }
 
 fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> {
@@ -219,53 +260,104 @@ fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> 
     )))
 }
 
-/// The checks of a verdict: the least capacity over demand of all sides.
+/// The checks of a verdict.
 fn outcomes(verdict: &Verdict<'_>) -> Vec<Outcome> {
     let mut all: Vec<Outcome> = Vec::new();
     for row in &verdict.rows {
-        match all.iter_mut().find(|one| one.0 == row.check) {
-            Some(one) => (one.1, one.2) = (one.1.min(row.zeta), one.2 && row.passed),
-            None => all.push((row.check, row.zeta, row.passed, row.decides)),
+        let passes_itself = row.passed && row.ratio >= verdict.target;
+        let raised = row.zeta > row.ratio;
+        match all.iter_mut().find(|one| one.check == row.check) {
+            Some(one) => {
+                one.zeta = one.zeta.min(row.zeta);
+                one.passed &= row.passed;
+                one.passes_itself &= passes_itself;
+                one.raised |= raised;
+            }
+            None => all.push(Outcome {
+                check: row.check,
+                title: row.title.clone(),
+                zeta: row.zeta,
+                passed: row.passed,
+                passes_itself,
+                raised,
+                decides: row.decides,
+            }),
         }
     }
     all
 }
 
 fn of<'a>(all: &'a [Outcome], check: &str) -> Option<&'a Outcome> {
-    all.iter().find(|one| one.0 == check)
+    all.iter().find(|one| one.check == check)
 }
 
-/// Finds from which value on the last tries pass a check, and the other intervals that do.
-fn one_check(
-    tries: &[(f64, Result<Vec<Outcome>, CheckError>)],
-    check: &'static str,
-    decides: bool,
-    mut passes: impl FnMut(f64) -> Result<bool, CheckError>,
-) -> Result<FoundCheck, CheckError> {
-    let one = |index: usize| tries[index].1.as_ref().ok().and_then(|all| of(all, check));
-    let passed: Vec<bool> = (0..tries.len()).map(|index| one(index).is_some_and(|one| one.2)).collect();
-    let zeta = |index: usize| one(index).map_or(f64::NAN, |one| one.1);
-    let mut curve: Vec<_> = (0..tries.len()).map(|index| (tries[index].0, zeta(index))).collect();
-    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut edge =
-        |fails: usize, holds: usize| first_true([tries[fails].0, tries[holds].0], HALVINGS, &mut passes);
-    // tries that pass one after the other
-    let (mut intervals, mut value) = (Vec::new(), None);
-    let mut after = 0;
-    for alike in passed.chunk_by(|a, b| a == b) {
-        let first = after;
-        after += alike.len();
-        if !alike[0] {
-            continue;
+/// A value that was tried, with the checks of its wall.
+type Tried = (f64, Result<Vec<Outcome>, CheckError>);
+
+/// From which value on tries pass, and the other intervals that do.
+struct Bounds {
+    value: Option<f64>,
+    everywhere: bool,
+    intervals: Vec<[f64; 2]>,
+}
+
+impl Bounds {
+    /// Finds from which value on the last tries pass a check.
+    fn find(
+        tries: &[Tried],
+        check: &'static str,
+        rule: impl Fn(&Outcome) -> bool,
+        mut passes: impl FnMut(f64) -> Result<bool, CheckError>,
+    ) -> Result<Self, CheckError> {
+        let one = |tried: &Tried| tried.1.as_ref().ok().and_then(|all| of(all, check)).is_some_and(&rule);
+        let passed: Vec<bool> = tries.iter().map(one).collect();
+        let mut edge =
+            |fails: usize, holds: usize| first_true([tries[fails].0, tries[holds].0], HALVINGS, &mut passes);
+        // tries that pass one after the other
+        let (mut intervals, mut value) = (Vec::new(), None);
+        let mut after = 0;
+        for alike in passed.chunk_by(|a, b| a == b) {
+            let first = after;
+            after += alike.len();
+            if !alike[0] {
+                continue;
+            }
+            let begins = if first == 0 { tries[0].0 } else { edge(first - 1, first)? };
+            if after == passed.len() {
+                value = Some(begins);
+            } else {
+                let ends = edge(after, after - 1)?;
+                intervals.push([begins.min(ends), begins.max(ends)]);
+            }
         }
-        let begins = if first == 0 { tries[0].0 } else { edge(first - 1, first)? };
-        if after == passed.len() {
-            value = Some(begins);
-        } else {
-            let ends = edge(after, after - 1)?;
-            intervals.push([begins.min(ends), begins.max(ends)]);
+        Ok(Self { value, everywhere: passed.iter().all(|passed| *passed), intervals })
+    }
+}
+
+impl FoundCheck {
+    /// Makes what was found for a check.
+    fn new(check: &Outcome, tries: &[Tried], bounds: Bounds) -> Self {
+        let Outcome { check, title, raised, decides, .. } = check.clone();
+        let Bounds { value, everywhere, intervals } = bounds;
+        let zeta = |tried: &Tried| tried.1.as_ref().ok().and_then(|all| of(all, check)).map(|one| one.zeta);
+        let mut curve: Vec<_> = tries.iter().map(|one| (one.0, zeta(one).unwrap_or(f64::NAN))).collect();
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self {
+            check,
+            title,
+            decides,
+            value,
+            value_without_raise: value,
+            can_be_raised: raised,
+            everywhere,
+            intervals,
+            reason: None,
+            curve,
         }
     }
-    let everywhere = passed.iter().all(|passed| *passed);
-    Ok(FoundCheck { check, decides, value, everywhere, intervals, reason: None, curve })
+
+    /// Whether the value rests on a rule that replaces the ratio of the check.
+    pub(super) fn rests_on_raise(&self) -> bool {
+        self.value != self.value_without_raise
+    }
 }

@@ -164,7 +164,9 @@ impl Statement {
         let read = SpectrumFile::read(&path, table.unit, table.column.as_deref())
             .map_err(|error| CheckError::value(&["spectrum"], error.to_string()))?;
         let name = path.display();
-        self.records.warnings.extend(read.warning().map(|warning| format!("{name}: {warning}")));
+        self.records
+            .warnings
+            .extend(read.warning().map(|warning| Sentence::same(format!("{name}: {warning}"))));
         if let Some(stated) = read.damping {
             // a file may round it: 0.9 % for 0.0087
             if let Some(given) = table.damping.filter(|given| (given - stated).abs() > 0.05 * stated) {

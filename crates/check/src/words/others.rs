@@ -19,6 +19,8 @@ pub(crate) fn improbable(warning: &Warning) -> Sentence {
         Some((other, own)) => {
             let other = match *other {
                 "in per cent" => "in percento",
+                "in g/10 or m/s2" => "in g/10 o m/s2",
+                "in g and not in g/10" => "in g e non in g/10",
                 "without its decimal point" => "senza il punto decimale",
                 other => other,
             };
@@ -29,6 +31,8 @@ pub(crate) fn improbable(warning: &Warning) -> Sentence {
     let name = match *name {
         "period of the building" => "il periodo dell'edificio",
         "period of a storey" => "il periodo di un piano",
+        "a_g of the grid at T_R = 475 years" => "a_g del reticolo a T_R = 475 anni",
+        "a_g of the grid at T_R = 30 years" => "a_g del reticolo a T_R = 30 anni",
         name => name,
     };
     Sentence::new(

@@ -201,7 +201,7 @@ fn what_the_engineer_should_know_is_warned_of() {
     }
     let tall = "[geometry]\nheight = 8\nthickness = 0.4\ndensity = 1800\n";
     let warnings = checked(&format!("{tall}{}", table(&state("SLC", "")))).unwrap().warnings;
-    let long = "NTC 3.2.3.2 admits its spectra up to 4 s";
+    let long = "NTC 3.2.3.2 admits the spectra of accelerations up to 4 s";
     assert!(warnings.iter().any(|warning| warning.contains(long)), "{warnings:?}");
     let weak = state("SLD", "").replace("0.15", "0.05");
     let quiet = checked(&format!("{PARAPET}{}", slv(&weak))).unwrap().warnings;

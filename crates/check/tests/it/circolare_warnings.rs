@@ -56,7 +56,7 @@ fn spectra_and_sites_that_contradict_themselves_are_refused() {
     let slv = |given: &str| parapet("", &format!("SLV = {{ {given} }}"));
     let spectrum = "ag = 0.15, spectrum = [[0, 0.2], [4, 0.01]]";
     let height = "SLV = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n\
-                  building = { storeys = 3, period = 0.3, height_ratio = 0 }";
+                  building = { modes = [{ period = 0.3, participation = 0 }] }";
     let records = format!(
         "SLV = {SITE}\nrecord_range = [2.0, 0.15]\nrecord_scale = \"spectrum\"\n\
          records = {{ synthetic = {{ count = 3 }} }}"

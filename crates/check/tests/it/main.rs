@@ -13,6 +13,7 @@ mod circolare_hinge_cases;
 mod circolare_hinges;
 mod circolare_messages;
 mod circolare_properties;
+mod circolare_ranges;
 mod circolare_refusals;
 mod circolare_site;
 mod circolare_target;

@@ -109,8 +109,9 @@ fn assumptions_signs_and_limits_are_declared() {
             // no tie that is broken at d_SLC raises SLC
             "lo SLD non innalza lo SLC: considera la catena, che a dSLC è rotta",
             // beyond the spectra of the code
-            "la domanda allo SLC è fuori dal campo di validità: occorre uno spettro da apposite analisi",
-            "T > 4 s: la domanda è fuori dal campo di validità",
+            "NTC 3.2.3.2 ammette gli spettri in accelerazione fino a 4 s",
+            "T > 4 s: oltre gli spettri in accelerazione",
+            "TSLC = 4,4",
             // what a1 turns
             "in questo verso, non quello della parete: con a1 = 0,015 lo SLV passa da 0,877 a 1,098",
             "analisi di sensibilità: con a1 = 0,015 ζE = 1,031",

@@ -116,7 +116,8 @@ class LimitState(TypedDict, total=False):
 class Building(TypedDict, total=False):
     """The building at the wall's height: storeys, period and height_ratio, or modes.
 
-    - height_ratio: z/H: height of the wall over that of the building (-), at least 0, at most 1.
+    - height_ratio: z/H: height of the wall over that of the building (-); 0 is the ground, at least 0, at
+      most 1.
     - modes: Modes at the wall's place, the first first.
     - period: First period T₁ [s], above 0.
     - storeys: Number of storeys n, at least 1.
@@ -199,10 +200,13 @@ class Tie(TypedDict, total=False):
     - at_activation: What the tie does at the activation: nothing, or it pulls with its strength; default
       "none".
     - bar: The bar, in place of tie_stiffness, tie_strength and tie_ultimate.
+    - ultimate_strain_source: Where ultimate_strain of the bar comes from, for the report: a certificate,
+      tests, a code.
     """
 
     at_activation: Literal["none", "yield"]
     bar: Bar
+    ultimate_strain_source: str
 
 
 class Bar(TypedDict, total=False):

@@ -146,7 +146,8 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
         let origin = Origin { title: &title, wall: None, file, set, records, report: &report };
         console.write(path, page_of_walls(&verdicts, &walls, &codes, &origin)?.as_bytes())?;
     }
-    console.warn(warnings.iter().chain(&code.records().warnings));
+    console.warn(&warnings);
+    console.warn(&code.records().warnings);
     if arguments.json {
         console.json(&verdicts.json())?;
     } else {

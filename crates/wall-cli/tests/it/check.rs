@@ -361,7 +361,7 @@ fn many_walls_are_checked() {
     let page = content(&folder, "out.html");
     assert!(page.contains("1 of 3 walls pass") && page.contains("tall, thin"));
     // warnings come by wall, its name first
-    let centimetres = "name,height,thickness,density\na,200,30,1800\nb,2,0.3,1800\nc,150,0.4,1800\n";
+    let centimetres = "name,height,thickness,density\na,90,9,1800\nb,2,0.3,1800\nc,80,0.4,1800\n";
     std::fs::write(folder.join("walls.csv"), centimetres).unwrap();
     let warned = text(&succeed(&folder, &["check", "walls.toml"]).stderr);
     let lines: Vec<&str> = warned.lines().collect();
@@ -369,10 +369,10 @@ fn many_walls_are_checked() {
     assert_eq!(lines.len(), 3, "{warned}");
     let of =
         |name: &str| lines.iter().find(|line| line.starts_with(&format!("wall: warning: wall {name:?}: ")));
-    let thick = "thickness = 30 m is unusual: 0.03 to 3 m is usual; if it is in cm, give 0.3 m";
-    let tall = "height = 200 m is unusual: 0.2 to 30 m is usual; if it is in cm, give 2 m";
+    let thick = "thickness = 9 m is unusual: 0.03 to 3 m is usual; if it is in cm, give 0.09 m";
+    let tall = "height = 90 m is unusual: 0.2 to 30 m is usual; if it is in cm, give 0.9 m";
     assert_has(of("a").unwrap(), &[tall, thick]);
-    assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
+    assert_has(of("c").unwrap(), &["height = 80 m is unusual"]);
     std::fs::write(folder.join("walls.csv"), "name,height\na,1\nb,0.9\n").unwrap();
     let warned = text(&wall(&folder, &["check", "walls.toml"]).stderr);
     assert_has(&warned, &["walls.toml: 2 of 2 walls have no thickness; the default of"]);

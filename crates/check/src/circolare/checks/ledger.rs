@@ -157,13 +157,14 @@ impl DisplacementCheck {
         ledger.know(&[("a", self.a)]);
         let words = say!("Period", "Periodo");
         ledger.add(Quantity::new("T", equation, Unit::SECONDS, self.period, words).at(clause));
-        if self.period > LONGEST_PERIOD && matches!(demand, Demand::Ground(_) | Demand::Floor(_)) {
+        if self.period > LONGEST_PERIOD && demand.ground().is_some() {
             ledger.say(
                 say!("Range of the spectra, NTC 3.2.3.2", "Campo di validità degli spettri, NTC 3.2.3.2"),
                 say! {
-                    "T &gt; 4 s: the demand is outside and needs a spectrum of a special study",
-                    "T &gt; 4 s: la domanda è fuori dal campo di validità: occorre uno spettro da apposite \
-                     analisi"
+                    "T &gt; 4 s: beyond the spectra of accelerations; that of displacements, [3.2.10] to \
+                     [3.2.12], is printed for all periods",
+                    "T &gt; 4 s: oltre gli spettri in accelerazione; quello in spostamento, da [3.2.10] a \
+                     [3.2.12], è scritto per ogni periodo"
                 },
             );
         }

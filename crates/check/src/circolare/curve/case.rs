@@ -4,6 +4,7 @@ use rocking_wall::scene::Floors;
 use rocking_wall::variables::{ForceLaw, Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
 
+use super::sizes;
 use crate::circolare::statement::Statement;
 use crate::circolare::statement::states::{Source, StateStatement};
 use crate::circolare::statement::table::{Activation, Hinge, Rocks};
@@ -40,6 +41,7 @@ impl<'a> Case<'a> {
     pub(crate) fn new(statement: &'a Statement, subject: Subject<'a>) -> Result<Self, CheckError> {
         subject.check_shape()?;
         let mut parameters = statement.with_bar(subject.parameters)?;
+        sizes::check(&parameters)?;
         parameters.rocking = statement.table.rocking.map_or(parameters.rocking, Rocks::rocking);
         // in the check a tie without a plastic elongation is brittle
         if parameters.tie_strength > 0.0 && parameters.tie_ultimate < 0.0 {
@@ -100,7 +102,7 @@ impl<'a> Case<'a> {
         for given in self.statement.states.iter().flatten() {
             let demand = match &given.source {
                 Source::Code(ground) => {
-                    let modes = if given.modes.is_empty() {
+                    let modes = if given.modes.is_empty() && !self.statement.is_on_ground() {
                         modes_of_storeys(self.floors, given.building_period, body)?
                     } else {
                         given.modes.clone()

@@ -17,6 +17,7 @@ pub(crate) mod case;
 pub(crate) mod hinge;
 pub(super) mod ledger;
 pub(crate) mod set_back;
+mod sizes;
 pub(crate) mod tie;
 
 use std::f64::consts::{PI, TAU};

@@ -1,6 +1,8 @@
 //! The outcome of a check.
 
 pub(crate) mod check;
+mod ranges;
+mod turns;
 pub(crate) mod warnings;
 
 use rocking_wall::scene::Floors;

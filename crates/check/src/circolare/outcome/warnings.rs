@@ -6,16 +6,15 @@ use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::Checked;
+use super::{Checked, ranges, turns};
 use crate::circolare::checks::DisplacementCheck;
 use crate::circolare::checks::sides::{LeastAlpha0, SideVerdict, SideVerdicts};
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::case::Case;
-use crate::circolare::curve::tie::TieState;
 use crate::circolare::statement::Statement;
-use crate::circolare::statement::table::{AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, Method, UseClass};
+use crate::circolare::statement::table::{AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, UseClass};
 use crate::ntc::demand::{Demands, LONGEST_PERIOD};
-use crate::words::names::{Deciding, LimitState, Side};
+use crate::words::names::{LimitState, Side};
 use crate::words::others::{self, improbable};
 use crate::words::{Sentence, apart, fixed, passed, say};
 
@@ -28,15 +27,16 @@ pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) ->
     let (sides, governs) = (&outcome.sides, outcome.governs.side);
     // sides that are alike are named once
     let differing = || sides.iter().take(if case.alike { 1 } else { 2 });
-    let ordered: [Vec<Sentence>; 10] = [
+    let ordered: [Vec<Sentence>; 11] = [
         of_statement(statement, parameters, *floors, wall),
+        ranges::of_statement(statement),
         of_demands(statement, demands),
         differing().flat_map(|(side, verdict)| of_hinges(case, side, verdict)).collect(),
         differing().flat_map(|(_, verdict)| of_side(verdict, statement, demands)).collect(),
         of_untied_side(case, sides, governs).into_iter().collect(),
-        of_periods(sides).collect(),
-        of_verdict(case, sides, outcome.passed),
-        of_sensitivity(case, sides),
+        of_periods(sides, demands),
+        turns::by_raise(case, sides, outcome.passed),
+        turns::by_sensitivity(case, sides),
         outcome.dynamic.iter().filter_map(|_| statement.differs_in_rocking(scene)).collect(),
         outcome.dynamic.iter().flat_map(|dynamic| dynamic.warnings(case)).collect(),
     ];
@@ -219,6 +219,7 @@ fn of_curve(case: &Case<'_>, curve: &Curve) -> Vec<Sentence> {
             "la catena è senza tie_strength: non si rompe ed è contata a d_SLV e d_SLC"
         });
     }
+    warnings.extend(ranges::of_tie(case, curve));
     let makes = |state: LimitState| statement.state(state).is_some();
     if makes(LimitState::Sld) || makes(LimitState::Slv) {
         warnings.extend(of_tie(case, curve));
@@ -279,112 +280,20 @@ fn of_side(side: &SideVerdict, statement: &Statement, demands: &Demands) -> Vec<
     warnings
 }
 
-/// What a verdict owes to the raise by SLD, or lacks without it.
-fn of_verdict(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> Vec<Sentence> {
-    let (mut warnings, statement) = (Vec::new(), case.statement);
-    let (decides, target) = (statement.table.method != Method::Linear, statement.target);
-    for (side, verdict) in sides.iter() {
-        let side = case.told(side);
-        for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < target) {
-            let [ratio, zeta] = [found.ratio, found.zeta].map(|value| fixed(value, 3));
-            let is_broken =
-                verdict.activation.force > 0.0 && found.tie.is_some_and(|tie| tie.state == TieState::Broken);
-            if statement.state(LimitState::Sld).is_none() && state == LimitState::Slv {
-                warnings.push(say! {
-                    "{side}: {state} by displacement is {ratio}; without [check.SLD] no a_g of activation \
-                     raises it (C8.7.1.2.1.8)",
-                    "{side}: {state} in spostamento vale {ratio}; senza [check.SLD] nessuna a_g di \
-                     attivazione lo innalza (C8.7.1.2.1.8)", side, state, ratio
-                });
-            } else if state == LimitState::Slc && decides && found.raised && found.zeta < target {
-                warnings.push(say! {
-                    "{side}: SLC by displacement has zeta_E = {ratio}; {zeta} is by analogy with \
-                     C8.7.1.2.1.8, which has the raise for SLV only",
-                    "{side}: lo SLC ha ζ_E = {ratio} in spostamento; {zeta} è per analogia con C8.7.1.2.1.8, \
-                     che lo prevede per il solo SLV", side, ratio, zeta
-                });
-            } else if state == LimitState::Slc && statement.table.raise_slc && is_broken {
-                warnings.push(say! {
-                    "{side}: SLD does not raise SLC: it counts the tie, which is broken at d_SLC",
-                    "{side}: lo SLD non innalza lo SLC: considera la catena, che a d_SLC è rotta", side
-                });
-            } else if passes && decides && found.zeta >= target {
-                let only = if state == LimitState::Slc {
-                    say!("; the text has the raise for SLV only", "; la norma lo prevede per il solo SLV")
-                } else {
-                    Sentence::default()
-                };
-                warnings.push(say! {
-                    "{side}: the raise by SLD turns the verdict of {state}: {ratio} by displacement, raised \
-                     to {zeta}{only}",
-                    "{side}: lo SLD cambia l'esito di {state}: {ratio} in spostamento, portato a \
-                     {zeta}{only}", side, state, ratio, zeta, only
-                });
-            }
-            if state == LimitState::Slv && found.raised && is_broken {
-                warnings.push(say! {
-                    "{side}: SLV has {zeta} by SLD, which counts the tie; at d_SLV the tie is broken. The \
-                     letter of C8.7.1.2.1.8 admits it; by displacement it is {ratio}",
-                    "{side}: lo SLV vale {zeta} per lo SLD, che considera la catena; a d_SLV la catena è \
-                     rotta. La lettera di C8.7.1.2.1.8 lo ammette; in spostamento vale {ratio}",
-                    side, zeta, ratio
-                });
-            }
-        }
-    }
-    warnings
-}
-
-fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = Sentence> {
+/// Where the demand is beyond the spectra of accelerations.
+fn of_periods(sides: &SideVerdicts, demands: &Demands) -> Vec<Sentence> {
+    let by_code =
+        |state: LimitState| demands[state as usize].as_ref().is_some_and(|demand| demand.ground().is_some());
     let checks = sides.iter().flat_map(|(_, side)| side.by_displacement());
-    let long = checks.filter(|(_, check)| check.period > LONGEST_PERIOD);
-    long.map(|(state, DisplacementCheck { period, .. })| {
+    let long = checks.filter(|(state, check)| check.period > LONGEST_PERIOD && by_code(*state));
+    let said = long.map(|(state, DisplacementCheck { period, .. })| {
         say! {
-            "T_{state} = {period} s: NTC 3.2.3.2 admits its spectra up to 4 s; the demand of {state} is \
-             outside and needs a spectrum of a special study",
-            "T_{state} = {period} s: NTC 3.2.3.2 ammette i suoi spettri fino a 4 s; la domanda allo {state} \
-             è fuori dal campo di validità: occorre uno spettro da apposite analisi",
+            "T_{state} = {period} s: NTC 3.2.3.2 admits the spectra of accelerations up to 4 s; that of \
+             displacements, [3.2.10] to [3.2.12], is printed for all periods",
+            "T_{state} = {period} s: NTC 3.2.3.2 ammette gli spettri in accelerazione fino a 4 s; quello in \
+             spostamento, da [3.2.10] a [3.2.12], è scritto per ogni periodo",
             state, period = fixed(period, 3)
         }
-    })
-}
-
-/// Where another a₁ or E turns the verdict on a side: which check turns, and whether the wall does.
-fn of_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sentence> {
-    let statement = case.statement;
-    if statement.table.method == Method::Dynamic {
-        // the runs decide, and no a₁ of theirs is varied
-        return Vec::new();
-    }
-    let mut warnings = Vec::new();
-    let passes = |zeta: f64| zeta >= statement.target;
-    for (name, side) in sides.iter() {
-        for (index, varied) in side.sensitivity.iter().enumerate() {
-            let (own, zetas) = (side.checks.zetas(), varied.zetas);
-            let is_turned =
-                |at: &usize| statement.decides(Deciding::ALL[*at]) && passes(own[*at]) != passes(zetas[*at]);
-            let holds = passes(side.checks.governing(statement).1);
-            let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!holds)) else {
-                continue;
-            };
-            let before = sides.iter().all(|(_, side)| passes(side.checks.governing(statement).1));
-            let after = sides.iter().all(|(_, side)| side.sensitivity[index].passed == Some(true));
-            let what = if before == after {
-                say! {
-                    "turns the verdict on this side, not that on the wall",
-                    "cambia l'esito in questo verso, non quello della parete"
-                }
-            } else {
-                say!("turns the verdict", "cambia l'esito")
-            };
-            warnings.push(say! {
-                "{side}: {parameter} {what}: with {assigned} {check} goes from {from} to {to}, {result}",
-                "{side}: {parameter} {what}: con {assigned} lo {check} passa da {from} a {to}, {result}",
-                side = case.told(name), parameter = varied.parameter, what,
-                assigned = varied.assigned(), check = Deciding::ALL[at], from = fixed(own[at], 3),
-                to = fixed(zetas[at], 3), result = passed(!holds)
-            });
-        }
-    }
-    warnings
+    });
+    said.collect()
 }

@@ -36,6 +36,9 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     }
     if case.wall.tie().is_some() {
         state(tie(statement.at_activation()), &["tie"]);
+        if let Some(strain) = ultimate_strain(case) {
+            state(strain, &["tie"]);
+        }
     }
     state(confidence(statement), &["confidence_factor", "knowledge_level"]);
     state(compression(statement), &["compression_considered", "masonry_strength"]);
@@ -56,7 +59,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
     if is_dynamic {
         state(scale(statement.table.record_scale), &["record_scale"]);
     }
-    if statement.table.building.is_some() {
+    if statement.building().is_some() {
         let said = say! {
             "T_1 of the building is stated by the engineer.",
             "T_1 dell'edificio è dichiarato dal progettista."
@@ -136,6 +139,18 @@ fn rocking(rocks: Rocks, is_dynamic: bool) -> Sentence {
         };
     }
     say!("The wall {sides}", "La parete {sides}", sides)
+}
+
+/// The strain at which the bar tears, and where that number comes from.
+fn ultimate_strain(case: &Checked<'_>) -> Option<Sentence> {
+    let strain = at_most(case.parameters.bar?.ultimate_strain?, 6);
+    let source = case.statement.table.tie.as_ref().and_then(|tie| tie.ultimate_strain_source.clone());
+    let source =
+        source.map_or_else(|| say!("its source is not stated", "fonte non dichiarata"), Sentence::same);
+    Some(say! {
+        "The bar tears at `ε_u` = {strain}: {source}.",
+        "Deformazione a rottura della barra `ε_u` = {strain}: {source}.", strain, source
+    })
 }
 
 fn tie(at_activation: AtActivation) -> Sentence {

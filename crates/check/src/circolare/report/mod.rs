@@ -4,6 +4,7 @@ pub(super) mod capacity;
 pub(crate) mod figure;
 mod hinges;
 mod inputs;
+mod notes;
 pub(super) mod overview;
 pub(super) mod readings;
 pub(crate) mod rows;

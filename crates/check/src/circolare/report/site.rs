@@ -136,7 +136,7 @@ fn ground_of(case: &Checked<'_>, language: Language) -> String {
 /// Describes where the wall stands; `None` where nothing is to be said.
 fn place(case: &Checked<'_>) -> Option<Sentence> {
     let mut said = Vec::new();
-    let building = &case.statement.table.building;
+    let building = case.statement.building();
     if let Some(BuildingTable {
         storeys: Some(storeys),
         period: Some(period),
@@ -158,7 +158,7 @@ fn place(case: &Checked<'_>) -> Option<Sentence> {
             "Modes of the building as given in [check.building]",
             "Modi dell'edificio come forniti in [check.building]"
         });
-    } else if let Some(floors) = case.floors {
+    } else if let Some(floors) = case.floors.filter(|_| !case.statement.is_on_ground()) {
         let of = storeys(floors);
         said.push(say!("The motion of the ground is {of}", "Il moto del suolo è {of}", of));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {

@@ -8,7 +8,7 @@
 use record::RecordSolver;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::solver::Motion;
-use rocking_wall::wall::{Parameters, Sides};
+use rocking_wall::wall::{ParameterError, Parameters, Sides};
 use run::shaking::Shaking;
 use serde::Serialize;
 
@@ -142,6 +142,14 @@ fn divided(
     Ok((parameters, hinge))
 }
 
+/// The error of a wall whose forces FC divides: its numbers are not those that somebody stated.
+fn without_doubts(error: ParameterError) -> ParameterError {
+    match error {
+        ParameterError::Improbable { error, .. } => *error,
+        error => error,
+    }
+}
+
 /// Runs the dynamic check; `None` without records. Where this check does not decide, a limit state whose site
 /// gives no S is left out.
 pub(crate) fn check(
@@ -156,7 +164,7 @@ pub(crate) fn check(
     }
     has_storeys(statement, floors)?;
     let (divided, hinge) = divided(parameters, case, sides)?;
-    let motion = Motion::of(&divided, divided.tolerance)?;
+    let motion = Motion::of(&divided, divided.tolerance).map_err(without_doubts)?;
     let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.curve.d_per_u);
     let decides = statement.table.method == Method::Dynamic;
     // a wall that rocks, and is checked, alike on both sides has mirrored runs

@@ -50,7 +50,7 @@ pub(crate) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
 
 /// Refuses runs of a wall whose height in the building only `[check.building]` states.
 pub(crate) fn has_storeys(statement: &Statement, floors: Option<&Floors>) -> Result<(), CheckError> {
-    if statement.table.building.is_some() && floors.is_none() {
+    if statement.building().is_some() && floors.is_none() {
         let message = "the records move the ground: give [[storeys]] in place of [check.building]";
         return Err(CheckError::value(&["building"], message));
     }

@@ -18,8 +18,8 @@ use crate::ntc::demand::{Demand, Demands};
 use site::FromGrid;
 use states::{Source, StateStatement, limit_state};
 use table::{
-    Activation, AtActivation, CheckTable, F0, HINGE_RANGE, HeightDemand, Hinge, KnowledgeLevel,
-    LARGEST_CONFIDENCE_FACTOR, Method, STRESS_BLOCK, TC, UseClass, YOUNG_MODULUS,
+    Activation, AtActivation, BuildingTable, CheckTable, F0, HINGE_RANGE, HeightDemand, Hinge,
+    KnowledgeLevel, LARGEST_CONFIDENCE_FACTOR, Method, STRESS_BLOCK, TC, UseClass, YOUNG_MODULUS,
 };
 
 /// Fewest records, NTC 7.3.5.
@@ -80,9 +80,9 @@ impl Statement {
             return Err(CheckError::value(&["tie", "bar"], message));
         }
         statement.records = file.records(statement.table.records.as_ref())?;
-        if let Some(FromGrid { file, notes, warning }) = from_grid {
+        if let Some(FromGrid { file, notes, warnings }) = from_grid {
             statement.records.files.extend(file);
-            statement.records.warnings.extend(warning);
+            statement.records.warnings.extend(warnings);
             statement.site_notes = notes;
         }
         let count = motions(&statement.records.named).len();
@@ -189,6 +189,16 @@ impl Statement {
     /// Returns whether accelerations at a height are bounded by that of the ground.
     pub(super) fn bounds_heights(&self) -> bool {
         self.table.height_demand == HeightDemand::NotBelowGround
+    }
+
+    /// Returns the building that is stated of a wall above the ground.
+    pub(super) fn building(&self) -> Option<&BuildingTable> {
+        self.table.building.as_ref().filter(|building| !building.is_ground())
+    }
+
+    /// Returns whether the wall is stated to stand on the ground of a building.
+    pub(super) fn is_on_ground(&self) -> bool {
+        self.table.building.as_ref().is_some_and(BuildingTable::is_ground)
     }
 
     /// Returns the rule by displacement of SLC, or that of SLV.

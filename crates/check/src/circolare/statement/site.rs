@@ -9,6 +9,7 @@ use crate::error::CheckError;
 use crate::file::lines_of_grid;
 use crate::file::site::{no_place, return_period};
 use crate::words::names::LimitState;
+use crate::words::others::improbable;
 use crate::words::{Sentence, at_most, say};
 
 use super::table::{CheckTable, SiteTable};
@@ -18,8 +19,8 @@ use crate::ntc::grid::{Grid, SiteHazard};
 pub(crate) struct FromGrid {
     pub(crate) file: Option<PathBuf>,
     pub(crate) notes: Vec<Sentence>,
-    /// Where `a_g` is not that of a site in its unit.
-    pub(crate) warning: Option<String>,
+    /// Where `a_g` is not that of a site in its unit, or another one is stated.
+    pub(crate) warnings: Vec<Sentence>,
 }
 
 /// Usual `a_g` of `T_R` = 475 years: the hazard of Italy has 0.04 to 0.28 g.
@@ -29,6 +30,16 @@ const AG: Usual = Usual {
     range: [0.03, 0.35],
     others: &[("in g/10 or m/s2", 0.1), ("in g and not in g/10", 10.0)],
 };
+/// Usual `a_g` of `T_R` = 30 years: the hazard of Italy has up to 0.08 g. Where a quiet zone is read in
+/// another unit, 475 years alone do not show it.
+const AG_30: Usual = Usual {
+    name: "a_g of the grid at T_R = 30 years",
+    range: [0.002, 0.09],
+    others: &[("in g/10 or m/s2", 0.1)],
+    ..AG
+};
+/// Share by which a stated `a_g` is another one than that of the grid \[-\].
+const OTHER: f64 = 0.02;
 
 /// Fills in `ag`, F0 and TC of the limit states that leave them out; a spectrum needs `ag` alone. Files are
 /// beside the one of the table.
@@ -37,15 +48,19 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     let file = (!site.grid.contains('\n')).then(|| folder.join(&site.grid));
     let hazard = read(&site, folder, file.as_deref())?;
     let [first, last] = hazard.periods();
-    let mut notes = Vec::new();
+    let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     for (state, given) in LimitState::ALL.into_iter().zip([&mut table.sld, &mut table.slv, &mut table.slc]) {
-        let Some(given) = given.as_mut().filter(|given| given.ag.is_none()) else { continue };
+        let Some(given) = given.as_mut() else { continue };
+        let years = return_period(site.nominal_life * site.use_coefficient, state.exceeded());
+        let found = hazard.hazard(years);
+        if let Some(ag) = given.ag {
+            warnings.extend(other_ag(state, ag, found.ag, years));
+            continue;
+        }
         if given.f0.is_some() || given.tc.is_some() {
             let message = format!("{state}: the site's grid gives ag, F0 and TC together; state all or none");
             return Err(CheckError::value(&[state.key(), "ag"], message));
         }
-        let years = return_period(site.nominal_life * site.use_coefficient, state.exceeded());
-        let found = hazard.hazard(years);
         given.ag = Some(found.ag);
         if given.spectrum.is_none() {
             (given.f0, given.tc) = (Some(found.f0), Some(found.tc));
@@ -92,8 +107,26 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
          come è noto dall'Allegato A delle NTC 2008; il testo non è stato visto. Confrontare i numeri con \
          quelli del ministero.", latitude, longitude, source, how
     });
-    let warning = AG.warning(hazard.hazard(475.0).ag).map(|warning| format!("{warning}; state ag_unit"));
-    Ok(Some(FromGrid { file, notes, warning }))
+    let of_grid = |usual: Usual, years: f64| usual.warning(hazard.hazard(years).ag);
+    let short = || of_grid(AG_30, 30.0).filter(|_| first <= 30.0);
+    warnings.extend(of_grid(AG, 475.0).or_else(short).map(|warning| {
+        let warning = improbable(&warning);
+        say!("{warning}; state ag_unit", "{warning}; dichiarare ag_unit", warning)
+    }));
+    Ok(Some(FromGrid { file, notes, warnings }))
+}
+
+/// Says that an `a_g` is stated beside the site whose grid has another one for the return period.
+fn other_ag(state: LimitState, stated: f64, of_grid: f64, years: f64) -> Option<Sentence> {
+    ((stated / of_grid - 1.0).abs() > OTHER).then(|| {
+        let [stated, of_grid, years] = [stated, of_grid, years].map(|value| at_most(value, 4));
+        say! {
+            "{state}: a_g = {stated} g is stated; for T_R = {years} years of V_N and C_U the grid has \
+             {of_grid} g",
+            "{state}: è dichiarata a_g = {stated} g; per T_R = {years} anni di V_N e C_U il reticolo ha \
+             {of_grid} g", state, stated, years, of_grid
+        }
+    })
 }
 
 fn read(site: &SiteTable, folder: &Path, file: Option<&Path>) -> Result<SiteHazard, CheckError> {

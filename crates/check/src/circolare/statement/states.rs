@@ -129,6 +129,7 @@ fn source(
 
 fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
     match (building.storeys, building.period, building.height_ratio, &building.modes) {
+        _ if building.is_ground() => Ok(Vec::new()),
         (Some(storeys), Some(period), Some(height_ratio), None) => {
             Ok(vec![Mode::of_storeys(storeys, period, height_ratio)])
         }

@@ -124,6 +124,8 @@ tables! {
         pub at_activation: AtActivation,
         /// The bar, in place of `tie_stiffness`, `tie_strength` and `tie_ultimate`.
         pub bar: Option<Bar>,
+        /// Where `ultimate_strain` of the bar comes from, for the report: a certificate, tests, a code.
+        pub ultimate_strain_source: Option<String>,
     }
 
     /// A site on a grid of the hazard that the user brings.
@@ -188,12 +190,19 @@ tables! {
         /// First period T₁ \[s\].
         #[key(exclusiveMinimum = 0)]
         pub period: Option<f64>,
-        /// z/H: height of the wall over that of the building (-).
+        /// z/H: height of the wall over that of the building (-); 0 is the ground.
         #[key(minimum = 0, maximum = 1)]
         pub height_ratio: Option<f64>,
         /// Modes at the wall's place, the first first.
         #[key(minItems = 1)]
         pub modes: Option<Vec<Mode>>,
+    }
+}
+
+impl BuildingTable {
+    /// Whether it states a wall on the ground: at z/H = 0 of a building of storeys.
+    pub(crate) fn is_ground(&self) -> bool {
+        self.storeys.is_some() && self.height_ratio == Some(0.0) && self.modes.is_none()
     }
 }
 
