@@ -257,8 +257,12 @@ impl Simulation {
         mut demands: Option<&mut Demands>,
         step: &mut Step,
     ) -> Result<(), SolverError> {
-        let body = self.first.wall().body();
-        let Progress { time, state: State { velocity: velocity_before, departed, .. }, .. } = self.progress;
+        let (body, rotations) = (self.first.wall().body(), self.first.wall().rotations());
+        let momentum = |displacement: f64, velocity: f64| {
+            rotations.map_or(velocity, |rotations| rotations.carried_velocity(displacement, velocity))
+        };
+        let Progress { time, state: State { displacement, velocity, departed, .. }, .. } = self.progress;
+        let before = momentum(displacement, velocity);
         let with_couple = !departed && body.is_strip();
         let watch = demands.as_deref_mut().map(|demands| (demands, time));
         let state = &mut self.progress.state;
@@ -267,14 +271,18 @@ impl Simulation {
         step.departed |= report.departure.is_some();
         step.put_to_rest |= report.put_to_rest;
         if !departed {
-            let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
+            let (length, after) = match report.departure {
+                Some([length, velocity]) => {
+                    (length, momentum(body.departure.of(velocity).copysign(velocity), velocity))
+                }
+                None => (segment.duration, momentum(state.displacement, state.velocity)),
+            };
             // ∫ of a quantity linear over the segment, up to `length`
             let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
             let integrate = |from: f64, to: f64| length * (from + 0.5 * (to - from) * fraction);
             let (from, to) = (segment.from, segment.to);
             let supports = from.with(to, integrate);
-            let Ends { bottom, top } =
-                body.reaction_changes(supports, velocity - velocity_before, report.couple_impulse);
+            let Ends { bottom, top } = body.reaction_changes(supports, after - before, report.couple_impulse);
             step.impulses.bottom += bottom - body.contact.thrust * length;
             step.impulses.top += top;
         }

@@ -45,7 +45,7 @@ pub fn parameters(group: &str) -> Schema {
         members.insert(BAR.into(), bar().into());
     }
     if group == KINEMATICS_GROUP {
-        let text = "Small rotations, or full ones (rigid_linear without damping, not in an FMU).";
+        let text = "Small rotations, or full ones (rigid_linear without damping).";
         let choice = with(one_of(Kinematics::ALL.map(Kinematics::name)), "description", text);
         members.insert(KINEMATICS.into(), with(choice, "default", Kinematics::default().name()).into());
     }

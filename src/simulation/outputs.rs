@@ -1,5 +1,7 @@
 //! The outputs of a wall, and their derivatives.
 
+use oscillator::KinematicState;
+
 use super::Simulation;
 use crate::solver::{Demands, Phase, State};
 use crate::wall::{Ends, Sides, Support};
@@ -51,8 +53,9 @@ impl Simulation {
             Phase::Resting => (0.0, forcing - pull, 0.0, wall.couple_at_rest(forcing).at(forcing)),
             Phase::Landed => (0.0, 0.0, 0.0, 0.0),
         };
-        let reactions =
-            if departed { Ends::default() } else { body.reactions(support, acceleration, couple) };
+        let motion = KinematicState { displacement, velocity, acceleration };
+        let carried = wall.carried(wall.branches()[branch].side(), motion);
+        let reactions = if departed { Ends::default() } else { body.reactions(support, carried, couple) };
         Outputs {
             displacement,
             velocity,
@@ -88,12 +91,8 @@ impl Simulation {
 
     /// Returns the derivative of the outputs along a change of u, of u̇ and of the supports' motion, which is
     /// `support` now.
-    ///
-    /// # Panics
-    /// If the wall moves in full rotations.
     pub fn derivative(&self, support: Support, [du, dv]: [f64; 2], change: Support) -> Outputs {
         let wall = self.wall();
-        assert!(wall.rotations().is_none(), "derivatives are those of small rotations");
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
@@ -107,20 +106,30 @@ impl Simulation {
         }
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
-        let (acceleration, restoring, damping) = match phase {
-            Phase::Moving => {
+        let mut carried = None;
+        let (acceleration, restoring, damping) = match (phase, wall.rotations()) {
+            (Phase::Moving, Some(rotations)) => {
+                let (side, now) = (branch.side(), body.forcing(support));
+                let acceleration = rotations.acceleration(displacement, velocity, now, side);
+                let motion = KinematicState { displacement, velocity, acceleration };
+                let acceleration = rotations.acceleration_change(side, motion, now, [du, dv, forcing]);
+                carried = Some(rotations.carried_change(side, motion, [du, dv, acceleration]));
+                (acceleration, rotations.restoring_change(side, displacement, du) - pull, 0.0)
+            }
+            (Phase::Moving, None) => {
                 let (c, slope) = branch.continued_damping(displacement);
                 let damping = c * dv + slope * velocity * du;
                 let restoring = branch.stiffness * du;
                 (forcing - damping - restoring, restoring - pull, damping)
             }
-            Phase::Resting => (0.0, forcing - pull, 0.0),
-            Phase::Landed => (0.0, 0.0, 0.0),
+            (Phase::Resting, _) => (0.0, forcing - pull, 0.0),
+            (Phase::Landed, _) => (0.0, 0.0, 0.0),
         };
+        let carried = carried.unwrap_or(acceleration);
         let reactions = match phase {
             Phase::Landed => Ends::default(),
             _ if departed => Ends::default(),
-            Phase::Moving => body.reaction_changes(change, acceleration, branch.couple.slope * du),
+            Phase::Moving => body.reaction_changes(change, carried, branch.couple.slope * du),
             Phase::Resting => {
                 let couple = wall.couple_at_rest(body.forcing(support));
                 body.reaction_changes(change, acceleration, couple.slope * forcing)

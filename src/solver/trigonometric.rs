@@ -1,14 +1,14 @@
-//! Taylor series of a wall in full rotations ([`FullRotations`]).
+//! Taylor series of a wall in full rotations, of its [`Turn`] to one side.
 //!
 //! With the angular velocities zᵢ = ṡ/cᵢ the tangents and the reciprocals rᵢ = 1/cᵢ obey ṫ = (1 + t²) z and ṙ
 //! = t r z, so that products of series give every coefficient, and no sine is evaluated:
 //!
 //! ```text
 //! zₙ = Σ rᵢ ṡₙ₋ᵢ    (n+1) tₙ₊₁ = Σ (1 + t²)ᵢ zₙ₋ᵢ    (n+1) rₙ₊₁ = Σ (t r)ᵢ zₙ₋ᵢ
-//! μ₀ üₙ = pₙ − fₙ − ½ Σ μ̇ᵢ u̇ₙ₋ᵢ − Σ_{i≥1} μᵢ üₙ₋ᵢ
+//! μ₀ üₙ = (p q)ₙ − fₙ − ½ Σ μ̇ᵢ u̇ₙ₋ᵢ − Σ_{i≥1} μᵢ üₙ₋ᵢ
 //! ```
 
-use crate::wall::FullRotations;
+use crate::wall::{FullRotations, Turn};
 
 use super::adaptive::Recurrence;
 use oscillator::{HIGHEST_ORDER, KinematicState};
@@ -18,9 +18,7 @@ type Terms = [f64; HIGHEST_ORDER + 1];
 
 /// Work arrays of the recurrence, for the side on which u > 0.
 pub(super) struct Rotation<'a> {
-    wall: &'a FullRotations,
-    /// Of the side: 1 or −1.
-    sign: f64,
+    wall: &'a Turn,
     /// p₀ and p₁.
     forcing: [f64; 2],
     displacement: Terms,
@@ -76,13 +74,12 @@ impl Turning {
 impl<'a> Rotation<'a> {
     /// The motion from `start` on the side of `sign` under the forcing p₀ + p₁ t.
     pub(super) fn new(wall: &'a FullRotations, sign: f64, start: KinematicState, forcing: [f64; 2]) -> Self {
-        let zero = [0.0; HIGHEST_ORDER + 1];
-        let s = wall.place(start.displacement);
+        let (wall, zero) = (wall.side(sign), [0.0; HIGHEST_ORDER + 1]);
+        let s = wall.place(sign * start.displacement);
         let t = wall.tangents(s);
         let body = |index: usize| Turning::new(t[index], s, wall.diagonals[index]);
         let mut rotation = Self {
             wall,
-            sign,
             forcing: forcing.map(|p| sign * p),
             displacement: zero,
             acceleration: zero,
@@ -110,15 +107,26 @@ impl<'a> Rotation<'a> {
         }
     }
 
+    /// (p q)ₙ, with q = 1 + ρ (t₁ − t₁(0)).
+    fn push(&self, n: usize) -> f64 {
+        let forcing = |n: usize| self.forcing.get(n).copied().unwrap_or(0.0);
+        let (&Turn { drag, .. }, tangent) = (self.wall, &self.bodies[0].tangent);
+        if drag == 0.0 {
+            return forcing(n);
+        }
+        let share = |n: usize| if n == 0 { self.wall.share(tangent[0]) } else { drag * tangent[n] };
+        (0..=n.min(1)).map(|i| forcing(i) * share(n - i)).sum()
+    }
+
     /// fₙ
     fn force(&self, n: usize) -> f64 {
         let [lower, upper] = &self.bodies;
         let tangents = [lower.tangent[n], upper.tangent[n]];
         if n == 0 {
             // the sum that also decides whether the wall rests
-            return self.wall.force(tangents, self.sign);
+            return self.wall.force(tangents);
         }
-        let [_, g1, g2] = self.wall.forces_of(self.sign);
+        let [_, g1, g2] = self.wall.forces;
         -g1 * tangents[0] - g2 * tangents[1]
     }
 }
@@ -139,7 +147,7 @@ impl Recurrence for Rotation<'_> {
             body.extend(&speed, n);
         }
         self.extend_mass(n + 1);
-        let mut sum = self.forcing.get(n).copied().unwrap_or(0.0) - self.force(n);
+        let mut sum = self.push(n) - self.force(n);
         for i in 0..=n {
             sum -= 0.5 * (i + 1) as f64 * self.mass[i + 1] * velocity[n - i];
         }

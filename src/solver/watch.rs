@@ -78,7 +78,7 @@ impl Watch<'_> {
             return false;
         }
         let supports = [self.segment.from, self.segment.to];
-        self.include_extremes(branch.couple, [from, to], supports, [0.0, length], bounds)
+        self.include_extremes(branch, [from, to], supports, [0.0, length], bounds)
     }
 
     /// Includes the extremes of a motion by its ends, which it reaches `from` after the start of the segment
@@ -87,19 +87,28 @@ impl Watch<'_> {
     #[inline]
     fn include_extremes(
         &mut self,
-        couple: Couple,
+        branch: &Branch,
         [start, end]: [KinematicState; 2],
         supports: [Support; 2],
         [from, length]: [f64; 2],
         [most_acceleration, most_jerk, most_snap]: [f64; 3],
     ) -> bool {
         let (share, times) = (0.125 * length * length, [self.time + from, self.time + (from + length)]);
+        let (wall, couple) = (self.wall, branch.couple);
         let [by_a, by_u] = self.slopes(couple);
         let at = |support: Support, motion: &KinematicState| {
-            self.wall.body().reactions(support, motion.acceleration, couple.at(motion.displacement))
+            let carried = wall.carried(branch.side(), *motion);
+            wall.body().reactions(support, carried, couple.at(motion.displacement))
         };
         let reactions = [at(supports[0], &start), at(supports[1], &end)];
-        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_snap);
+        let most_carried = if wall.rotations().is_none() {
+            most_snap
+        } else {
+            let [by_a, by_jerk, by_snap, more] =
+                self.carried_curvature(branch, [start, end], length, most_acceleration);
+            by_a * most_acceleration + by_jerk * most_jerk + by_snap * most_snap + more
+        };
+        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_carried);
         let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
             &mut *self.demands;
         displacement.include_ends([start.displacement, end.displacement], share * most_acceleration, times)
@@ -111,6 +120,23 @@ impl Watch<'_> {
                 times,
             )
             && reaction_top.include_ends(reactions.map(|ends| ends.top), above(by_a.top, by_u.top), times)
+    }
+
+    /// Bounds the second derivative of the acceleration that reactions carry over a length of motion \[s\]:
+    /// shares of the bounds on |ü|, on the jerk and on the second derivative of ü, and a number.
+    fn carried_curvature(
+        &self,
+        branch: &Branch,
+        [start, end]: [KinematicState; 2],
+        length: f64,
+        most_acceleration: f64,
+    ) -> [f64; 4] {
+        let Some(rotations) = self.wall.rotations() else { return [0.0, 0.0, 1.0, 0.0] };
+        let sag = 0.125 * length * length * most_acceleration;
+        let (u, v) = ([start.displacement, end.displacement], [start.velocity, end.velocity]);
+        let range = [u[0].min(u[1]) - sag, u[0].max(u[1]) + sag];
+        let speed = v[0].abs().max(v[1].abs()) + 0.5 * length * most_acceleration;
+        rotations.carried_curvature(branch.side(), range, [speed, most_acceleration])
     }
 
     /// Returns whether a displacement reaches a limit state that was never reached before.
@@ -151,9 +177,9 @@ impl Watch<'_> {
         let search = Self::search_of(self.segment, self.time, followed);
         let (from, length) = (search.from, search.length);
         let supports = [from, from + length].map(|offset| self.segment.support(offset));
-        let couple = self.wall.branches()[followed.branch].couple;
-        if !self.include_extremes(couple, search.ends, supports, [from, length], search.bounds) {
-            self.search(&search, couple)?;
+        let branch = &self.wall.branches()[followed.branch];
+        if !self.include_extremes(branch, search.ends, supports, [from, length], search.bounds) {
+            self.search(&search, branch)?;
         }
         self.cross(followed)?;
         self.count(followed)
@@ -174,30 +200,31 @@ impl Watch<'_> {
     fn search<P: Piece>(
         &mut self,
         search: &ExtremeSearch<'_, P>,
-        couple: Couple,
+        branch: &Branch,
     ) -> Result<(), SearchExhausted> {
         let demands = &mut *self.demands;
         let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
             [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
         for (extremes, pick, curvature) in [
-            (&mut demands.displacement, u, [1.0, 0.0, 0.0]),
-            (&mut demands.velocity, v, [0.0, 1.0, 0.0]),
-            (&mut demands.acceleration, a, [0.0, 0.0, 1.0]),
+            (&mut demands.displacement, u, [1.0, 0.0, 0.0, 0.0]),
+            (&mut demands.velocity, v, [0.0, 1.0, 0.0, 0.0]),
+            (&mut demands.acceleration, a, [0.0, 0.0, 1.0, 0.0]),
         ] {
             let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: || search.largest(pick) })?;
         }
-        self.forces(search, couple)
+        self.forces(search, branch)
     }
 
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
     fn forces<P: Piece>(
         &mut self,
         search: &ExtremeSearch<'_, P>,
-        couple: Couple,
+        branch: &Branch,
     ) -> Result<(), SearchExhausted> {
-        let (body, segment) = (self.wall.body(), self.segment);
+        let (wall, body, segment, couple) = (self.wall, self.wall.body(), self.segment, branch.couple);
         let [by_a, by_u] = self.slopes(couple);
+        let carried = self.carried_curvature(branch, search.ends, search.length, search.bounds[0]);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
@@ -205,10 +232,12 @@ impl Watch<'_> {
         for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
             let value = |offset: f64, motion: &KinematicState| {
                 let support = segment.support(search.from + offset);
-                pick(body.reactions(support, motion.acceleration, couple.at(motion.displacement)))
+                let carried = wall.carried(branch.side(), *motion);
+                pick(body.reactions(support, carried, couple.at(motion.displacement)))
             };
             let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
-            let curvature = [slope_u, 0.0, slope_a];
+            let mut curvature = carried.map(|share| slope_a * share);
+            curvature[0] += slope_u;
             let size = || {
                 let [most_u, most_a] =
                     [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
@@ -254,7 +283,7 @@ impl Watch<'_> {
         let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
         let slope = self.wall.tie_slope(branch);
         let size = || slope * search.largest(|m| m.displacement);
-        let quantity = Quantity { value, curvature: [slope, 0.0, 0.0], size };
+        let quantity = Quantity { value, curvature: [slope, 0.0, 0.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
         *force = largest;
         let Some(reach) = tie.strength_displacement() else { return Ok(()) };

@@ -6,10 +6,10 @@ use fmu_export::{Failure, StateCodec};
 use ground_motion::GroundMotion;
 
 use crate::simulation::Excitation;
-use crate::wall::{Hollow, Load, Opening, Parameters, Part, Profile};
+use crate::wall::{Hollow, Kinematics, Load, Opening, Parameters, Part, Profile};
 
 /// The first bytes of the file: what it is, and the version of its layout.
-const KIND: &str = "rocking-wall scene 2";
+const KIND: &str = "rocking-wall scene 3";
 
 /// The parameters of a wall, and what moves its supports.
 ///
@@ -23,8 +23,8 @@ const KIND: &str = "rocking-wall scene 2";
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitScene {
-    /// The wall and its solver. Only the variables of the description, the parts of a wall and the points of
-    /// a multilinear law are carried.
+    /// The wall and its solver. Only the variables of the description, the kinematics, the parts of a wall
+    /// and the points of a multilinear law are carried.
     pub parameters: Parameters,
     /// The motion of the supports, interpolated between samples.
     pub motion: Option<Excitation>,
@@ -59,6 +59,7 @@ impl UnitScene {
             return Err(Failure(format!("is {kind:?} where {KIND:?} is expected: package the FMU again")));
         }
         self.parameters.transfer(codec)?;
+        codec.item(&mut self.parameters.kinematics, &Kinematics::ALL)?;
         let points = self.parameters.multilinear.take();
         let mut numbers = points.as_deref().map(<[[f64; 2]]>::as_flattened).unwrap_or_default().to_vec();
         transfer_numbers(&mut numbers, codec)?;

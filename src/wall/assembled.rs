@@ -312,7 +312,7 @@ impl Strip {
 /// Returns the sum over points.
 // one loop for all sums: they are made once a wall, and the library of an FMU is to be small
 #[inline(never)]
-fn total(points: &[Point], of: &dyn Fn(&Point) -> f64) -> f64 {
+pub(super) fn total(points: &[Point], of: &dyn Fn(&Point) -> f64) -> f64 {
     // the sum of none is -0
     points.iter().map(of).sum::<f64>() + 0.0
 }
@@ -350,7 +350,7 @@ impl Profile {
 
 impl Parameters {
     /// Returns the place x of the overburden on each side \[m\]: from the centre of the top section.
-    fn overburden_on(&self, profile: &Profile) -> Sides {
+    pub(super) fn overburden_on(&self, profile: &Profile) -> Sides {
         let [outer, inner] = profile.faces_beside(profile.height(), false);
         let centre = 0.5 * (outer + inner);
         let eccentricity = self.eccentricity_of_sides();

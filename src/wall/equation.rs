@@ -1,5 +1,7 @@
 //! The validated equation of motion of a wall, Eq. (12).
 
+use oscillator::KinematicState;
+
 use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
@@ -182,6 +184,7 @@ impl Wall {
         let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
         self.statics.body.strength.positive == self.statics.body.strength.negative
             && self.restitution.positive == self.restitution.negative
+            && self.rotations.as_ref().is_none_or(FullRotations::has_equal_sides)
             && self.sides().count() == 2
             && !one_tied
     }
@@ -218,6 +221,12 @@ impl Wall {
             None => branch.acceleration(displacement, velocity, forcing),
             Some(rotations) => rotations.acceleration(displacement, velocity, forcing, branch.side()),
         }
+    }
+
+    /// Returns ü of what the reaction of the base carries, on the side of `sign` \[m/s²\]: in full rotations
+    /// loads that move along are displaced by more than u in proportion.
+    pub(crate) fn carried(&self, sign: f64, motion: KinematicState) -> f64 {
+        self.rotations.as_ref().map_or(motion.acceleration, |rotations| rotations.carried(sign, motion))
     }
 
     /// The tie; `None` without one.

@@ -133,6 +133,13 @@ pub enum ParameterError {
          kinematics = linear"
     )]
     NoFall { side: &'static str, end: f64 },
+    /// A centroid that is not between the toes, in full rotations.
+    #[error(
+        "kinematics = trigonometric: for {side} the centroid of the masonry is {distance} m beyond the toe, \
+         and u does not describe its fall; move the parts so that it is between the toes, or set \
+         kinematics = linear"
+    )]
+    BeyondToe { side: &'static str, distance: f64 },
     /// A wall that is refused and has numbers that walls rarely have: they may be the cause.
     #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Improbable { doubts: Vec<Warning>, error: Box<ParameterError> },
@@ -160,7 +167,7 @@ impl ParameterError {
             Self::Conflict { choice, name, .. } => vec![choice, name],
             Self::StartsBehindWalls { .. } => vec!["u_start", "rocking"],
             Self::StartsOverturned { .. } => vec!["u_start"],
-            Self::NoFall { .. } => vec!["kinematics"],
+            Self::NoFall { .. } | Self::BeyondToe { .. } => vec!["kinematics"],
             Self::Improbable { error, .. } => error.keys(),
         }
     }

@@ -19,7 +19,7 @@
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
 //! | `bar`, `parameters`, `usage` | what is given, and which of it has an effect |
 //! | `points` | masses and loads of parts as points |
-//! | `mechanism`, `assembled`, `force_law`, `damping`, `trigonometric`, `tie` | what is made of it |
+//! | `mechanism`, `assembled`, `force_law`, `damping`, `turn`, `trigonometric`, `tie` | what is made of it |
 //! | `impact`, `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
 //! | `branch`, `equation`, `layout`, `supports`, `capacity`, `facts` | the wall, its branches and its curve |
 
@@ -49,6 +49,7 @@ mod statics;
 mod supports;
 mod tie;
 mod trigonometric;
+mod turn;
 mod usage;
 mod usual;
 mod warning;
@@ -77,6 +78,7 @@ pub use statics::Statics;
 pub use supports::{Ends, Support};
 pub use tie::{Hold, Tie, TieAction, TieMemory};
 pub use trigonometric::FullRotations;
+pub(crate) use turn::Turn;
 pub use usage::{Usage, usage};
 pub use usual::Usual;
 pub use warning::Warning;

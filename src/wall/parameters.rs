@@ -72,7 +72,7 @@ pub struct Parameters {
     pub thrust_height: f64,
     /// A wall of parts, in place of the rectangle: [`Parameters::set_profile`]. Only scenes carry it.
     pub profile: Option<Arc<Profile>>,
-    /// Small or full rotations. Only scenes carry it.
+    /// Small or full rotations. Only scenes carry it, and FMUs of a scene.
     pub kinematics: Kinematics,
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
     /// replaces `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.

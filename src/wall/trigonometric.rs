@@ -1,4 +1,4 @@
-//! Full rotations: Housner's block and the two-body strip, the check on the small rotations of Eq. (12).
+//! Full rotations: Housner's block, a body of any shape, and the strip of two bodies.
 //!
 //! # Kinematics
 //! While the wall leans towards +x the lower body turns by θ₁ about its toe (b/2, 0) and carries the hinge B
@@ -36,178 +36,166 @@
 //! − θ)). At u = 0 f is F₀/`m_eff` of Table 2. For small rotations μ → 1 but for b²/h², which the paper
 //! drops: 1 + b²/h² for a parapet, and 1 + 4 b²/h₁² for a strip with its hinge at mid-height.
 //!
+//! # One body of any shape
+//! A body of parts and loads turns by θ about its toe, from which a place of it is at the distance d inwards
+//! and z upwards. A turn by δθ moves that place by (z cos θ + d sin θ) δθ outwards and by (d cos θ − z sin θ)
+//! δθ upwards. By the virtual work of the weights P, the thrusts H and the inertia of the moving masses,
+//! those of loads among them,
+//!
+//! ```text
+//! I θ̈ + M₀ cos θ − K sin θ = −a_g (S cos θ + X sin θ)
+//! I = ∫(z² + d²) dm     S = ∫z dm     X = ∫d dm     M₀ = Σ P d ∓ Σ H z     K = Σ P z ± Σ H d
+//! ```
+//!
+//! u is the displacement of the centroid of the masonry, at `z_G` and with the arm d = x. With D² = `z_G`² +
+//! x² and ψ = θ − α, tan α = x/`z_G`, the centroid is at s = D sin ψ = u − x, so that κ = 1 and b is x. By θ̇
+//! = ṡ/c, cos θ = c (`z_G` − x t)/D² and sin θ = c (x + `z_G` t)/D², divided by `m_eff` of Eq. (12):
+//!
+//! ```text
+//! μ ü + ½ μ̇ u̇ + f = p q      μ = I (1 + t²)/(D² m_eff)      f = g₀ − g₁ t
+//! g₀ = (M₀ z_G − K x)/(D² m_eff)      g₁ = (M₀ x + K z_G)/(D² m_eff)
+//! q = 1 + ρ (t − t(0))      ρ = (X z_G − S x) z_G/(D² S), 0 unless loads move along
+//! ```
+//!
+//! λ `m_eff` q u̇ is the momentum of all moving masses, from which the reaction of the base follows. At u = 0
+//! f is F₀/`m_eff`, and u̇ = `z_G` θ̇ about either toe: restitution acts on u̇ as on θ̇.
+//!
 //! # What is supported
-//! Any hinge height, overburden with either eccentricity mode (a dead load on a point of the top section),
-//! both directions of rocking (u < 0 is the mirror image), restitution at u = 0, where u̇ is proportional to
-//! θ̇. The sum of the reactions follows from ü exactly; their split between the supports of a strip is that
-//! of the small rotations. Supports that move differently, and drift, enter with their weights for small
-//! rotations.
+//! Rectangles and bodies of parts; strips of uniform section with any hinge height. Overburden with either
+//! eccentricity mode (a dead load on a point of the top section), both directions of rocking (u < 0 is the
+//! mirror image), restitution at u = 0. The sum of the reactions follows from ü exactly; their split between
+//! the supports of a strip is that of the small rotations. Supports that move differently, and drift, enter
+//! with their weights for small rotations.
 
-use crate::choices::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
+use oscillator::KinematicState;
 
+use crate::choices::{DampingModel, ForceLaw, Mechanism, Solver};
+
+use super::assembled::total;
 use super::error::{Choice, ParameterError};
 use super::mechanism::Body;
 use super::parameters::Parameters;
+use super::points::Point;
+use super::profile::Profile;
 use super::sides::Sides;
+use super::turn::Turn;
 
 /// A wall in full rotations; the equation and its letters are those of its module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRotations {
-    /// b \[m\].
-    pub(crate) thickness: f64,
-    /// κ = ds/du.
-    pub(crate) lever: f64,
-    /// Number of bodies, 1 or 2.
-    pub(crate) bodies: usize,
-    /// Dᵢ² \[m²\].
-    pub(crate) diagonals: [f64; 2],
-    /// mᵢ/m.
-    pub(crate) masses: [f64; 2],
-    /// g₀, g₁, g₂ for u > 0 and for u < 0 \[m/s²\].
-    forces: [[f64; 3]; 2],
-    /// min(h₁, h₂), or h \[m\].
-    shorter: f64,
+    /// As it leans to u > 0.
+    positive: Turn,
+    /// As it leans to u < 0, seen from there.
+    negative: Turn,
 }
-
-/// Halvings that find the unstable equilibrium: 64 exhaust a double.
-const HALVINGS: u32 = 128;
 
 impl FullRotations {
     /// # Errors
-    /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`].
+    /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`],
+    /// [`ParameterError::BeyondToe`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         check(parameters, body)?;
-        let (b, h, h1) = (parameters.thickness, body.height, body.hinge_height);
-        let (lever, bodies, h2) = match body.mechanism {
-            Mechanism::Parapet | Mechanism::RigidBody => (2.0, 1, h),
-            Mechanism::VerticalSpanning => (1.0, 2, h - h1),
+        let own = |sign: f64| match &parameters.profile {
+            Some(profile) => Turn::of_parts(parameters, profile, body, sign),
+            None => Turn::of_rectangle(parameters, body, sign),
         };
-        let masses = if bodies == 1 { [1.0, 0.0] } else { [h1 / h, h2 / h] };
-        let c = parameters.overburden_eccentricity;
-        let mirrored = match parameters.eccentricity_mode {
-            EccentricityMode::FixedToWall => -c,
-            EccentricityMode::FollowsPivot => c,
+        let turn = |sign: f64| {
+            let turn = own(sign).and_then(|turn| turn.falls(sign));
+            // as a body has the numbers of its free side where transverse walls hold the other
+            let is_held = !parameters.rocking.allows(sign);
+            if is_held && (body.held.is_some() || turn.is_err()) { own(-sign) } else { turn }
         };
-        let forces = [c, mirrored].map(|c| forces(b, [h1, h2], masses, body, c));
-        let shorter = h1.min(h2);
-        let diagonals = [h1, h2].map(|h| h * h + b * b);
-        let rotations = Self { thickness: b, lever, bodies, diagonals, masses, forces, shorter };
-        for (sign, side) in [(1.0, "u > 0"), (-1.0, "u < 0")] {
-            let (u_ins, end) = (rotations.equilibrium(sign), rotations.landing());
-            if u_ins.is_nan() || u_ins >= end {
-                return Err(ParameterError::NoFall { side, end });
-            }
-        }
-        Ok(rotations)
+        Ok(Self { positive: turn(1.0)?, negative: turn(-1.0)? })
+    }
+
+    /// Returns the turn to the side of `sign`.
+    pub(crate) fn side(&self, sign: f64) -> &Turn {
+        if sign < 0.0 { &self.negative } else { &self.positive }
+    }
+
+    /// Returns whether both sides are alike.
+    pub(super) fn has_equal_sides(&self) -> bool {
+        self.positive == self.negative
     }
 
     /// Displacements of the unstable equilibrium on both sides, which without overburden are `u_ins` of Table
     /// 2 \[m\].
     pub fn instability(&self) -> Sides {
-        Sides { positive: self.equilibrium(1.0), negative: self.equilibrium(-1.0) }
+        Sides::each(|sign| self.side(sign).equilibrium())
     }
 
-    /// Displacement at which the first body lies flat, the end of the fall \[m\].
-    pub fn landing(&self) -> f64 {
-        (self.shorter + self.thickness) / self.lever
+    /// Displacement of each side at which the first body lies flat, the end of the fall \[m\].
+    pub fn landing(&self) -> Sides {
+        Sides::each(|sign| self.side(sign).landing)
     }
 
     /// Rotation θ or θ₁ at a displacement, of its sign \[rad\].
     pub fn rotation(&self, displacement: f64) -> f64 {
-        let diagonal = self.diagonals[0].sqrt();
-        let turn = |s: f64| libm::asin(s / diagonal);
-        (turn(self.place(displacement)) - turn(-self.thickness)).copysign(displacement)
+        self.side(displacement).rotation(displacement.abs()).copysign(displacement)
     }
 
     /// Displacement at a rotation θ or θ₁, of its sign \[m\].
     pub fn displacement(&self, rotation: f64) -> f64 {
-        let slenderness = libm::asin(self.thickness / self.diagonals[0].sqrt());
-        let s = self.diagonals[0].sqrt() * libm::sin(rotation.abs() - slenderness);
-        ((s + self.thickness) / self.lever).copysign(rotation)
+        self.side(rotation).displacement(rotation.abs()).copysign(rotation)
     }
 
     /// f, the restoring force over `m_eff`, on the side of `sign` \[m/s²\].
     pub fn restoring(&self, displacement: f64, sign: f64) -> f64 {
-        sign * self.force(self.tangents(self.place(displacement)), sign)
+        sign * self.side(sign).restoring(sign * displacement)
     }
 
     /// ü under the forcing p, on the side of `sign` \[m/s²\].
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64, sign: f64) -> f64 {
-        let t = self.tangents(self.place(displacement));
-        // u̇ and p as seen on the positive side
-        let [speed, push] = [sign * velocity, sign * forcing];
-        // ṫ = (1 + t²) ṡ/c, and c = D/√(1 + t²)
-        let rate = |body: usize| {
-            let e = 1.0 + t[body] * t[body];
-            e * (e / self.diagonals[body]).sqrt() * self.lever * speed
-        };
-        let [m1, m2] = self.masses;
-        let (t1, t2, r1, r2) = (t[0], t[1], rate(0), rate(1));
-        let half_mass_rate = m1 * t1 * r1 + m2 * (3.0 * (t1 + 0.5 * t2) * (r1 + 0.5 * r2) + 0.25 * t2 * r2);
-        sign * (push - self.force(t, sign) - half_mass_rate * speed) / self.mass(t)
+        sign * self.side(sign).acceleration(sign * displacement, sign * velocity, sign * forcing)
+    }
+
+    /// Change of ü \[m/s²\] along a change of u, of u̇ and of the forcing p, on the side of `sign`, from a
+    /// motion under p.
+    pub(crate) fn acceleration_change(
+        &self,
+        sign: f64,
+        motion: KinematicState,
+        forcing: f64,
+        change: [f64; 3],
+    ) -> f64 {
+        let change = change.map(|change| sign * change);
+        sign * self.side(sign).acceleration_change(seen(sign, motion), sign * forcing, change)
+    }
+
+    /// Change of f along a change of u, on the side of `sign` \[m/s²\].
+    pub(crate) fn restoring_change(&self, sign: f64, displacement: f64, change: f64) -> f64 {
+        self.side(sign).restoring_change(sign * displacement, change)
+    }
+
+    /// Returns q u̇: λ `m_eff` times this is the momentum of all moving masses along the ground \[m/s\].
+    pub(crate) fn carried_velocity(&self, displacement: f64, velocity: f64) -> f64 {
+        let turn = self.side(displacement);
+        turn.share(turn.tangents(turn.place(displacement.abs()))[0]) * velocity
+    }
+
+    /// Returns the time derivative of q u̇ on the side of `sign` \[m/s²\].
+    pub(crate) fn carried(&self, sign: f64, motion: KinematicState) -> f64 {
+        sign * self.side(sign).carried(seen(sign, motion))
+    }
+
+    /// Change of that along a change of u, of u̇ and of ü \[m/s²\].
+    pub(crate) fn carried_change(&self, sign: f64, motion: KinematicState, change: [f64; 3]) -> f64 {
+        let change = change.map(|change| sign * change);
+        sign * self.side(sign).carried_change(seen(sign, motion), change)
+    }
+
+    /// Bounds the second derivative of what [`carried`](Self::carried) gives between two displacements on the
+    /// side of `sign`, from bounds on |u̇| and |ü|: shares of bounds on |ü|, on the jerk and on the second
+    /// derivative of ü, and a number \[m/s⁴\].
+    pub(crate) fn carried_curvature(&self, sign: f64, range: [f64; 2], most: [f64; 2]) -> [f64; 4] {
+        self.side(sign).carried_curvature(range.map(|u| sign * u), most)
     }
 
     /// Energy over `m_eff`, ½ μ u̇² + ∫f du from 0 \[m²/s²\]; for a strip twice the physical one, as Eq. (12)
     /// is.
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
-        let s = self.place(displacement);
-        let [g0, g1, g2] = self.forces_of(displacement);
-        // c(s) − c(−b) = (b² − s²)/(c(s) + c(−b)), which does not cancel
-        let rise = |body: usize| {
-            let [here, there] = [s, self.thickness].map(|s| (self.diagonals[body] - s * s).sqrt());
-            (self.thickness - s) * (self.thickness + s) / (here + there)
-        };
-        let potential = (g0 * (s + self.thickness) + g1 * rise(0) + g2 * rise(1)) / self.lever;
-        0.5 * self.mass(self.tangents(s)) * velocity * velocity + potential
-    }
-
-    /// g₀, g₁, g₂ of the side of a displacement.
-    pub(crate) fn forces_of(&self, sign: f64) -> [f64; 3] {
-        self.forces[usize::from(sign < 0.0)]
-    }
-
-    /// s \[m\].
-    pub(crate) fn place(&self, displacement: f64) -> f64 {
-        self.lever * displacement.abs() - self.thickness
-    }
-
-    /// t₁ and t₂.
-    pub(crate) fn tangents(&self, s: f64) -> [f64; 2] {
-        self.diagonals.map(|diagonal| s / (diagonal - s * s).sqrt())
-    }
-
-    /// f of the side of `sign`, as if it were u > 0.
-    pub(crate) fn force(&self, [t1, t2]: [f64; 2], sign: f64) -> f64 {
-        let [g0, g1, g2] = self.forces_of(sign);
-        g0 - g1 * t1 - g2 * t2
-    }
-
-    /// μ.
-    fn mass(&self, [t1, t2]: [f64; 2]) -> f64 {
-        let [m1, m2] = self.masses;
-        let q = t1 + 0.5 * t2;
-        m1 * (1.0 + t1 * t1) + m2 * (1.0 + 3.0 * q * q + 0.25 * t2 * t2)
-    }
-
-    /// |u| at which f = 0 on a side; beyond the landing where there is none.
-    fn equilibrium(&self, sign: f64) -> f64 {
-        let [g0, ..] = self.forces_of(sign);
-        if g0 == 0.0 {
-            return self.thickness / self.lever;
-        }
-        let (mut low, mut high) = (0.0, self.landing());
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if self.force(self.tangents(self.place(middle)), sign) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
+        let ahead = if displacement == 0.0 { velocity } else { displacement };
+        self.side(ahead).energy(displacement.abs(), velocity)
     }
 }
 
@@ -216,9 +204,98 @@ impl Body {
     pub(super) fn turn_fully(&mut self, rotations: &FullRotations) {
         let end = rotations.landing();
         self.instability = rotations.instability();
-        self.landing = self.instability.map(|u_ins| end.max(u_ins));
-        self.departure = self.instability.map(|u_ins| (end / 2.0).max(u_ins));
+        let later = |end: f64, sign: f64| end.max(self.instability.of(sign));
+        self.landing = Sides::each(|sign| later(end.of(sign), sign));
+        self.departure = Sides::each(|sign| later(end.of(sign) / 2.0, sign));
     }
+}
+
+impl Turn {
+    /// # Errors
+    /// [`ParameterError::NoFall`] where the wall lies flat before it becomes unstable.
+    fn falls(self, sign: f64) -> Result<Self, ParameterError> {
+        let (u_ins, end) = (self.equilibrium(), self.landing);
+        if u_ins.is_nan() || u_ins >= end {
+            return Err(ParameterError::NoFall { side: side_name(sign), end });
+        }
+        Ok(self)
+    }
+
+    /// Returns the turn of a rectangle, or of a strip of uniform section.
+    #[allow(clippy::unnecessary_wraps, reason = "as for parts")]
+    fn of_rectangle(parameters: &Parameters, body: &Body, sign: f64) -> Result<Self, ParameterError> {
+        let (b, h, h1) = (parameters.thickness, body.height, body.hinge_height);
+        let (lever, bodies, h2) = if body.is_strip() { (1.0, 2, h - h1) } else { (2.0, 1, h) };
+        let masses = if bodies == 1 { [1.0, 0.0] } else { [h1 / h, h2 / h] };
+        let c = parameters.eccentricity_of_sides().of(sign);
+        Ok(Self {
+            lever,
+            offset: b,
+            bodies,
+            diagonals: [h1, h2].map(|h| h * h + b * b),
+            masses,
+            forces: forces(b, [h1, h2], masses, body, c),
+            drag: 0.0,
+            landing: (h1.min(h2) + b) / lever,
+        })
+    }
+
+    /// Returns the turn of a body of parts about the toe of a side.
+    ///
+    /// # Errors
+    /// [`ParameterError::BeyondToe`] where u does not describe the fall.
+    #[cold]
+    fn of_parts(
+        parameters: &Parameters,
+        profile: &Profile,
+        body: &Body,
+        sign: f64,
+    ) -> Result<Self, ParameterError> {
+        let ([outer, inner], h, centroid) =
+            (profile.toes(), profile.height(), profile.centroid([0.0, profile.height()]));
+        let arm = |x: f64| if sign > 0.0 { x - outer } else { inner - x };
+        let mut points = profile.masonry([0.0, h], parameters.gravity);
+        let own = points.len();
+        points.extend(profile.load_points(parameters.gravity));
+        let (o, at) = (parameters.overburden, parameters.overburden_on(profile).of(sign));
+        points.push(Point { mass: 0.0, weight: o, thrust: 0.0, x: at, z: h });
+        let (x, z) = (arm(centroid.x), body.centroid_height);
+        if x <= 0.0 {
+            return Err(ParameterError::BeyondToe { side: side_name(sign), distance: -x });
+        }
+        let squared = x * x + z * z;
+        let inertia = total(&points, &|p| p.mass * (p.z * p.z + arm(p.x).powi(2)));
+        let moment = total(&points, &|p| p.weight * arm(p.x) - sign * p.thrust * p.z);
+        let overturning = total(&points, &|p| p.weight * p.z + sign * p.thrust * arm(p.x));
+        // of the masonry, X z_G − S x is 0
+        let dragged = total(&points[own..], &|p| p.mass * (arm(p.x) * z - p.z * x));
+        let first_moment = total(&points, &|p| p.mass * p.z);
+        let scale = squared * body.effective_mass;
+        Ok(Self {
+            lever: 1.0,
+            offset: x,
+            bodies: 1,
+            diagonals: [squared; 2],
+            masses: [inertia / scale, 0.0],
+            forces: [(moment * z - overturning * x) / scale, (moment * x + overturning * z) / scale, 0.0],
+            drag: dragged * z / (squared * first_moment),
+            landing: z + x,
+        })
+    }
+}
+
+/// Returns a motion as it is seen from the side of `sign`.
+fn seen(sign: f64, motion: KinematicState) -> KinematicState {
+    let KinematicState { displacement, velocity, acceleration } = motion;
+    KinematicState {
+        displacement: sign * displacement,
+        velocity: sign * velocity,
+        acceleration: sign * acceleration,
+    }
+}
+
+fn side_name(sign: f64) -> &'static str {
+    if sign > 0.0 { "u > 0" } else { "u < 0" }
 }
 
 /// g₀, g₁, g₂ for the load point at the eccentricity `c` towards the side.
@@ -253,12 +330,13 @@ pub(super) fn conflict(name: &'static str, value: &dyn ToString, remedy: &str) -
 /// # Errors
 /// [`ParameterError::Conflict`] with a law, a damping or a solver that goes with small rotations only.
 fn check(parameters: &Parameters, body: &Body) -> Result<(), ParameterError> {
-    if !body.is_rectangle {
-        let (name, value) = match parameters.profile {
-            Some(_) => ("part", "[...]"),
-            None => ("mechanism", parameters.mechanism.name()),
-        };
-        return Err(conflict(name, &value, "height and thickness of a rectangle in place of it"));
+    if parameters.profile.is_some() && body.is_strip() {
+        let remedy = "mechanism = parapet, or height and thickness of a rectangle in place of the parts";
+        return Err(conflict("part", &"[...]", remedy));
+    }
+    if parameters.profile.is_none() && !body.is_rectangle {
+        let remedy = "its parts in place of its integrals, which leave out the squares of the thickness";
+        return Err(conflict("mechanism", &parameters.mechanism.name(), remedy));
     }
     let law = parameters.multilinear.as_ref().map_or(parameters.force_law.name(), |_| "multilinear");
     let refused = if law != ForceLaw::RigidLinear.name() {

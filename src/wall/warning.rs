@@ -22,12 +22,17 @@ pub enum Warning {
         if *name == "calibrated" { ", times the ratio measured on rectangles" } else { "" }
     )]
     ByImpulses { name: &'static str },
-    /// A body whose rotations are not small, and that has no full ones \[rad\].
+    /// A body whose rotations are taken as small and are not \[rad\].
     #[error(
         "the slenderness angle of this body is {slenderness:.3} rad: small rotations are off by some per \
-         cent from 0.25 rad on, 3 % in the time of a swing up to 0.9 u_ins at 0.33 rad"
+         cent from 0.25 rad on, 3 % in the time of a swing up to 0.9 u_ins at 0.33 rad{}",
+        if *has_full_ones {
+            "; kinematics = trigonometric has full ones, for force_law = rigid_linear without damping"
+        } else {
+            ""
+        }
     )]
-    LargeRotations { slenderness: f64 },
+    LargeRotations { slenderness: f64, has_full_ones: bool },
     /// Viscous damping computed from e, and e applied at impacts as well.
     #[error(
         "computed damping already represents the impacts: with impact = restitution the energy loss is \

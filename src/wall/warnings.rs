@@ -7,7 +7,7 @@ use super::damping::DampingLaw;
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
-use super::parameters::Parameters;
+use super::parameters::{Kinematics, Parameters};
 use super::tie::Tie;
 use super::usage::{Usage, usage};
 use super::usual::{FORCES, LENGTHS, Usual};
@@ -16,8 +16,8 @@ use super::warning::{USUAL_STEP, Warning};
 /// Largest usual ω₁ times that step: 16 vibrations.
 const MOST_USUAL_ANGLE: f64 = 100.0;
 
-/// Slenderness angle from which small rotations are off by some per cent \[rad\]. Rectangles have full
-/// rotations to compare with, and are not warned of.
+/// Slenderness angle from which small rotations are off by some per cent \[rad\]. Of rectangles
+/// `docs/accuracy.md` says how far they are off.
 const LARGE_ROTATIONS: f64 = 0.25;
 
 /// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
@@ -46,8 +46,10 @@ pub(super) fn collect(
     if !body.is_rectangle && is_of_rectangles && is_computed {
         warnings.push(Warning::ByImpulses { name: source.name() });
     }
-    if !body.is_rectangle && body.slenderness.most() >= LARGE_ROTATIONS {
-        warnings.push(Warning::LargeRotations { slenderness: body.slenderness.most() });
+    let is_small = parameters.kinematics == Kinematics::Linear;
+    if !body.is_rectangle && is_small && body.slenderness.most() >= LARGE_ROTATIONS {
+        let has_full_ones = parameters.profile.is_some() && !body.is_strip();
+        warnings.push(Warning::LargeRotations { slenderness: body.slenderness.most(), has_full_ones });
     }
     if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
         warnings.push(Warning::OutsideFit { a1: force.elastic_fraction });

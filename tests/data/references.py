@@ -540,6 +540,36 @@ class Body:
             "restitution_used": (mzz + both) / (mzz + after),
         }  # fmt: skip
 
+    def values_of_rotation(self, u, v, ground):
+        """u_ins, ü and R_b in full rotations, on the side on which u is; thrusts push it outwards."""
+        side = 1 if u > 0 else -1
+        m, own_x, mz, *_ = self.points(Decimal(0), self.height, loads=False)
+        moving, mx, first, mxx, mzz, wx, wz, w = self.points(Decimal(0), self.height)
+        toe = self.toes[0] if side > 0 else self.toes[1]
+        z, x = mz / m, side * (own_x / m - toe)
+        across = side * (mx - moving * toe)
+        inertia = mzz + mxx - 2 * mx * toe + moving * toe * toe
+        moment = side * (wx - w * toe) - side * sum(h * height for _, height, _, _, h in self.loads)
+        turning = wz + side * sum(h * side * (inside - toe) for _, _, inside, _, h in self.loads)
+
+        diagonal = (z * z + x * x).sqrt()
+        sine = (side * u - x) / diagonal
+        cosine = (1 - sine * sine).sqrt()
+        # of θ, which is larger by α
+        sin, cos = (sine * z + cosine * x) / diagonal, (cosine * z - sine * x) / diagonal
+        rate = side * v / (diagonal * cosine)
+        push = side * ground * (first * cos + across * sin)
+        angular = (turning * sin - moment * cos - push) / inertia
+        momentum = angular * (first * cos + across * sin) + rate * rate * (across * cos - first * sin)
+        reaction = moving * ground + side * momentum - sum(h for *_, h in self.loads)
+        size = (moment * moment + turning * turning).sqrt()
+        u_ins = (z * moment + x * (size - turning)) / size
+        return {
+            "u_ins" if side > 0 else "u_ins_negative": (u_ins, u_ins),
+            "u_ddot": (side * diagonal * (cosine * angular - sine * rate * rate), self.gravity),
+            "reaction_bottom": (reaction, w),
+        }
+
     def values_of_strip(self):
         h, h1 = self.height, self.hinge
         h2 = h - h1
@@ -581,6 +611,11 @@ def rows(name, scene, motion):
         values = Body(tomllib.loads(scene)).values()
         # the sums of a body cancel some digits
         return [(variable, 0.0, value, value, 10 * ROUNDING) for variable, value in values.items()]
+    if name == "full_facade":
+        scene = tomllib.loads(scene)
+        u, v = (Decimal(repr(scene["start"][key])) for key in ["u_start", "u_dot_start"])
+        values = Body(scene).values_of_rotation(u, v, Decimal(repr(motion["bottom"][0])))
+        return [(variable, 0.0, *value, 10 * ROUNDING) for variable, value in values.items()]
     if name[0] in "cto" and name[1:3].isdigit():
         return list(case(name))
     wall = Wall(tomllib.loads(scene), motion)

@@ -159,8 +159,12 @@ fn bodies_that_cannot_rock_are_refused() {
             "line 1: a load at height = 3 m is above the body, height = 2.5 m",
         ),
         (
-            format!("[geometry]\nkinematics = \"trigonometric\"\n{PART}width = [1.0, 0.5]"),
-            "kinematics = trigonometric does not go with part = [...]; set height and thickness of a rect",
+            format!("{strip}kinematics = \"trigonometric\"\n{PART}width = [1.0, 0.5]"),
+            "kinematics = trigonometric does not go with part = [...]; set mechanism = parapet, or height",
+        ),
+        (
+            format!("[geometry]\nkinematics = \"trigonometric\"\n{BODY}{given}"),
+            "kinematics = trigonometric does not go with mechanism = rigid_body; set its parts in place of",
         ),
         (
             format!("{strip}{PART}width = [1.0, 0.5]\n[impact]\nrestitution_source = \"momentum\""),

@@ -32,6 +32,8 @@ mod distant_outputs;
 mod edited_states;
 mod extreme_parameters;
 mod floor_motion;
+mod full_bodies;
+mod full_equation;
 mod model_exchange;
 mod newton_euler;
 mod numerics;

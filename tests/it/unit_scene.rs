@@ -7,11 +7,11 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::unit::UnitScene;
-use rocking_wall::wall::Kinematics;
+use rocking_wall::wall::{Kinematics, Parameters};
 
 use crate::of_payload;
 
-/// The scenes of the repository that an FMU can have.
+/// The scenes of the repository.
 fn scenes() -> Vec<(PathBuf, UnitScene)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -19,8 +19,7 @@ fn scenes() -> Vec<(PathBuf, UnitScene)> {
     let read = |path: PathBuf| {
         let scene = Scene::read(&path).ok()?;
         let motion = scene.support_motion().unwrap().map(std::borrow::Cow::into_owned);
-        let is_linear = scene.parameters.kinematics == Kinematics::Linear;
-        is_linear.then_some((path, UnitScene { parameters: scene.parameters, motion }))
+        Some((path, UnitScene { parameters: scene.parameters, motion }))
     };
     files.filter_map(read).collect()
 }
@@ -37,6 +36,13 @@ fn every_scene_comes_back_bit_by_bit() {
         assert_eq!(UnitScene::read(&scene.bytes()).unwrap(), scene, "{}", path.display());
         drop(of_payload(Interface::CoSimulation, Some(&scene.bytes()), &mut Log::silent()));
     }
+}
+
+#[test]
+fn full_rotations_are_carried() {
+    let parameters = Parameters { kinematics: Kinematics::Trigonometric, ..Parameters::default() };
+    let scene = UnitScene { parameters, motion: None };
+    assert_eq!(UnitScene::read(&scene.bytes()).unwrap(), scene);
 }
 
 #[test]
@@ -60,7 +66,7 @@ fn broken_bytes_are_refused() {
     let message = |bytes: &[u8]| UnitScene::read(bytes).unwrap_err().to_string();
     assert!(message(&longer).contains("1 bytes more"), "{}", message(&longer));
     // the version is the last letter of the first text
-    let other = [&bytes[..8], b"rocking-wall scene 3", &bytes[28..]].concat();
-    let words = "\"rocking-wall scene 3\" where \"rocking-wall scene 2\" is expected: package the FMU again";
+    let other = [&bytes[..8], b"rocking-wall scene 4", &bytes[28..]].concat();
+    let words = "\"rocking-wall scene 4\" where \"rocking-wall scene 3\" is expected: package the FMU again";
     assert!(message(&other).contains(words), "{}", message(&other));
 }

@@ -27,11 +27,12 @@ pub enum SceneFmuError {
     /// It is the FMU of a scene.
     #[error("{}: is itself an FMU of a scene, not the general one", path.display())]
     OfScene { path: PathBuf },
-    /// The scene moves in full rotations.
+    /// A strip wall in full rotations.
     #[error(
-        "an FMU has small rotations only; set kinematics = linear, or use `wall simulate`, which needs no FMU"
+        "a strip wall in an FMU has small rotations only, as its supports may move apart; set kinematics = \
+         linear, or use `wall simulate`, which needs no FMU"
     )]
-    FullRotations,
+    StripInFullRotations,
     /// The parameters are not those of a valid wall, or the wall cannot be moved or started as the scene
     /// asks.
     #[error(transparent)]

@@ -14,7 +14,7 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::unit::UnitScene;
-use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
+use rocking_wall::wall::{Parameters, Support, Wall};
 
 pub use error::SceneFmuError;
 pub use general::General;
@@ -39,8 +39,8 @@ pub struct SceneFmu {
 /// scene's own motion.
 ///
 /// # Errors
-/// [`SceneFmuError`] of a scene in full rotations or without a wall, or where the description cannot be
-/// reduced.
+/// [`SceneFmuError`] of a strip wall in full rotations or of a scene without a wall, or where the description
+/// cannot be reduced.
 pub fn of_scene(scene: &Scene, general: General) -> Result<SceneFmu, SceneFmuError> {
     let motions = scene.excitation.iter().flat_map(|motion| [Some(motion.bottom()), motion.top()]);
     let step = motions.flatten().map(GroundMotion::step).fold(scene.stop_time / STEPS, f64::min);
@@ -85,14 +85,13 @@ pub fn of_scene_in(
 /// Checks that a scene can have an FMU, and returns its wall.
 ///
 /// # Errors
-/// [`SceneFmuError::FullRotations`], [`SceneFmuError::Parameters`].
+/// [`SceneFmuError::StripInFullRotations`], [`SceneFmuError::Parameters`].
 pub fn check(scene: &Scene) -> Result<Wall, SceneFmuError> {
-    match scene.parameters.kinematics {
-        Kinematics::Linear => {
-            Ok(Simulation::new(&scene.parameters, None, 0.0, Support::default())?.wall().clone())
-        }
-        Kinematics::Trigonometric => Err(SceneFmuError::FullRotations),
+    let wall = Simulation::new(&scene.parameters, None, 0.0, Support::default())?.wall().clone();
+    if wall.rotations().is_some() && wall.body().is_strip() {
+        return Err(SceneFmuError::StripInFullRotations);
     }
+    Ok(wall)
 }
 
 /// Returns what the library reads of a scene: its `resources/scene.bin`.

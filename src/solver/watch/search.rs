@@ -23,19 +23,20 @@ const MOST_INTERVALS: u32 = 60 * PATIENCE;
 const DEEPEST: usize = 64;
 
 /// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
-/// terms. The bound is a sum of shares of the bounds on |ü|, on the jerk and on the second derivative of ü.
+/// terms. The bound is a sum of shares of the bounds on |ü|, on the jerk and on the second derivative of ü,
+/// and of a number.
 pub(super) struct Quantity<F, S> {
     pub(super) value: F,
-    pub(super) curvature: [f64; 3],
+    pub(super) curvature: [f64; 4],
     pub(super) size: S,
 }
 
 impl<F, S> Quantity<F, S> {
     /// Returns by how much it may exceed its values at the ends of an interval.
     fn above(&self, width: f64, bounds: [f64; 3]) -> f64 {
-        let [of_acceleration, of_jerk, of_snap] = self.curvature;
+        let [of_acceleration, of_jerk, of_snap, more] = self.curvature;
         let [acceleration, jerk, snap] = bounds;
-        0.125 * width * width * (of_acceleration * acceleration + of_jerk * jerk + of_snap * snap)
+        0.125 * width * width * (of_acceleration * acceleration + of_jerk * jerk + of_snap * snap + more)
     }
 }
 

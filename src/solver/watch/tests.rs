@@ -177,7 +177,7 @@ fn a_wall_that_hovers_is_searched_in_few_intervals() {
         let segment = Segment { duration: 2.0 * before, from: still, to: still };
         let mut watch = Watch { demands: &mut demands, wall: &wall, segment: &segment, time: 0.0 };
         let search = ExtremeSearch::new(&piece, 2.0 * before, [0.0, 0.0]);
-        watch.search(&search, Couple::default()).unwrap();
+        watch.search(&search, &wall.branches()[0]).unwrap();
         let highest = demands.displacement.highest;
         // of u the accuracy of the search, and the rounding that growth by e^ω(t − τ) adds to it
         let allowed = ACCURACY + 8.0 * f64::EPSILON / nearest * 0.1;

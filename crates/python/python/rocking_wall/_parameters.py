@@ -100,8 +100,7 @@ class Parameters(TypedDict, total=False):
     - tie_side: Side on which the tie holds the wall; where tie_stiffness is not 0; default "positive".
     - tie_ultimate: Plastic elongation at which the tie breaks; it yields at tie_strength; -1: elastic [m], at
       least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0.
-    - kinematics: Small rotations, or full ones (rigid_linear without damping, not in an FMU); default
-      "linear".
+    - kinematics: Small rotations, or full ones (rigid_linear without damping); default "linear".
     - points: Corners [u/u_ins, F/F0] of a multilinear law after the origin.
     - part: Parts of the masonry, in place of one rectangle.
     - opening: Openings and hollows in the parts.

@@ -137,7 +137,9 @@ fn what_full_rotations_do_not_know_is_refused_with_the_remedy() {
     ] {
         refused(&folder, &simulate(setting), words);
     }
-    refused(&folder, &["package", "good.toml", "-o", "x.fmu"], &["kinematics = linear", "wall simulate"]);
+    let strip = SCENE.replacen("[geometry]", "[geometry]\nmechanism = \"vertical_spanning\"", 1);
+    fs::write(folder.join("strip.toml"), strip).unwrap();
+    refused(&folder, &["package", "strip.toml", "-o", "x.fmu"], &["kinematics = linear", "wall simulate"]);
     fs::write(folder.join("table.toml"), "[solver]\nkinematics = \"linear\"\n").unwrap();
     refused(&folder, &["simulate", "table.toml"], &["line 2", "[geometry]"]);
     fs::write(folder.join("a.csv"), "0.0\n1.0\n0.0\n").unwrap();

@@ -1,0 +1,209 @@
+//! Tests where bodies in full rotations stand, fall and lie, and the limits and derivatives of their equation.
+
+use rocking_wall::simulation::{Outputs, Simulation};
+use rocking_wall::solver::Segment;
+use rocking_wall::wall::{Kinematics, Load, Parameters, Part, Support, Wall};
+
+use crate::bodies::{PRISM, of_parts};
+use crate::full_bodies::{Place, Reference, cases, reference_of};
+
+/// Free motion keeps its energy through impacts with e = 1, also between sides of different inertia: there the
+/// energy changes by what the impact takes.
+#[test]
+fn free_motion_of_bodies_keeps_its_energy() {
+    for (name, parameters) in cases() {
+        let wall = Wall::new(&parameters).unwrap();
+        let u_start = 0.4 * wall.body().instability.least();
+        let parameters = Parameters { restitution: 1.0, u_start, ..parameters };
+        let still = Support::default();
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).unwrap();
+        let energy = |simulation: &Simulation| {
+            let state = simulation.progress().state;
+            simulation.wall().energy(state.displacement, state.velocity)
+        };
+        let (mut last, mut impacts) = (energy(&simulation), 0);
+        for index in 0..1000 {
+            simulation.advance(&Segment { duration: 0.01, from: still, to: still }).unwrap();
+            let now = simulation.progress().work.impacts;
+            if now > impacts {
+                // the same u̇ with the μ of the other side
+                impacts = now;
+            } else {
+                let change = energy(&simulation) / last - 1.0;
+                assert!(change.abs() < 1e-12, "{name}, step {index}: {change}");
+            }
+            last = energy(&simulation);
+        }
+        assert!(impacts > 4, "{name}: {impacts}");
+    }
+}
+
+/// M₀ and K of the wall about the toe of the side of `sign`, thrusts in both.
+fn moments(reference: &Reference, sign: f64) -> [f64; 2] {
+    let d = |p: &Place| reference.arm(sign, p);
+    [
+        reference.sum(|p| p.force * d(p) - sign * p.thrust * p.z),
+        reference.sum(|p| p.force * p.z + sign * p.thrust * d(p)),
+    ]
+}
+
+/// At u = 0 the force is F₀; it vanishes where tan θ = M₀/K; and the body lies flat at u = z_G + x.
+#[test]
+fn bodies_stand_fall_and_lie_where_their_moments_say() {
+    for (name, parameters) in cases() {
+        let (wall, reference) = (Wall::new(&parameters).unwrap(), reference_of(&parameters));
+        let (body, rotations) = (wall.body(), wall.rotations().unwrap());
+        for sign in [1.0, -1.0] {
+            let ([moment, overturning], [x, z]) = (moments(&reference, sign), reference.centroid(sign));
+            let (turned, onset) = (libm::atan2(moment, overturning), moment / z);
+            let force = sign * wall.restoring(wall.branch_of(0.0, sign), 0.0) * body.effective_mass;
+            assert!((force / onset - 1.0).abs() < 1e-14, "{name}: {force} for {onset}");
+            let u_ins = body.instability.of(sign);
+            let expected = z * libm::sin(turned) + x * (1.0 - libm::cos(turned));
+            assert!((u_ins / expected - 1.0).abs() < 1e-13, "{name}: {u_ins} for {expected}");
+            assert!((rotations.rotation(sign * u_ins) / (sign * turned) - 1.0).abs() < 1e-13);
+            let (landing, departure) = (body.landing.of(sign), body.departure.of(sign));
+            assert!((landing / (z + x) - 1.0).abs() < 1e-14, "{name}: {landing}");
+            assert_eq!(departure, u_ins.max(landing / 2.0), "{name}");
+            // as a half turn it falls to where it lies
+            let u_start = sign * 0.99 * u_ins;
+            let pushed = Parameters { u_start, u_dot_start: sign * 0.1, ..parameters.clone() };
+            let still = Support::default();
+            let mut simulation = Simulation::new(&pushed, None, 0.0, still).unwrap();
+            simulation.advance(&Segment { duration: 60.0, from: still, to: still }).unwrap();
+            let state = simulation.progress().state;
+            assert_eq!((state.displacement, state.velocity), (sign * landing, 0.0), "{name}");
+        }
+    }
+}
+
+/// A rectangle that is cut into two parts moves as the rectangle, whose equation rounds otherwise.
+#[test]
+fn two_parts_rotate_as_a_rectangle() {
+    let [lower, upper] = [(0.0, 1.1), (1.1, 1.9)].map(|(base, height)| Part { base, height, ..PRISM });
+    let parts = Parameters {
+        kinematics: Kinematics::Trigonometric,
+        restitution: 0.93,
+        overburden: 5e3,
+        overburden_eccentricity: 0.03,
+        u_start: 0.02,
+        tolerance: 1e-12,
+        ..of_parts(&[lower, upper], &[], &[])
+    };
+    let rectangle = Parameters { profile: None, ..parts.clone() };
+    let [mut parts, mut rectangle] = [parts, rectangle]
+        .map(|parameters| Simulation::new(&parameters, None, 0.0, Support::default()).unwrap());
+    let sides = |simulation: &Simulation| simulation.wall().body().instability;
+    let u_ins = sides(&rectangle);
+    for sign in [1.0, -1.0] {
+        assert!((sides(&parts).of(sign) / u_ins.of(sign) - 1.0).abs() < 1e-13);
+    }
+    for index in 0..300 {
+        let ground = |index: i32| Support::rigid(0.3 * libm::sin(0.11 * f64::from(index)));
+        let segment = Segment { duration: 0.02, from: ground(index), to: ground(index + 1) };
+        let outputs = [&mut parts, &mut rectangle].map(|simulation| {
+            simulation.advance(&segment).unwrap();
+            simulation.outputs(segment.to)
+        });
+        let apart = outputs[0].displacement - outputs[1].displacement;
+        // each step may leave 1e-16 of the scale, the tolerance, and impacts let it grow
+        assert!(apart.abs() <= 1e-11 * u_ins.most(), "{index}: {outputs:?}");
+    }
+    assert!(rectangle.progress().work.impacts > 3);
+}
+
+/// Small rotations are the limit of slender bodies: ü differs by O(α²).
+#[test]
+fn slender_bodies_have_small_rotations() {
+    let error = |thickness: f64| {
+        let gable = Part { height: 2.4, width: [6.0, 0.0], thickness: [thickness; 2], ..PRISM };
+        let (force, inside) = (2e4 * thickness, 0.2 * thickness);
+        let load = Load { force, height: 1.5, inside, moving_mass: 0.7, thrust: 0.0 };
+        let full = of_parts(&[gable], &[], &[load]);
+        let full = Parameters { kinematics: Kinematics::Trigonometric, ..full };
+        let small = Parameters { kinematics: Kinematics::Linear, ..full.clone() };
+        let [full, small] = [full, small].map(|parameters| {
+            let wall = Wall::new(&parameters).unwrap();
+            let u = 0.5 * wall.body().instability.positive;
+            wall.acceleration(wall.branch_of(u, 1.0), u, 0.2 * thickness, -0.5 * thickness)
+        });
+        (full / small - 1.0).abs()
+    };
+    let errors = [0.08, 0.04, 0.02, 0.01].map(error);
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.05, "{errors:?}");
+    }
+}
+
+/// The extremes of the reaction of a façade whose floors move along are those of many instants.
+#[test]
+fn extremes_of_reactions_are_those_of_many_instants() {
+    let (name, facade) = cases().pop().unwrap();
+    assert_eq!(name, "facade");
+    let u_start = 0.4 * Wall::new(&facade).unwrap().body().instability.least();
+    let facade = Parameters { u_start, u_dot_start: -0.05, ..facade };
+    let ground = |time: f64| Support::rigid(0.03 * libm::sin(5.0 * time));
+    let [mut long, mut short] = [ground(0.0); 2].map(|at| Simulation::new(&facade, None, 0.0, at).unwrap());
+    let mut demands = long.demands(ground(0.0), &[]);
+    let (step, parts) = (0.2, 500);
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for index in 0..50 {
+        let time = f64::from(index) * step;
+        let [from, to] = [ground(time), ground(time + step)];
+        long.advance_watched(&Segment { duration: step, from, to }, &mut demands).unwrap();
+        for part in 0..parts {
+            let [from, to] =
+                [part, part + 1].map(|part| from.towards(to, f64::from(part) / f64::from(parts)));
+            let force = short.outputs(from).reactions.bottom;
+            (lowest, highest) = (lowest.min(force), highest.max(force));
+            short.advance(&Segment { duration: step / f64::from(parts), from, to }).unwrap();
+        }
+    }
+    let progress = long.progress();
+    assert!(progress.work.impacts > 1 && !progress.state.overturned);
+    let found = [demands.reaction_bottom.lowest.value, demands.reaction_bottom.highest.value];
+    let size = highest - lowest;
+    for (found, sampled) in found.into_iter().zip([lowest, highest]) {
+        // samples miss an extreme, and a jump at an impact, by their share of a step
+        assert!((found - sampled).abs() <= 1e-3 * size, "{found} for {sampled}");
+    }
+    assert!(found[0] <= lowest + 1e-9 * size && found[1] >= highest - 1e-9 * size, "{found:?}");
+}
+
+/// The derivatives of the outputs are those of small changes.
+#[test]
+fn derivatives_are_those_of_the_outputs() {
+    for (name, parameters) in cases() {
+        let still = Support::default();
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).unwrap();
+        let u_ins = simulation.wall().body().instability;
+        for (u, v) in [(0.3 * u_ins.positive, 0.4), (-0.6 * u_ins.negative, 0.2)] {
+            let support = Support::rigid(0.7);
+            let mut at = |u: f64, v: f64, ground: f64| {
+                simulation.place(u, v, support);
+                simulation.outputs(Support::rigid(ground))
+            };
+            let delta = 1e-6;
+            let rates = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[du, dv, da]: [f64; 3]| {
+                let of = |step: f64| (u + step * du, v + step * dv, 0.7 + step * da);
+                let ((u1, v1, a1), (u0, v0, a0)) = (of(delta), of(-delta));
+                let (one, other) = (at(u1, v1, a1), at(u0, v0, a0));
+                let difference = |pick: fn(&Outputs) -> f64| (pick(&one) - pick(&other)) / (2.0 * delta);
+                let picks = [difference(|o| o.acceleration), difference(|o| o.restoring_force)];
+                ([du, dv, da], [picks[0], picks[1], difference(|o| o.reactions.bottom)])
+            });
+            simulation.place(u, v, support);
+            let weight = simulation.wall().body().weight;
+            for ([du, dv, da], expected) in rates {
+                let found = simulation.derivative(support, [du, dv], Support::rigid(da));
+                let found = [found.acceleration, found.restoring_force, found.reactions.bottom];
+                for ((found, expected), size) in found.into_iter().zip(expected).zip([10.0, weight, weight]) {
+                    // a central difference: rounding of 1e-16/1e-6 of the size, and its third order
+                    let error = (found - expected).abs();
+                    assert!(error <= 1e-8 * size, "{name}: {found} for {expected}");
+                }
+            }
+        }
+    }
+}
