@@ -90,6 +90,7 @@ impl Session {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,
                 "hinge": body.hinge(),
+                "full": wall.rotations().is_some(),
                 "shape": page::shape(wall, &scene.parameters),
                 "u_ins": [body.instability.positive, body.instability.negative],
             },

@@ -3,17 +3,19 @@ const within = sine => Math.asin(Math.max(-1, Math.min(1, sine)));
 // Turns the bodies of a wall to the displacement u, with its top displaced by `drift` from its foot, and
 // returns where its tie is. A strip's hinge opens on the other face: that edge of the lower body, a corner of
 // a rectangle, carries the upper one. The wall says its height, thickness, hinge, whether rotations are full,
-// its tie and, unless it is a rectangle, its shape: toes, edges of the hinge, and the height of u.
+// its tie and, unless it is a rectangle, its shape: toes, edges of the hinge, the height of u, and of one
+// body the arms of the centroid from its toes.
 function turnWall(wall, [lower, upper], u, drift = 0) {
   const { height: h, thickness: b, hinge: h1, full, tie, shape } = wall, side = u < 0 ? 1 : 0;
   const toe = (shape?.toes ?? [b / 2, -b / 2])[side];
   // The angle of a body whose point at the height `arm` is displaced by u; it lies flat at u = arm. With full
-  // rotations, s is the horizontal distance from the toe: of a strip's hinge (u - b), or of the far corner of
-  // a parapet's top (2 u - b).
+  // rotations, s is the horizontal distance from the toe: of a strip's hinge (u - b), of the centroid of a
+  // body of parts (u - x), or of the far corner of a rectangle's top (2 u - b).
   const angle = (u, arm) => {
     if (!full) { return within(u / arm); }
-    const d = Math.hypot(h1 === null ? h : arm, b), s = (h1 === null ? 2 : 1) * Math.abs(u) - b;
-    return Math.sign(u) * (within(s / d) + within(b / d));
+    const corner = h1 === null && !shape, far = shape?.arms?.[side] ?? b;
+    const d = Math.hypot(corner ? h : arm, far), s = (corner ? 2 : 1) * Math.abs(u) - far;
+    return Math.sign(u) * (within(s / d) + within(far / d));
   };
   const turn = h1 === null ? angle(u, shape?.centroid ?? h / 2) : angle(u + drift * h1 / h, h1);
   lower.setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);

@@ -37,7 +37,7 @@ pub struct Counterpart {
     /// Period of this wall.
     pub period: Period,
     /// Slenderness \[rad\], and the period with small rotations over that with full ones, of the wall with
-    /// other thicknesses.
+    /// other thicknesses; empty for a body of parts, which has no thickness of its own.
     pub ratios: Vec<(f64, f64)>,
 }
 
@@ -56,18 +56,24 @@ impl Counterpart {
             Kinematics::Trigonometric => [other, own],
         };
         let start = response.summary.u_ratio_max.clamp(AMPLITUDES[0], AMPLITUDES[1]);
-        let period_of = |parameters: &Parameters| period(parameters, start).ok();
-        let period = period_of(&scene.parameters)?;
-        let base = scene.parameters.thickness / libm::tan(period.slenderness);
-        let widest = period.slenderness.max(SLENDERNESS[SLENDERNESS.len() - 1]);
-        let ratio = |alpha: &f64| {
-            let thickness = base * libm::tan(*alpha);
-            Some((*alpha, period_of(&Parameters { thickness, ..scene.parameters.clone() })?.ratio()))
-        };
-        let ratios = SLENDERNESS.iter().chain([&widest]).filter_map(ratio);
-        let ratios = std::iter::once((0.0, 1.0)).chain(ratios).collect();
+        let period = period(&scene.parameters, start).ok()?;
+        let ratios =
+            if scene.parameters.is_rectangle() { ratios(&scene.parameters, &period) } else { Vec::new() };
         Some(Self { linear, trigonometric, apart, start, period, ratios })
     }
+}
+
+/// Returns the ratios of periods of a rectangle with other thicknesses, from the start of its own period.
+fn ratios(parameters: &Parameters, own: &Period) -> Vec<(f64, f64)> {
+    let base = parameters.thickness / libm::tan(own.slenderness);
+    let widest = own.slenderness.max(SLENDERNESS[SLENDERNESS.len() - 1]);
+    let ratio = |alpha: &f64| {
+        let thickness = base * libm::tan(*alpha);
+        let period = period(&Parameters { thickness, ..parameters.clone() }, own.start).ok()?;
+        Some((*alpha, period.ratio()))
+    };
+    let ratios = SLENDERNESS.iter().chain([&widest]).filter_map(ratio);
+    std::iter::once((0.0, 1.0)).chain(ratios).collect()
 }
 
 /// The scene with the other kinematics.

@@ -81,7 +81,7 @@ impl Period {
 }
 
 /// Computes four times the time to the first impact of a wall released at rest from the fraction `start` of
-/// its unstable equilibrium.
+/// its unstable equilibrium on the side u > 0: its period, where both sides are alike.
 ///
 /// # Errors
 /// [`RotationsError`] if the parameters make no rigid wall or a run fails.
@@ -89,7 +89,7 @@ pub fn period(parameters: &Parameters, start: f64) -> Result<Period, RotationsEr
     let [linear, trigonometric] = both(parameters, |release| release.first_impact(start))?;
     let wall = Wall::new(&rigid(parameters, Kinematics::Linear))?;
     let body = wall.body();
-    let plain = !body.is_strip() && body.overburden == 0.0;
+    let plain = body.is_rectangle && !body.is_strip() && body.overburden == 0.0;
     let housner = plain.then(|| {
         // R = h/(2 cos α), p = √(3g/(4R))
         let radius = 0.5 * body.height / body.slenderness.positive.cos();

@@ -37,7 +37,8 @@ impl<'a> Moving<'a> {
     }
 
     /// What turns a body that is no rectangle, null for a rectangle: toes and edges of the hinge for u > 0
-    /// and for u < 0, the height at which u is measured, and for each body its parts with their corners.
+    /// and for u < 0, the height at which u is measured and the arms of the centroid from the toes there, and
+    /// for each body its parts with their corners.
     pub(super) fn data(&self) -> Value {
         if self.is_rectangle {
             return Value::Null;
@@ -49,10 +50,15 @@ impl<'a> Moving<'a> {
         let bodies: Vec<_> = self.shape.bodies().into_iter().map(parts).collect();
         // the hinge opens about the edge away from u
         let edges = self.shape.hinge.map(|hinge| [hinge.edges[1], hinge.edges[0]].map(|x| self.x(x)));
+        let arms = match self.shape.centroids[..] {
+            [Centroid { x, .. }] => Some([x - self.shape.toes[0], self.shape.toes[1] - x]),
+            _ => None,
+        };
         json!({
             "toes": self.shape.toes.map(|x| self.x(x)),
             "edges": edges,
             "centroid": self.wall.body().centroid_height,
+            "arms": arms,
             "bodies": bodies,
         })
     }

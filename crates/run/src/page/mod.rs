@@ -298,16 +298,21 @@ fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
     let Some(other) = Counterpart::of(scene, response) else { return String::new() };
     let Counterpart { linear, trigonometric, apart, start, period, ratios } = other;
     let histories = plots::both_rotations(&plots::cut(trigonometric), &plots::cut(linear), end, HEIGHT);
-    let mark = (period.slenderness, period.ratio());
-    let ratios = plots::period_ratios(ratios, mark, HEIGHT);
+    let short = 100.0 * (1.0 - period.ratio());
     let caption = format!(
         "Full rotations (blue) and small ones (red, dashed): at most {apart:.3} u_ins apart while both stand"
     );
+    if ratios.is_empty() {
+        let caption = format!(
+            "{caption}; with small ones the time from rest at {start:.2} u_ins to u = 0 is {short:.2} % short"
+        );
+        return plot("rotations", &caption, &histories, &[], true);
+    }
+    let ratios = plots::period_ratios(ratios, (period.slenderness, period.ratio()), HEIGHT);
     plot("rotations", &caption, &histories, &[], true)
         + &format!(
             "<figure><figcaption>Period with small rotations over that with full ones, from {start:.2} \
-             u_ins; dot: this wall, {:.2} % short</figcaption>{}</figure>",
-            100.0 * (1.0 - period.ratio()),
+             u_ins; dot: this wall, {short:.2} % short</figcaption>{}</figure>",
             ratios.svg()
         )
 }

@@ -150,6 +150,10 @@ fn a_body_of_parts_moves_with_its_loads() {
 
     let (_, data) = page_of(include_str!("../../../../scenes/bodies/gable.toml"));
     near(&data["shape"]["centroid"], 0.8);
+    let (_, data) = page_of(include_str!("../../../../scenes/bodies/battered_wall.toml"));
+    // full rotations turn the centroid about either toe: 0.2958 m from the outer one, of 0.5 m
+    near(&data["shape"]["arms"][0], 0.295_833_333_333);
+    near(&data["shape"]["arms"][1], 0.5 - 0.295_833_333_333);
     // the hinge is where the upper, thinner part stands: for u > 0 about its inner edge
     let (_, data) = page_of(include_str!("../../../../scenes/bodies/stepped_strip.toml"));
     near(&data["shape"]["edges"][0], -0.2);
@@ -159,6 +163,22 @@ fn a_body_of_parts_moves_with_its_loads() {
 
     let rectangle = page(|_| {});
     assert!(rectangle.contains("\"shape\":null") && !rectangle.contains("The wall to scale"));
+}
+
+/// A rigid body of parts is compared with itself in full rotations, which no thickness varies.
+#[test]
+fn a_body_is_compared_with_its_full_rotations() {
+    let chimney = include_str!("../../../../scenes/bodies/chimney.toml");
+    let rigid = "[impact]\nimpact = \"restitution\"\n[damping]\ndamping_model = \"none\"\n\
+                 [force_law]\nforce_law = \"rigid_linear\"\n[start]\nu_start = 0.15\n[geometry]\n";
+    let parts = chimney.split("[[geometry.part]]").skip(1).map(|part| format!("[[geometry.part]]{part}"));
+    let body = parts.collect::<String>().split("[force_law]").next().unwrap().to_owned();
+    let (html, data) = page_of(&format!("{rigid}{body}"));
+    assert!(html.contains("Full rotations (blue) and small ones"), "{html}");
+    assert!(html.contains("the time from rest at 0.50 u_ins to u = 0 is 3.") && !html.contains("NaN"));
+    assert!(!html.contains("Period with small rotations") && data["full"] == false);
+    let (_, data) = page_of(&format!("{rigid}kinematics = \"trigonometric\"\n{body}"));
+    assert_eq!(data["full"], true);
 }
 
 #[test]
