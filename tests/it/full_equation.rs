@@ -1,4 +1,4 @@
-//! Tests where bodies in full rotations stand, fall and lie, and the limits and derivatives of their equation.
+//! Tests where bodies in full rotations stand, fall and lie, and limits and derivatives of their equation.
 
 use rocking_wall::simulation::{Outputs, Simulation};
 use rocking_wall::solver::Segment;
@@ -7,8 +7,7 @@ use rocking_wall::wall::{Kinematics, Load, Parameters, Part, Support, Wall};
 use crate::bodies::{PRISM, of_parts};
 use crate::full_bodies::{Place, Reference, cases, reference_of};
 
-/// Free motion keeps its energy through impacts with e = 1, also between sides of different inertia: there the
-/// energy changes by what the impact takes.
+/// Free motion keeps its energy between impacts.
 #[test]
 fn free_motion_of_bodies_keeps_its_energy() {
     for (name, parameters) in cases() {
