@@ -4,6 +4,7 @@
 pub mod circolare;
 pub mod fractions;
 
+mod baseline;
 mod code;
 mod codes;
 mod error;
@@ -15,9 +16,12 @@ mod sections;
 mod walls;
 mod words;
 
+pub use baseline::baseline;
 pub use code::at_level::{AtLevel, at_level};
+pub use code::before::{Before, BeforeCheck};
+pub use code::row::{Ends, Row};
 pub use code::sought::Sought;
-pub use code::verdict::{Details, Ends, Raise, Row, Section, Verdict};
+pub use code::verdict::{Details, Raise, Section, Verdict};
 pub use code::{Code, InStudies, Rule, Subject};
 pub use codes::{CODES, complete, how_to_write, read};
 pub use error::CheckError;

@@ -94,23 +94,40 @@ impl WallVerdicts<'_> {
     }
 
     /// The warnings of each wall in a line with its name, in the order of the table.
-    pub fn warnings(&self) -> impl Iterator<Item = String> {
-        self.walls.iter().filter_map(|(name, verdict)| {
+    pub fn warnings(&self, language: Language) -> impl Iterator<Item = String> {
+        self.walls.iter().filter_map(move |(name, verdict)| {
             let own = &verdict.as_ref().ok()?.warnings;
-            (!own.is_empty()).then(|| format!("warning: wall {name:?}: {}", joined(own, "; ")))
+            let (name, all) = (format!("{name:?}"), joined(own, "; "));
+            let said = say!("warning: wall {name}: {all}", "avvertenza: parete {name}: {all}", name, all);
+            (!own.is_empty()).then(|| said.of(language).to_owned())
         })
     }
 
     /// A row for each wall: what governs, the least ratio of each check, and why there is none.
     pub fn table(&self) -> Table {
-        self.table_in(Language::En)
+        self.columns(Language::En)
     }
 
     /// The same table whose people read a language.
-    fn table_in(&self, language: Language) -> Table {
+    pub fn table_in(&self, language: Language) -> Table {
+        language.table(self.columns(language))
+    }
+
+    /// The same table as CSV of a language: Italian has semicolons and decimal commas.
+    pub fn csv(&self, language: Language) -> String {
+        language.csv(self.columns(language))
+    }
+
+    fn columns(&self, language: Language) -> Table {
         let Entry { symbol, checks, .. } = self.code;
         let four = Digits::Decimals(4);
         let head = |heading: Sentence| heading.of(language).to_owned();
+        // programs know checks and sides by their English names
+        let in_file = |name: &str, told: &Sentence| match language {
+            Language::En => name.to_owned(),
+            Language::It => told.of(language).to_owned(),
+        };
+        let both = || say!("both", "entrambi");
         let is_refused = self.refused() > 0;
         let refused = if is_refused { head(say!("not checked", "non verificata")) } else { String::new() };
         let table = Table::over(self.walls.iter().map(|(name, verdict)| (*name, verdict.as_ref())))
@@ -120,17 +137,20 @@ impl WallVerdicts<'_> {
                 Some(said(wall.1.ok()?.passed).of(language).to_owned())
             })
             .number(symbol, head(self.code.ratio()), four, |wall| Some(wall.1.ok()?.zeta))
-            .column(Column::text("governs", ""), |wall| Some(wall.1.ok()?.governs))
+            .column(Column::text("governs", ""), |wall| {
+                let check = wall.1.ok()?.governs;
+                Some(in_file(check, &self.title(check)))
+            })
             .text("", head(say!("governs", "determinante")), |wall| {
                 Some(self.title(wall.1.ok()?.governs).of(language).to_owned())
             })
             .column(Column::text("side", ""), |wall| {
                 let of = wall.1.ok()?.side;
-                Some(if of == Sides::Alike { "both" } else { of.name() })
+                Some(if of == Sides::Alike { in_file("both", &both()) } else { of.name().to_owned() })
             })
             .text("", head(say!("side", "verso")), |wall| {
                 let of = wall.1.ok()?.side;
-                let told = if of == Sides::Alike { say!("both", "entrambi") } else { side(of) };
+                let told = if of == Sides::Alike { both() } else { side(of) };
                 Some(told.of(language).to_owned())
             });
         let table = checks.iter().fold(table, |table, check| {
@@ -140,13 +160,12 @@ impl WallVerdicts<'_> {
                 of_check.map(|row| row.zeta).min_by(f64::total_cmp)
             })
         });
-        let table = table
+        table
             .text("not_checked", refused, |wall| Some(wall.1.err()?.to_string()))
             .column(Column::text("warnings", ""), |wall| {
-                Some(joined(&wall.1.ok()?.warnings, "; ").to_string())
+                Some(joined(&wall.1.ok()?.warnings, "; ").of(language).to_owned())
             })
-            .done();
-        language.table(table)
+            .done()
     }
 
     /// The name of a check for people.
@@ -177,15 +196,25 @@ impl WallVerdicts<'_> {
     }
 
     /// A page with the table; `file` names the file of the walls.
-    pub fn page(&self, file: &str) -> String {
+    pub fn page(&self, file: &str, language: Language) -> String {
         let passes = |index: usize| self.walls[index].1.as_ref().is_ok_and(|verdict| verdict.passed);
         let passed = (0..self.walls.len()).filter(|index| passes(*index)).count();
-        let rows = self.table().html_with(|index| if passes(index) { "holds" } else { "fails" });
+        let rows = self.table_in(language).html_with(|index| if passes(index) { "holds" } else { "fails" });
         let Entry { title, symbol, .. } = self.code;
-        Page::new(&format!("{file}: {passed} of {} walls pass", self.walls.len()))
+        let (all, symbol) = (self.walls.len(), Sentence::same(symbol));
+        let head = say! {
+            "{file}: {passed} of {all} walls pass",
+            "{file}: pareti che soddisfano la verifica: {passed} su {all}", file, passed, all
+        };
+        let said = say! {
+            "{title}. The wall with the smallest {symbol} that decides comes first.",
+            "{title}. Le pareti sono in ordine di {symbol} crescente tra quelli che decidono.", title, symbol
+        };
+        let page = Page::new(head.of(language))
             .styled("tr.fails td:nth-child(2), tr.fails td:nth-child(3) { font-weight: 700; }")
-            .text(&format!("<p>{title}. The wall with the smallest {symbol} that decides comes first.</p>"))
+            .text(&format!("<p>{}</p>", said.of(language)))
             .text(&rows)
-            .html()
+            .html();
+        page.replacen("<html lang=\"en\"", &format!("<html lang=\"{}\"", language.name()), 1)
     }
 }

@@ -20,7 +20,10 @@
 //! ```
 
 pub(crate) mod at_level;
+pub(crate) mod before;
+pub(crate) mod row;
 pub(crate) mod sought;
+mod table;
 pub(crate) mod verdict;
 
 use std::fmt;

@@ -1,21 +1,18 @@
 //! What every code says of a wall: a verdict with rows, and what only that code knows.
 
-use std::fmt::Write;
-
-use report::number;
-use report::table::{Cell, Column, Digits, Table};
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
+use super::before::Before;
+use super::row::Row;
 use crate::error::CheckError;
 use crate::sections::inputs::{overview, the_wall};
 use crate::sections::origin::{Figure, Origin};
 use crate::words::entry::Entry;
-use crate::words::formulas::markup;
-use crate::words::ledger::{Ledger, numbers};
+use crate::words::ledger::Ledger;
 use crate::words::markup::side_head;
 use crate::words::names::Sides;
-use crate::words::{Language, Sentence, Written, fixed, governing, passed, said, say, side};
+use crate::words::{Language, Sentence, Written, fixed, governing, say};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {
@@ -40,6 +37,8 @@ pub struct Verdict<'a> {
     /// What the engineer should know, and
     /// [`Parameters::unusual`](rocking_wall::wall::Parameters::unusual); none of it stops the check.
     pub warnings: Vec<Sentence>,
+    /// The state before an intervention, where the file names one.
+    pub before: Option<Before>,
     /// What only this code knows.
     pub details: Box<dyn Details + Send + 'a>,
 }
@@ -53,85 +52,6 @@ pub struct Raise {
     pub ratio: f64,
     /// What replaces it, such as `SLD`.
     pub by: Sentence,
-}
-
-/// A check of one side.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// Name of the check, such as `SLV`.
-    pub check: &'static str,
-    /// The same for people.
-    pub title: Sentence,
-    /// The side.
-    pub side: Sides,
-    /// Capacity over demand \[-\].
-    pub zeta: f64,
-    /// The same before a rule of the code replaces it by a larger one \[-\].
-    pub ratio: f64,
-    /// Whether it passes.
-    pub passed: bool,
-    /// Whether it decides; otherwise it informs.
-    pub decides: bool,
-    /// Ground acceleration that just passes, and that of the site, if the code has one \[g\].
-    pub ground: Option<[f64; 2]>,
-    /// Capacity and demand.
-    pub ends: Ends,
-    /// The capacity as u of the wall; `None` of a check of accelerations, and of runs \[m\].
-    pub displacement: Option<f64>,
-    /// Where the code has it.
-    pub clause: &'static str,
-    /// What is to be said beside the numbers; empty where nothing is.
-    pub remark: Sentence,
-}
-
-impl Row {
-    /// Makes a row of a check that informs, and passes from capacity over demand 1 on; the rest is empty.
-    pub(crate) fn new(check: &'static str, title: Sentence, side: Sides, zeta: f64, ends: Ends) -> Self {
-        let (passed, decides, ground, displacement) = (zeta >= 1.0, false, None, None);
-        Self {
-            check,
-            title,
-            side,
-            zeta,
-            ratio: zeta,
-            passed,
-            decides,
-            ground,
-            ends,
-            displacement,
-            clause: "",
-            remark: Sentence::default(),
-        }
-    }
-}
-
-/// A capacity and its demand.
-#[derive(Clone, Copy, Debug)]
-pub enum Ends {
-    /// Accelerations \[m/s²\].
-    Accelerations([f64; 2]),
-    /// Displacements \[m\].
-    Displacements([f64; 2]),
-}
-
-impl Ends {
-    /// Both in SI units.
-    fn values(self) -> [f64; 2] {
-        let (Self::Accelerations(ends) | Self::Displacements(ends)) = self;
-        ends
-    }
-
-    /// The SI unit.
-    fn unit(self) -> &'static str {
-        if matches!(self, Self::Displacements(_)) { "m" } else { "m/s2" }
-    }
-
-    /// One of both for people.
-    fn shown(self, end: f64) -> String {
-        let (factor, unit) =
-            if matches!(self, Self::Displacements(_)) { (1e3, "mm") } else { (1.0, "m/s²") };
-        format!("{} {unit}", number(factor * end, 4))
-    }
 }
 
 /// What only one code knows of a verdict.
@@ -253,92 +173,9 @@ impl Verdict<'_> {
         say!(" for {symbol} ≥ {target}", " per {symbol} ≥ {target}", symbol, target = fixed(self.target, 2))
     }
 
-    /// The rows as a table: for people four digits, for files SI units and every digit.
-    pub fn table(&self) -> Table {
-        self.table_in(Language::En)
-    }
-
-    /// The rows as a table whose people read a language.
-    pub(crate) fn table_in(&self, language: Language) -> Table {
-        let four = Digits::AtMost(4);
-        let head = |heading: Sentence| heading.of(language).to_owned();
-        let only = |is_there: bool, heading: Sentence| if is_there { head(heading) } else { String::new() };
-        let has_ground = self.rows.iter().any(|row| row.ground.is_some());
-        let has_remarks = self.rows.iter().any(|row| !row.remark.is_empty());
-        let ground = |name: &'static str| if has_ground { name } else { "" };
-        let [bears, site] = [
-            only(has_ground, say!("bears a_g [g]", "a_g\nsopportata\n[g]")),
-            only(has_ground, say!("site a_g [g]", "a_g\ndel sito\n[g]")),
-        ];
-        let remark = only(has_remarks, say!("remark", "osservazione"));
-        let table = Table::over(&self.rows)
-            .column(Column::text("check", ""), |row| row.check)
-            .text("", head(say!("check", "verifica")), |row| row.title.of(language).to_owned())
-            .column(Column::text("side", ""), |row| row.side.name())
-            .text("", head(say!("side", "verso")), |row| side(row.side).of(language).to_owned())
-            .number(self.code.symbol, head(self.code.ratio()), four, |row| row.zeta)
-            .value("passed", |row| row.passed)
-            .text("", head(say!("result", "esito")), |row| passed(row.passed).of(language).to_owned())
-            .number(ground("ag_g"), bears, four, |row| row.ground.map(|of| of[0]))
-            .number(ground("site_ag_g"), site, four, |row| row.ground.map(|of| of[1]))
-            .value("capacity", |row| row.ends.values()[0])
-            .value("demand", |row| row.ends.values()[1])
-            .column(Column::text("unit", ""), |row| row.ends.unit())
-            .text("", head(say!("capacity", "capacità")), |row| {
-                language.decimal(&row.ends.shown(row.ends.values()[0]))
-            })
-            .text("", head(say!("demand", "domanda")), |row| {
-                language.decimal(&row.ends.shown(row.ends.values()[1]))
-            })
-            .value("decides", |row| row.decides)
-            .number("", head(say!("decides", "decide")), four, |row| {
-                Cell::from(said(row.decides).of(language).to_owned())
-            })
-            .text("clause", head(say!("clause", "punto della norma")), |row| row.clause)
-            .column(Column::text("remark", ""), |row| row.remark.to_string())
-            .text("", remark, |row| row.remark.of(language).to_owned())
-            .done();
-        language.table(table)
-    }
-
-    /// The rows as markup, with classes for those that decide and for those that fail.
-    pub fn html(&self) -> String {
-        self.table().html_with(|index| self.class(index))
-    }
-
-    /// The rows as markup of a report, with formulas.
-    pub(crate) fn markup(&self, language: Language) -> String {
-        self.table_in(language).html_by(|index| self.class(index), markup)
-    }
-
-    fn class(&self, index: usize) -> &'static str {
-        match (self.rows[index].decides, self.rows[index].passed) {
-            (true, true) => "decides",
-            (true, false) => "decides fails",
-            (false, true) => "",
-            (false, false) => "fails",
-        }
-    }
-
-    /// The numbers of the sides as a table.
-    pub fn numbers(&self) -> Table {
-        numbers(&self.details.ledgers())
-    }
-
-    /// The verdict for a terminal: title, headline, rows, numbers and notes.
-    pub fn text(&self, title: &str) -> String {
-        let numbers = self.numbers().text();
-        let mut text = format!("{title}\n{}\n\n{}\n{numbers}\n", self.headline(), self.table().text());
-        for note in &self.notes {
-            // writing to a String cannot fail
-            let _ = writeln!(text, "{note}");
-        }
-        text
-    }
-
     /// What every front says besides the rows, by name.
     pub fn summary(&self) -> Value {
-        json!({
+        let mut summary = json!({
             "code": self.code.name,
             "passed": self.passed,
             "governs": self.governs,
@@ -347,11 +184,21 @@ impl Verdict<'_> {
             "headline": self.headline(),
             "notes": self.notes,
             "warnings": self.warnings,
-        })
+        });
+        self.add_before(&mut summary);
+        summary
     }
 
     /// All numbers by name.
     pub fn json(&self) -> Value {
-        self.details.json(self)
+        let mut all = self.details.json(self);
+        self.add_before(&mut all);
+        all
+    }
+
+    fn add_before(&self, json: &mut Value) {
+        if let Some(before) = &self.before {
+            json["before"] = before.json();
+        }
     }
 }

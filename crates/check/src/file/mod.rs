@@ -196,6 +196,12 @@ impl<'a> CheckFile<'a> {
         &self.folder
     }
 
+    /// The scene of the state before an intervention, which the table `[check]` names.
+    pub fn baseline(&self) -> Option<PathBuf> {
+        let named = self.file.get(&["check", "baseline"])?.get_ref().as_str()?;
+        Some(self.folder.join(named))
+    }
+
     /// Returns whether the file is one of walls, as a study is.
     pub fn has_walls(&self) -> bool {
         self.file.table().contains_key("walls")

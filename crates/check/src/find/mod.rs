@@ -40,7 +40,7 @@ pub struct Found {
     /// What is to be said of the checks that pass at the value only by such a rule.
     remarks: Vec<Sentence>,
     /// Symbol of capacity over demand.
-    symbol: &'static str,
+    symbol: Sentence,
     /// The ratio from which on a check passes \[-\].
     target: f64,
 }
@@ -169,7 +169,7 @@ pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Fou
         checks: found,
         force_ratio: strength.map(|tied| tied.tie_strength / load(&tied)),
         remarks: raised.map(|value| search.remarks(value)).transpose()?.unwrap_or_default(),
-        symbol: code.entry().symbol,
+        symbol: code.entry().ratio(),
         target: code.target(),
     })
 }

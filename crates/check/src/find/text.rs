@@ -67,13 +67,8 @@ impl FoundCheck {
 }
 
 impl Found {
-    /// What was found, in lines.
-    pub fn text(&self) -> String {
-        self.text_in(Language::En)
-    }
-
     /// What was found, in lines of a language.
-    pub fn text_in(&self, language: Language) -> String {
+    pub fn text(&self, language: Language) -> String {
         let mut lines = vec![self.headline()];
         let unit = self.sought.unit();
         for found in &self.checks {
@@ -110,7 +105,7 @@ impl Found {
         let target = if self.target == 1.0 {
             Sentence::default()
         } else {
-            let symbol = Sentence::same(self.symbol);
+            let symbol = self.symbol.clone();
             say!(" ({symbol} ≥ {target})", " ({symbol} ≥ {target})", symbol, target = self.target)
         };
         let Some(value) = self.value else {

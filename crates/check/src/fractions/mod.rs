@@ -22,7 +22,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use toml::Spanned;
 
-use crate::code::verdict::{Details, Ends, Row, Verdict};
+use crate::code::row::{Ends, Row};
+use crate::code::verdict::{Details, Verdict};
 use crate::code::{Code, InStudies, Subject};
 use crate::error::CheckError;
 use crate::file::CheckFile;
@@ -245,6 +246,7 @@ impl Code for Statement {
             rows: checked.rows(),
             notes: checked.notes(),
             warnings: std::mem::take(&mut checked.warnings),
+            before: None,
             details: Box::new(checked),
         })
     }

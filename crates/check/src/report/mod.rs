@@ -85,10 +85,12 @@ fn sheet_head(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Page {
     if warnings.is_empty() {
         warnings = paragraph(&say!("None.", "Nessuna."), language);
     }
-    let parts = vec![
-        Section::new(say!("Verdict", "Esito della verifica"), checks),
-        Section::new(say!("Warnings", "Avvertenze"), warnings),
-    ];
+    let mut parts = vec![Section::new(say!("Verdict", "Esito della verifica"), checks)];
+    parts.extend(verdict.before.as_ref().map(|before| {
+        let heading = say!("Before and after", "Stato di fatto e stato di progetto");
+        Section::new(heading, before.markup(&verdict.rows, language))
+    }));
+    parts.push(Section::new(say!("Warnings", "Avvertenze"), warnings));
     sections(page, parts, language)
 }
 

@@ -55,7 +55,7 @@ impl Figure {
 }
 
 /// How pictures write numbers in a language.
-fn locale(language: Language) -> Locale {
+pub(crate) fn locale(language: Language) -> Locale {
     match language {
         Language::En => Locale::default(),
         Language::It => Locale { over: "in funzione di", comma: true },

@@ -26,6 +26,10 @@ pub struct Entry {
 impl Entry {
     /// The symbol for people.
     pub(crate) fn ratio(&self) -> Sentence {
-        if self.symbol == "ratio" { say!("ratio", "rapporto") } else { Sentence::same(self.symbol) }
+        match self.symbol {
+            "ratio" => say!("ratio", "rapporto"),
+            "zeta_E" => Sentence::new("zeta_E", "ζ_E"),
+            symbol => Sentence::same(symbol),
+        }
     }
 }

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use super::formulas::{formula, leading, raised};
 use super::names::Sides;
-use super::{Language, Sentence, shown};
+use super::{Language, Sentence, say, shown, side};
 
 /// A unit in which people read a number, and the factor to it from SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -302,11 +302,16 @@ impl Quantity {
 }
 
 /// The numbers of sides as a table: a row for each that one of them has, a column for each side.
-pub fn numbers(sides: &[(Sides, Ledger)]) -> Table {
-    let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
-    let names_of = sides.iter().map(|(side, _)| side.name());
-    let sides_of = names_of.map(|name| Column::number(name, name, Digits::Significant(4)));
-    let words = [Column::text("meaning", "meaning")];
+pub fn numbers(sides: &[(Sides, Ledger)], language: Language) -> Table {
+    let head = |said: Sentence| said.of(language).to_owned();
+    let heads = [
+        Column::text("quantity", head(say!("quantity", "grandezza"))),
+        Column::text("unit", head(say!("unit", "unità"))),
+    ];
+    let sides_of = sides
+        .iter()
+        .map(|(of, _)| Column::number(of.name(), side(*of).of(language).to_owned(), Digits::Significant(4)));
+    let words = [Column::text("meaning", head(say!("meaning", "significato")))];
     let mut table = Table::new(heads.into_iter().chain(sides_of).chain(words));
     // in the order of each side
     let mut names: Vec<String> = Vec::new();
@@ -326,11 +331,27 @@ pub fn numbers(sides: &[(Sides, Ledger)]) -> Table {
         let own: Vec<Option<&Quantity>> = named.map(|found| Some(found?.1)).collect();
         let values = own.iter().map(|own| Cell::from(own.and_then(Quantity::shown)));
         // what is said may differ by sides
-        let mut meanings: Vec<&str> = own.iter().flatten().map(|own| &*own.words).collect();
+        let mut meanings: Vec<&str> = own.iter().flatten().map(|own| own.words.of(language)).collect();
         meanings.dedup();
         let unit = own.iter().flatten().map(|own| own.unit.name).find(|unit| !unit.is_empty());
-        let row = [name.clone().into(), Cell::from(unit.unwrap_or("-"))].into_iter().chain(values);
+        let name = match language {
+            Language::En => name,
+            Language::It => symbol_of(&name, own.iter().flatten().next().map_or("", |own| &own.symbol)),
+        };
+        let row = [name.into(), Cell::from(unit.unwrap_or("-"))].into_iter().chain(values);
         table.row(row.chain([meanings.join(" / ").replace('`', "").into()]));
     }
     table
+}
+
+/// The symbol of a number with its check, for readers who do not know its English name.
+fn symbol_of(name: &str, symbol: &str) -> String {
+    let check = match name.split(' ').next() {
+        Some("SLV_q") => "SLV con q ",
+        Some("SLD") => "SLD ",
+        Some("SLV") => "SLV ",
+        Some("SLC") => "SLC ",
+        _ => "",
+    };
+    format!("{check}{}", symbol.rsplit(" = ").next().unwrap_or_default())
 }

@@ -96,6 +96,40 @@ impl Language {
         value.map_or_else(|| "–".to_owned(), |value| self.shown(value))
     }
 
+    /// A table as CSV: Italian has its own names of columns, semicolons and decimal commas.
+    pub(crate) fn csv(self, mut table: Table) -> String {
+        if self == Self::En {
+            return table.csv();
+        }
+        for column in &mut table.columns {
+            let name = match &*column.name {
+                "name" => "parete",
+                "check" => "verifica",
+                "side" => "verso",
+                "passed" => "soddisfatta",
+                "ag_g" => "a_g_sopportata_g",
+                "site_ag_g" => "a_g_sito_g",
+                "capacity" => "capacita",
+                "demand" => "domanda",
+                "unit" => "unita",
+                "decides" => "decide",
+                "clause" => "punto_norma",
+                "remark" => "osservazione",
+                "governs" => "determinante",
+                "not_checked" => "non_verificata",
+                "warnings" => "avvertenze",
+                _ => continue,
+            };
+            column.name = name.into();
+        }
+        for cell in table.rows.iter_mut().flatten() {
+            if let Cell::Flag(flag) = cell {
+                *cell = said(*flag).of(self).to_owned().into();
+            }
+        }
+        table.csv_with_commas()
+    }
+
     /// The same table with the numbers of people in this language.
     pub(crate) fn table(self, mut table: Table) -> Table {
         for row in &mut table.rows {

@@ -1,7 +1,7 @@
 //! What the check by Circolare 7/2019 says of hinges and ties, refuses and warns of; walls of one building;
 //! assignments on the command line.
 
-use check::{CheckFile, Subject, WallCodes, check_walls, read, with_assignments};
+use check::{CheckFile, Language, Subject, WallCodes, check_walls, read, with_assignments};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
@@ -174,7 +174,7 @@ fn a_pass_by_the_raise_says_so() {
         "{}",
         row.remark
     );
-    let text = verdict.text("a strip");
+    let text = verdict.text("a strip", Language::En);
     for said in [
         "hinge as given; ",
         "sensitivity: with a1 = 0.015 zeta_E = ",

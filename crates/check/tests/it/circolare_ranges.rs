@@ -1,6 +1,6 @@
 //! Values outside the ranges of the code, sizes that cannot be, and the ground of a building.
 
-use check::{CheckFile, Sought, find, read};
+use check::{CheckFile, Language, Sought, find, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
@@ -109,10 +109,10 @@ fn a_search_says_what_rests_on_the_raise() {
         "SLV: from 18988.6 N, by the raise of SLD; by displacement from 20767.2 N",
         "raised to 1.000 by SLD",
     ] {
-        assert!(found.text().contains(said), "{}", found.text());
+        assert!(found.text(Language::En).contains(said), "{}", found.text(Language::En));
     }
     let json = found.json();
     assert!((json["value_without_raise"].as_f64().unwrap() - 20767.2).abs() < 0.05);
-    let italian = found.text_in(check::Language::It);
+    let italian = found.text(Language::It);
     assert!(italian.contains("assumendo a_g,SLD; in spostamento da 20767,2 N"), "{italian}");
 }

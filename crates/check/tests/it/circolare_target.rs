@@ -37,7 +37,7 @@ fn the_verdict_names_its_target() {
     assert!(fails.starts_with("NOT PASSED: SLC governs with zeta_E = 0.9"), "{fails}");
     let (holds, italian, notes) = told(&text("target = 0.6"));
     assert!(holds.starts_with("PASSED for zeta_E ≥ 0.60: SLC governs with zeta_E = 0.9"), "{holds}");
-    assert!(italian.starts_with("VERIFICA SODDISFATTA per zeta_E ≥ 0,60: SLC è"), "{italian}");
+    assert!(italian.starts_with("VERIFICA SODDISFATTA per ζ_E ≥ 0,60: SLC è"), "{italian}");
     assert!(notes.contains("for zeta_E ≥ 0.60, the target of an improvement (NTC 8.4.2)."), "{notes}");
     let (fails, ..) = told(&text("target = 0.99"));
     assert!(fails.starts_with("NOT PASSED for zeta_E ≥ 0.99: "), "{fails}");

@@ -3,7 +3,7 @@
 #![allow(clippy::unreadable_literal, reason = "numbers as the examples print them")]
 
 use check::circolare::SideVerdict;
-use check::{CheckFile, Found, Sought, find, read};
+use check::{CheckFile, Found, Language, Sought, find, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};
@@ -195,7 +195,11 @@ fn a_side_without_a_tie_blocks() {
     let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
     let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
     let found = find(&*code, (&scene).into(), Sought::TieStrength).unwrap();
-    assert!(found.text().contains("u < 0: the side without a tie governs"), "{}", found.text());
+    assert!(
+        found.text(Language::En).contains("u < 0: the side without a tie governs"),
+        "{}",
+        found.text(Language::En)
+    );
     // a bar is sought by its diameter; a wall without one has none to seek
     let error = find(&*code, (&scene).into(), Sought::BarDiameter).unwrap_err().to_string();
     assert!(error.contains("bar_diameter is sought, but the wall has no such tie"), "{error}");

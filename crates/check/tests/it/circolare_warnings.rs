@@ -1,7 +1,7 @@
 //! The rest of what a check by Circolare 7/2019 refuses and warns of: statements without effect, records,
 //! searches that find nothing.
 
-use check::{CheckFile, Found, Sought, find, read};
+use check::{CheckFile, Found, Language, Sought, find, read};
 use rocking_wall::scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
@@ -214,6 +214,6 @@ fn a_search_says_what_blocks_and_what_is_large() {
     assert!(said.contains("needs more than the range has") && !said.contains("tie_side"), "{said}");
     let linear = format!("{one}\n{YIELD}\nmethod = \"linear\"\ntopography = \"T4\"");
     let large = facade(&format!("{STIFF}\ntie_ultimate = 0.3"), &linear).replace("ag = 0.261", "ag = 1.0");
-    let text = searched(&large, Sought::TieStrength).text();
+    let text = searched(&large, Sought::TieStrength).text(Language::En);
     assert!(text.contains("of W + O: a large force for an anchor in masonry"), "{text}");
 }

@@ -1,6 +1,8 @@
 //! What every code has: an entry, its rule in the manual, and a verdict from its example.
 
-use check::{CODES, CheckFile, Ends, Origin, ReportTable, Sought, WallCodes, check_walls, find, page, read};
+use check::{
+    CODES, CheckFile, Ends, Language, Origin, ReportTable, Sought, WallCodes, check_walls, find, page, read,
+};
 use rocking_wall::scene::Scene;
 use run::walls::NamedWall;
 
@@ -66,7 +68,7 @@ fn every_code_gives_all_of_a_verdict() {
             warnings.iter().any(|warning| warning.starts_with("density = 300 kg/m3 is unusual")),
             "{name}"
         );
-        let text = verdict.text("a wall");
+        let text = verdict.text("a wall", Language::En);
         assert!(text.starts_with(&format!("a wall\n{}\n\ncheck", verdict.headline())), "{text}");
         let records = stated.records();
         let origin = Origin {
@@ -82,13 +84,13 @@ fn every_code_gives_all_of_a_verdict() {
             assert!(page.contains(part), "{name}: the report lacks {part}");
         }
         let found = find(&*stated, (&scene).into(), Sought::Thickness).unwrap();
-        let plot = found.plot();
+        let plot = found.plot(Language::En);
         // the area is 399 px high: the legend, its rows 18 px high, is above the lines, which go up to 3
         let rows = plot.series.iter().filter(|series| !series.name.is_empty()).count();
         let lines = found.checks.iter().flat_map(|check| &check.curve).map(|point| point.1);
         let lines = lines.filter(|ratio| ratio.is_finite()).fold(1.2, f64::max).min(3.0);
         assert!(399.0 * (1.0 - lines / plot.ranges()[3]) > 18.0 * rows as f64 + 18.0, "{name}: {rows} rows");
-        assert!(plot.svg().starts_with("<svg") && found.text().ends_with('\n'), "{name}");
+        assert!(plot.svg().starts_with("<svg") && found.text(Language::En).ends_with('\n'), "{name}");
         let walls = [NamedWall::new("one", scene.parameters.clone())];
         let codes = WallCodes::read(&file, &walls).unwrap();
         let table = check_walls(&codes, &walls, 1).table();

@@ -17,6 +17,7 @@ class Check(TypedDict, total=False):
     - SLC: Limit state of collapse.
     - SLD: Limit state of damage.
     - SLV: Limit state of life safety.
+    - baseline: Scene of the state before an intervention, beside which the verdict stands.
     - before_activation: The wall before it rocks: held, elastic as its law, or a beam.
     - behaviour_factor: q of the linear check (-), at least 1; default 2.
     - building: The building; none on the ground.
@@ -56,6 +57,7 @@ class Check(TypedDict, total=False):
     SLC: LimitState
     SLD: LimitState
     SLV: LimitState
+    baseline: str
     before_activation: Literal["rigid", "law", "beam"]
     behaviour_factor: float
     building: Building

@@ -182,6 +182,32 @@ impl Table {
         names.join(",") + "\n" + &self.csv_rows()
     }
 
+    /// Returns the table as CSV for programs that have decimal commas: fields stand between semicolons.
+    ///
+    /// ```
+    /// use report::table::{Digits, Table};
+    ///
+    /// let table = Table::over([2.5]).number("height_m", "", Digits::AtMost(3), |height| *height).done();
+    /// assert_eq!(table.csv_with_commas(), "height_m\n2,5\n");
+    /// ```
+    pub fn csv_with_commas(&self) -> String {
+        let quoted = |text: &str| {
+            if text.contains(';') {
+                format!("\"{}\"", text.replace('"', "\"\""))
+            } else {
+                quoted(text).into_owned()
+            }
+        };
+        let field = |cell: &Cell<'_>| match cell {
+            Cell::Text(text) => quoted(text),
+            other => other.field().replace('.', ","),
+        };
+        let names: Vec<_> = self.named().map(|(_, column)| quoted(&column.name)).collect();
+        let rows = self.rows.iter().map(|row| self.named().map(|(k, _)| field(&row[k])).collect());
+        let lines = std::iter::once(names).chain(rows);
+        lines.map(|fields: Vec<String>| fields.join(";") + "\n").collect()
+    }
+
     /// Returns the rows as CSV without the line of names, to add them to a file that has it.
     pub fn csv_rows(&self) -> String {
         let mut text = String::new();

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use check::{
-    CheckFile, Code, Language, Origin, ReportTable, Sought, Subject, WallCodes, check_walls, find,
-    how_to_write, page, page_of_walls, read, with_assignments,
+    CheckFile, Code, Language, Origin, ReportTable, Sentence, Sought, Subject, WallCodes, baseline,
+    check_walls, find, how_to_write, page, page_of_walls, read, with_assignments,
 };
 use clap::Args;
 use rocking_wall::scene::Scene;
@@ -44,8 +44,9 @@ pub(crate) struct Arguments {
     /// With --report: the date to print in it, in any form
     #[arg(long, value_name = "TEXT", requires = "report")]
     date: Option<String>,
-    /// With --report: its language, in place of that of [report]
-    #[arg(long, value_name = "LANGUAGE", requires = "report", value_parser = language)]
+    /// Language of all that is printed and written, en or it; Italian CSV has semicolons and decimal commas.
+    /// A report has that of [report] without it
+    #[arg(long, value_name = "LANGUAGE", value_parser = language)]
     lang: Option<Language>,
 }
 
@@ -78,7 +79,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.check_distinct(arguments.scene.inputs(&scene), outputs())?;
     let code = code()?;
     console.check_distinct(&code.records().files, outputs())?;
-    console.warn(&code.records().warnings);
+    warn(console, &code.records().warnings, arguments.language());
     one(console, arguments, &file, &*code, &scene)
 }
 
@@ -91,31 +92,60 @@ fn one(
     scene: &Scene,
 ) -> Result<()> {
     let Arguments { plot, csv, report, .. } = arguments;
+    let language = arguments.language();
     let assumed = file.assumed(&arguments.scene.set);
     let subject = Subject { assumed: &assumed, ..scene.into() };
     if let Some(sought) = arguments.find {
         let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
         refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
         let found = progress::shown(|| find(code, subject, sought))?.map_err(|error| file.located(error))?;
-        console.save(plot.as_ref(), || found.plot().picture())?;
+        console.save(plot.as_ref(), || found.plot(language).picture())?;
         if arguments.json {
             return console.json(&found.json());
         }
-        return console.print(&(found.text() + &written("written  ", plot)));
+        return console.print(&(found.text(language) + &written(arguments.label(), plot)));
     }
-    let verdict = code.check(subject).map_err(|error| file.located(error))?;
+    let mut verdict = code.check(subject).map_err(|error| file.located(error))?;
+    verdict.before = baseline(file, code)?;
     if let Some(path) = report {
         let report = project(arguments, file)?;
         let (set, records) = (&arguments.scene.set, code.records());
         let origin = Origin { title: &scene.title, wall: None, file, set, records, report: &report };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
-    console.save(csv.as_ref(), || verdict.table().csv())?;
+    console.save(csv.as_ref(), || verdict.csv(language))?;
     if arguments.json {
         return console.json(&verdict.json());
     }
-    console.warn(&verdict.warnings);
-    console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
+    warn(console, &verdict.warnings, language);
+    let label = format!("\n{}", arguments.label());
+    console.print(&(verdict.text(&scene.title, language) + &written(&label, csv.iter().chain(report))))
+}
+
+/// Prints warnings in a language.
+fn warn(console: &Console<'_>, warnings: &[Sentence], language: Language) {
+    match language {
+        Language::En => console.warn(warnings),
+        Language::It => {
+            for said in warnings {
+                console.report(&format!("avvertenza: {}", said.of(language)));
+            }
+        }
+    }
+}
+
+impl Arguments {
+    fn language(&self) -> Language {
+        self.lang.unwrap_or_default()
+    }
+
+    /// What stands before the name of a file that was written.
+    fn label(&self) -> &'static str {
+        match self.language() {
+            Language::En => "written  ",
+            Language::It => "scritto  ",
+        }
+    }
 }
 
 /// What the report says of the project.
@@ -130,6 +160,9 @@ fn project(arguments: &Arguments, file: &CheckFile<'_>) -> Result<ReportTable> {
 fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> Result<()> {
     let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
     // a study is one of walls, too
+    if file.baseline().is_some() {
+        bail!("{}: baseline is the state before of one wall; give it in a scene", file.name());
+    }
     let walls = file.walls(StudyFile::keys(), &mut inputs, &mut warnings)?;
     let codes = WallCodes::read(file, &walls)?;
     let code = codes.shared();
@@ -137,8 +170,9 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
     let outputs = || html.iter().chain(csv).chain(report);
     console.check_distinct(inputs.iter().chain(&code.records().files), outputs())?;
     let verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
-    console.save(csv.as_ref(), || verdicts.table().csv())?;
-    console.save(html.as_ref(), || verdicts.page(file.name()))?;
+    let language = arguments.language();
+    console.save(csv.as_ref(), || verdicts.csv(language))?;
+    console.save(html.as_ref(), || verdicts.page(file.name(), language))?;
     if let Some(path) = report {
         let report = project(arguments, file)?;
         let title = Path::new(file.name()).file_stem().unwrap_or_default().to_string_lossy();
@@ -147,12 +181,12 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
         console.write(path, page_of_walls(&verdicts, &walls, &codes, &origin)?.as_bytes())?;
     }
     console.warn(&warnings);
-    console.warn(&code.records().warnings);
+    warn(console, &code.records().warnings, language);
     if arguments.json {
         console.json(&verdicts.json())?;
     } else {
-        console.report_all(verdicts.warnings());
-        console.print(&(verdicts.table().text() + &written("written  ", outputs())))?;
+        console.report_all(verdicts.warnings(language));
+        console.print(&(verdicts.table_in(language).text() + &written(arguments.label(), outputs())))?;
     }
     match verdicts.refused() {
         0 => Ok(()),

@@ -7,6 +7,7 @@ use std::path::Path;
 
 mod building;
 mod check;
+mod check_before;
 mod check_report;
 mod check_report_walls;
 mod command_line;

@@ -10,7 +10,8 @@ use crate::circolare::curve::tie::TieState;
 use crate::circolare::outcome::{Checked, Outcome};
 use crate::circolare::runs::dynamic::DynamicCheck;
 use crate::circolare::statement::table::{Method, UseClass};
-use crate::code::verdict::{Details, Ends, Raise, Row, Section, Verdict};
+use crate::code::row::{Ends, Row};
+use crate::code::verdict::{Details, Raise, Section, Verdict};
 use crate::error::CheckError;
 use crate::ntc::demand::{Demand, LONGEST_PERIOD};
 use crate::sections::origin::{Figure, Origin};
@@ -34,6 +35,7 @@ impl<'a> Checked<'a> {
             rows: self.rows(),
             notes: self.notes(),
             warnings: self.outcome.warnings.clone(),
+            before: None,
             details: Box::new(self),
         }
     }

@@ -79,6 +79,8 @@ tables! {
         /// `ζ_E` from which on a check passes (-): below 1 for an improvement (NTC 8.4.2, 8.4.3).
         #[key(exclusiveMinimum = 0, maximum = 1, default = 1)]
         pub target: Option<f64>,
+        /// Scene of the state before an intervention, beside which the verdict stands.
+        pub baseline: Option<String>,
         /// Whether SLD raises SLC, too, by analogy with SLV (C8.7.1.2.1.8).
         #[serde(default)]
         #[key(default = false)]

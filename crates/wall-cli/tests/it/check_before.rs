@@ -1,0 +1,60 @@
+//! `wall check` of a state before and after an intervention, and in Italian.
+
+use crate::command_line::{assert_has, content, fails, folder, json, succeed, text};
+
+const WALL: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
+const TIE: &str = "[tie]\ntie_stiffness = 2e6\ntie_height = 3\ntie_strength = 5e3\ntie_ultimate = 0.2\n";
+const CHECK: &str = "code = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+                     SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
+
+/// Both states stand side by side; the one before may leave its table `check` out.
+#[test]
+fn before_and_after() {
+    let folder = folder("check_before");
+    let after = format!("{WALL}{TIE}[check]\nbaseline = \"before.toml\"\n{CHECK}");
+    std::fs::write(folder.join("after.toml"), after).unwrap();
+    for table in [String::new(), format!("[check]\n{CHECK}")] {
+        std::fs::write(folder.join("before.toml"), format!("title = \"old\"\n{WALL}{table}")).unwrap();
+        let value = json(&folder, &["check", "after.toml", "--json"]);
+        let before = &value["before"];
+        assert_eq!((&before["title"], &before["passed"]), (&"old".into(), &false.into()));
+        // docs of the library: the wall without a tie
+        assert!((before["checks"][1]["zeta"].as_f64().unwrap() - 0.855_812).abs() < 5e-7, "{before}");
+    }
+    let printed = text(&succeed(&folder, &["check", "after.toml"]).stdout);
+    assert_has(&printed, &["Before (old): NOT PASSED: SLV governs with zeta_E = 0.856", "difference"]);
+    fails(&folder, &["check", "after.toml", "--set", "check.baseline=none.toml"], &["none.toml"]);
+    let walls = format!("walls = [{{ name = \"a\" }}]\n[check]\nbaseline = \"before.toml\"\n{CHECK}");
+    std::fs::write(folder.join("walls.toml"), walls).unwrap();
+    fails(&folder, &["check", "walls.toml"], &["baseline is the state before of one wall"]);
+}
+
+/// Italian is for terminal, CSV and pages.
+#[test]
+fn what_is_printed_is_italian() {
+    let folder = folder("check_italian");
+    std::fs::write(folder.join("scene.toml"), format!("{WALL}{TIE}[check]\n{CHECK}")).unwrap();
+    let arguments = ["check", "scene.toml", "--lang", "it", "--csv", "out.csv", "--target", "0.5"];
+    let output = succeed(&folder, &arguments);
+    assert_has(&text(&output.stdout), &["SODDISFATTA per ζ_E ≥ 0,50", "grandezza", "scritto  out.csv"]);
+    assert_has(&text(&output.stderr), &["avvertenza: "]);
+    let csv = content(&folder, "out.csv");
+    assert!(csv.starts_with("verifica;verso;zeta_E;soddisfatta;"), "{csv}");
+    assert!(csv.lines().all(|line| !line.contains("0.")) && csv.contains(";0,15;"), "{csv}");
+    let walls = "walls = [{ table = \"walls.csv\" }]\n[check]\n".to_owned() + CHECK;
+    std::fs::write(folder.join("walls.toml"), walls).unwrap();
+    std::fs::write(folder.join("walls.csv"), "name,height,thickness,density\nalta,6,0.4,1800\n").unwrap();
+    let arguments = ["check", "walls.toml", "--lang", "it", "--csv", "out.csv", "--html", "out.html"];
+    assert_has(&text(&succeed(&folder, &arguments).stdout), &["parete", "determinante"]);
+    assert_has(
+        &content(&folder, "out.csv"),
+        &["parete;soddisfatta;zeta_E;determinante;verso;", "\nalta;no;0,"],
+    );
+    assert_has(
+        &content(&folder, "out.html"),
+        &["<html lang=\"it\"", "pareti che soddisfano la verifica: 0 su 1"],
+    );
+    let found =
+        text(&succeed(&folder, &["check", "scene.toml", "--lang", "it", "--find", "thickness"]).stdout);
+    assert_has(&found, &["spessore, valore minimo che soddisfa la verifica: 0,"]);
+}
