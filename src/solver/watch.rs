@@ -40,6 +40,14 @@ pub(super) struct Followed<'a, P> {
     pub(super) displacement: f64,
 }
 
+/// The acceleration that the reactions of a wall carry ([`Wall::carried`]): at both ends of a motion, and the
+/// bound on its second derivative \[m/s², m/s⁴\].
+#[derive(Clone, Copy)]
+struct Carried {
+    ends: [f64; 2],
+    most: f64,
+}
+
 impl Watch<'_> {
     /// Returns what goes on with the wall as its ties are now.
     pub(super) fn of<'a>(&'a mut self, wall: &'a Wall) -> Watch<'a> {
@@ -78,7 +86,9 @@ impl Watch<'_> {
             return false;
         }
         let supports = [self.segment.from, self.segment.to];
-        self.include_extremes(branch, [from, to], supports, [0.0, length], bounds)
+        // what is followed by its ends has small rotations
+        let carried = Carried { ends: [from.acceleration, to.acceleration], most: bounds[2] };
+        self.include_extremes(branch.couple, [from, to], carried, supports, [0.0, length], bounds)
     }
 
     /// Includes the extremes of a motion by its ends, which it reaches `from` after the start of the segment
@@ -87,28 +97,20 @@ impl Watch<'_> {
     #[inline]
     fn include_extremes(
         &mut self,
-        branch: &Branch,
+        couple: Couple,
         [start, end]: [KinematicState; 2],
+        carried: Carried,
         supports: [Support; 2],
         [from, length]: [f64; 2],
         [most_acceleration, most_jerk, most_snap]: [f64; 3],
     ) -> bool {
         let (share, times) = (0.125 * length * length, [self.time + from, self.time + (from + length)]);
-        let (wall, couple) = (self.wall, branch.couple);
         let [by_a, by_u] = self.slopes(couple);
-        let at = |support: Support, motion: &KinematicState| {
-            let carried = wall.carried(branch.side(), *motion);
-            wall.body().reactions(support, carried, couple.at(motion.displacement))
+        let at = |support: Support, motion: &KinematicState, carried: f64| {
+            self.wall.body().reactions(support, carried, couple.at(motion.displacement))
         };
-        let reactions = [at(supports[0], &start), at(supports[1], &end)];
-        let most_carried = if wall.rotations().is_none() {
-            most_snap
-        } else {
-            let [by_a, by_jerk, by_snap, more] =
-                self.carried_curvature(branch, [start, end], length, most_acceleration);
-            by_a * most_acceleration + by_jerk * most_jerk + by_snap * most_snap + more
-        };
-        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * most_carried);
+        let reactions = [at(supports[0], &start, carried.ends[0]), at(supports[1], &end, carried.ends[1])];
+        let above = |a: f64, u: f64| share * (u.abs() * most_acceleration + a.abs() * carried.most);
         let Demands { displacement, velocity, acceleration, reaction_bottom, reaction_top, .. } =
             &mut *self.demands;
         displacement.include_ends([start.displacement, end.displacement], share * most_acceleration, times)
@@ -122,21 +124,29 @@ impl Watch<'_> {
             && reaction_top.include_ends(reactions.map(|ends| ends.top), above(by_a.top, by_u.top), times)
     }
 
-    /// Bounds the second derivative of the acceleration that reactions carry over a length of motion \[s\]:
-    /// shares of the bounds on |ü|, on the jerk and on the second derivative of ü, and a number.
-    fn carried_curvature(
-        &self,
-        branch: &Branch,
-        [start, end]: [KinematicState; 2],
-        length: f64,
-        most_acceleration: f64,
-    ) -> [f64; 4] {
+    /// Returns what the reactions carry over a piece.
+    fn carried<P: Piece>(&self, branch: &Branch, search: &ExtremeSearch<'_, P>) -> Carried {
+        let ends = search.ends.map(|motion| self.wall.carried(branch.side(), motion));
+        let [acceleration, jerk, snap] = search.bounds;
+        let most = if self.wall.rotations().is_none() {
+            snap
+        } else {
+            let [by_a, by_jerk, by_snap, more] = self.carried_curvature(branch, search);
+            by_a * acceleration + by_jerk * jerk + by_snap * snap + more
+        };
+        Carried { ends, most }
+    }
+
+    /// Bounds the second derivative of the acceleration that reactions carry over a piece: shares of the
+    /// bounds on |ü|, on the jerk and on the second derivative of ü, and a number.
+    fn carried_curvature<P: Piece>(&self, branch: &Branch, search: &ExtremeSearch<'_, P>) -> [f64; 4] {
         let Some(rotations) = self.wall.rotations() else { return [0.0, 0.0, 1.0, 0.0] };
-        let sag = 0.125 * length * length * most_acceleration;
+        let ([start, end], length, most) = (search.ends, search.length, search.bounds[0]);
+        let sag = 0.125 * length * length * most;
         let (u, v) = ([start.displacement, end.displacement], [start.velocity, end.velocity]);
         let range = [u[0].min(u[1]) - sag, u[0].max(u[1]) + sag];
-        let speed = v[0].abs().max(v[1].abs()) + 0.5 * length * most_acceleration;
-        rotations.carried_curvature(branch.side(), range, [speed, most_acceleration])
+        let speed = v[0].abs().max(v[1].abs()) + 0.5 * length * most;
+        rotations.carried_curvature(branch.side(), range, [speed, most])
     }
 
     /// Returns whether a displacement reaches a limit state that was never reached before.
@@ -178,7 +188,15 @@ impl Watch<'_> {
         let (from, length) = (search.from, search.length);
         let supports = [from, from + length].map(|offset| self.segment.support(offset));
         let branch = &self.wall.branches()[followed.branch];
-        if !self.include_extremes(branch, search.ends, supports, [from, length], search.bounds) {
+        let carried = self.carried(branch, &search);
+        if !self.include_extremes(
+            branch.couple,
+            search.ends,
+            carried,
+            supports,
+            [from, length],
+            search.bounds,
+        ) {
             self.search(&search, branch)?;
         }
         self.cross(followed)?;
@@ -224,7 +242,7 @@ impl Watch<'_> {
     ) -> Result<(), SearchExhausted> {
         let (wall, body, segment, couple) = (self.wall, self.wall.body(), self.segment, branch.couple);
         let [by_a, by_u] = self.slopes(couple);
-        let carried = self.carried_curvature(branch, search.ends, search.length, search.bounds[0]);
+        let carried = self.carried_curvature(branch, search);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];

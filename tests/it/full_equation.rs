@@ -1,11 +1,15 @@
 //! Tests where bodies in full rotations stand, fall and lie, and limits and derivatives of their equation.
 
+use proptest::prelude::*;
 use rocking_wall::simulation::{Outputs, Simulation};
 use rocking_wall::solver::Segment;
-use rocking_wall::wall::{Kinematics, Load, Parameters, Part, Support, Wall};
+use rocking_wall::variables::{Mechanism, Rocking};
+use rocking_wall::wall::{Kinematics, Load, ParameterError, Parameters, Part, Support, Wall};
 
 use crate::bodies::{PRISM, of_parts};
+use crate::configuration::configuration;
 use crate::full_bodies::{Place, Reference, cases, reference_of};
+use crate::newton_euler::{at_shares, close, loads, stacks, whole};
 
 /// Free motion keeps its energy between impacts.
 #[test]
@@ -170,38 +174,143 @@ fn extremes_of_reactions_are_those_of_many_instants() {
     assert!(found[0] <= lowest + 1e-9 * size && found[1] >= highest - 1e-9 * size, "{found:?}");
 }
 
-/// The derivatives of the outputs are those of small changes.
+/// Rates of ü, of the force and of the reactions with u, u̇ and the ground, by central differences.
+fn rates(simulation: &mut Simulation, [u, v, ground]: [f64; 3]) -> [[f64; 4]; 3] {
+    let delta = 1e-6;
+    [0, 1, 2].map(|index| {
+        let [one, other] = [delta, -delta].map(|step| {
+            let mut at = [u, v, ground];
+            at[index] += step;
+            simulation.place(at[0], at[1], Support::rigid(ground));
+            numbers(&simulation.outputs(Support::rigid(at[2])))
+        });
+        [0, 1, 2, 3].map(|pick| (one[pick] - other[pick]) / (2.0 * delta))
+    })
+}
+
+fn numbers(outputs: &Outputs) -> [f64; 4] {
+    let Outputs { acceleration, restoring_force, reactions, .. } = outputs;
+    [*acceleration, *restoring_force, reactions.bottom, reactions.top]
+}
+
+/// The derivatives of the outputs are those of small changes, of bodies, a rectangle and a strip.
 #[test]
 fn derivatives_are_those_of_the_outputs() {
-    for (name, parameters) in cases() {
-        let still = Support::default();
-        let mut simulation = Simulation::new(&parameters, None, 0.0, still).unwrap();
-        let u_ins = simulation.wall().body().instability;
+    let (_, gable) = cases().remove(0);
+    let rectangle = Parameters { profile: None, overburden: 5e3, overburden_eccentricity: 0.02, ..gable };
+    let strip = Parameters { mechanism: Mechanism::VerticalSpanning, hinge_ratio: 0.6, ..rectangle.clone() };
+    let walls = cases().into_iter().chain([("rectangle", rectangle), ("strip", strip)]);
+    for (name, parameters) in walls {
+        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+        let (u_ins, weight) = (simulation.wall().body().instability, simulation.wall().body().weight);
         for (u, v) in [(0.3 * u_ins.positive, 0.4), (-0.6 * u_ins.negative, 0.2)] {
+            let expected = rates(&mut simulation, [u, v, 0.7]);
             let support = Support::rigid(0.7);
-            let mut at = |u: f64, v: f64, ground: f64| {
-                simulation.place(u, v, support);
-                simulation.outputs(Support::rigid(ground))
-            };
-            let delta = 1e-6;
-            let rates = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[du, dv, da]: [f64; 3]| {
-                let of = |step: f64| (u + step * du, v + step * dv, 0.7 + step * da);
-                let ((u1, v1, a1), (u0, v0, a0)) = (of(delta), of(-delta));
-                let (one, other) = (at(u1, v1, a1), at(u0, v0, a0));
-                let difference = |pick: fn(&Outputs) -> f64| (pick(&one) - pick(&other)) / (2.0 * delta);
-                let picks = [difference(|o| o.acceleration), difference(|o| o.restoring_force)];
-                ([du, dv, da], [picks[0], picks[1], difference(|o| o.reactions.bottom)])
-            });
             simulation.place(u, v, support);
-            let weight = simulation.wall().body().weight;
-            for ([du, dv, da], expected) in rates {
-                let found = simulation.derivative(support, [du, dv], Support::rigid(da));
-                let found = [found.acceleration, found.restoring_force, found.reactions.bottom];
-                for ((found, expected), size) in found.into_iter().zip(expected).zip([10.0, weight, weight]) {
-                    // a central difference: rounding of 1e-16/1e-6 of the size, and its third order
-                    let error = (found - expected).abs();
-                    assert!(error <= 1e-8 * size, "{name}: {found} for {expected}");
+            let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            for ([du, dv, da], expected) in units.into_iter().zip(expected) {
+                let found = numbers(&simulation.derivative(support, [du, dv], Support::rigid(da)));
+                for index in 0..4 {
+                    // rounding of 1e-16/1e-6 of the size, and the third order of a central difference
+                    let size = if index == 0 { 10.0 } else { weight };
+                    let error = (found[index] - expected[index]).abs();
+                    assert!(error <= 1e-8 * size, "{name}, {index}: {found:?} for {expected:?}");
                 }
+            }
+        }
+    }
+}
+
+/// Transverse walls hold the side to which a thrust would overturn the body; the other has its own equation.
+#[test]
+fn a_body_that_transverse_walls_hold_rocks_to_its_own_side() {
+    let load = Load { force: 5e3, height: 3.0, inside: 0.125, moving_mass: 1.0, thrust: 1e3 };
+    let [lower, upper] = [(0.0, 2.0), (2.0, 1.0)].map(|(base, height)| Part { base, height, ..PRISM });
+    let of = |thrust: f64, rocking: Rocking| Parameters {
+        kinematics: Kinematics::Trigonometric,
+        rocking,
+        restitution: 0.5,
+        ..of_parts(&[lower, upper], &[], &[Load { thrust, ..load }])
+    };
+    assert!(Wall::new(&of(1e3, Rocking::TwoSided)).is_err());
+    let free = of(1e3, Rocking::OneSidedNegative);
+    let still = Support::default();
+    let mut simulation = Simulation::new(&free, None, 0.0, still).unwrap();
+    simulation.place(-0.05, 0.0, still);
+    simulation.advance(&Segment { duration: 20.0, from: still, to: still }).unwrap();
+    let progress = simulation.progress();
+    assert!(progress.work.impacts > 5 && progress.state.displacement == 0.0, "{progress:?}");
+    // with a thrust that both sides bear it is the two-sided body until it meets the transverse walls
+    let [one, two] = [Rocking::OneSidedNegative, Rocking::TwoSided].map(|rocking| {
+        let mut simulation = Simulation::new(&of(200.0, rocking), None, 0.0, still).unwrap();
+        simulation.place(-0.05, 0.0, still);
+        simulation.advance(&Segment { duration: 0.3, from: still, to: still }).unwrap();
+        simulation.outputs(still)
+    });
+    assert!(one.displacement < -0.01 && one == two, "{one:?} {two:?}");
+}
+
+/// A wall that leans beyond its toe and that a load holds is refused.
+#[test]
+fn a_centroid_beyond_its_toe_is_refused() {
+    let leaning = Part { outer: [0.0, -0.6], ..PRISM };
+    let load = Load { force: 2e4, height: 1.5, inside: 0.25, moving_mass: 0.0, thrust: 0.0 };
+    let small = Parameters { restitution: 0.9, ..of_parts(&[leaning], &[], &[load]) };
+    Wall::new(&small).unwrap();
+    let full = Parameters { kinematics: Kinematics::Trigonometric, ..small };
+    let error = Wall::new(&full).unwrap_err();
+    assert!(matches!(error, ParameterError::BeyondToe { side: "u > 0", .. }), "{error}");
+    assert!(error.to_string().contains("the centroid of the masonry is 0.17"), "{error}");
+    // a side that transverse walls hold needs no motion of its own
+    Wall::new(&Parameters { rocking: Rocking::OneSidedNegative, ..full }).unwrap();
+}
+
+proptest! {
+    #![proptest_config(configuration())]
+
+    /// Random bodies at random motions have ü and the reaction of the moments about their toe and of their
+    /// momentum.
+    #[test]
+    fn random_bodies_turn_as_their_moments_say(
+        parts in stacks(), loads in loads(),
+        share in 0.01_f64..0.8, v in -0.5_f64..0.5, ground in -3.0_f64..3.0,
+    ) {
+        let height = parts.iter().map(Part::top).fold(0.0, f64::max);
+        let loads = at_shares(&loads, height);
+        let full = Parameters { kinematics: Kinematics::Trigonometric, ..of_parts(&parts, &[], &loads) };
+        let wall = Wall::new(&full);
+        prop_assume!(wall.is_ok());
+        let body = wall.unwrap().body().clone();
+        let [m, own, mz, ..] = whole(&parts, &[], [0.0, height]);
+        let [moving, mx, first, mx2, mz2] = whole(&parts, &loads, [0.0, height]);
+        for side in [1.0, -1.0] {
+            let toe = if side > 0.0 { 0.0 } else { parts[0].thickness[0] };
+            let arm = |x: f64| side * (x - toe);
+            let (x, z) = (arm(own / m), mz / m);
+            // θ from u
+            let psi = libm::asin((share * (z + x) - x) / z.hypot(x));
+            let theta = psi + libm::atan2(x, z);
+            let (sine, cosine) = (libm::sin(theta), libm::cos(theta));
+            let across = side * (mx - moving * toe);
+            let inertia = mz2 + mx2 - 2.0 * mx * toe + moving * toe * toe;
+            let up = |d: f64, z: f64| z * cosine + d * sine;
+            let out = |d: f64, z: f64| z * sine - d * cosine;
+            let loaded = |of: &dyn Fn(&Load) -> f64| loads.iter().map(of).sum::<f64>();
+            let moment = m * 9.81 * out(x, z)
+                + loaded(&|l| {
+                    l.force * out(arm(l.inside), l.height) + side * l.thrust * up(arm(l.inside), l.height)
+                })
+                - side * ground * (first * cosine + across * sine);
+            let (angular, rate) = (moment / inertia, v / (z.hypot(x) * libm::cos(psi)));
+            let turned = |z: f64, d: f64| up(d, z) * angular - out(d, z) * rate * rate;
+            let support = Support::rigid(ground);
+            let mut simulation = Simulation::new(&full, None, 0.0, support).unwrap();
+            simulation.place(side * share * (z + x), side * v, support);
+            let outputs = simulation.outputs(support);
+            close(side * outputs.acceleration, turned(z, x), 10.0)?;
+            if !simulation.progress().state.departed && share * (z + x) < body.departure.of(side) {
+                let expected = moving * ground + side * turned(first, across) - loaded(&|l| l.thrust);
+                close(outputs.reactions.bottom, expected, body.weight)?;
             }
         }
     }

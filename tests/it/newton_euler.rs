@@ -54,7 +54,7 @@ fn integrals(part: &Part, [from, to]: [f64; 2]) -> [f64; 5] {
 }
 
 /// The sums over the parts of a body, with loads as points.
-fn whole(parts: &[Part], loads: &[Load], range: [f64; 2]) -> [f64; 5] {
+pub(crate) fn whole(parts: &[Part], loads: &[Load], range: [f64; 2]) -> [f64; 5] {
     let mut sums = [0.0; 5];
     for part in parts {
         let range = [part.base.max(range[0]), part.top().min(range[1])];
@@ -70,7 +70,7 @@ fn whole(parts: &[Part], loads: &[Load], range: [f64; 2]) -> [f64; 5] {
 }
 
 /// Three stacked parts that taper, with steps on both faces.
-fn stacks() -> impl Strategy<Value = Vec<Part>> {
+pub(crate) fn stacks() -> impl Strategy<Value = Vec<Part>> {
     let part = (
         0.3_f64..2.0,
         [0.25_f64..0.6, 0.25..0.6],
@@ -90,12 +90,12 @@ fn stacks() -> impl Strategy<Value = Vec<Part>> {
     })
 }
 
-fn loads() -> impl Strategy<Value = Vec<[f64; 5]>> {
+pub(crate) fn loads() -> impl Strategy<Value = Vec<[f64; 5]>> {
     prop::collection::vec([0.0..2e4, 0.05_f64..1.0, 0.05..0.3, 0.0..1.0, -50.0..50.0], 0..3)
 }
 
 /// Loads at shares of a height.
-fn at_shares(loads: &[[f64; 5]], height: f64) -> Vec<Load> {
+pub(crate) fn at_shares(loads: &[[f64; 5]], height: f64) -> Vec<Load> {
     let load = |&[force, share, inside, moving_mass, thrust]: &[f64; 5]| Load {
         force,
         height: share * height,
@@ -106,7 +106,7 @@ fn at_shares(loads: &[[f64; 5]], height: f64) -> Vec<Load> {
     loads.iter().map(load).collect()
 }
 
-fn close(found: f64, expected: f64, scale: f64) -> Result<(), TestCaseError> {
+pub(crate) fn close(found: f64, expected: f64, scale: f64) -> Result<(), TestCaseError> {
     // the rounding of some dozen terms
     prop_assert!(
         (found - expected).abs() <= 1e-12 * scale.abs().max(expected.abs()),
