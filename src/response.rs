@@ -1,5 +1,6 @@
 //! Histories, peaks and demands of a run.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use serde::{Serialize, Serializer};
@@ -7,7 +8,7 @@ use serde::{Serialize, Serializer};
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
-use crate::wall::{Support, Warning};
+use crate::wall::{Sides, Support, Warning};
 
 /// One line of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +21,15 @@ pub struct Sample {
     pub outputs: Outputs,
 }
 
+/// A tie at a line of a history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieSample {
+    /// Force N \[N\].
+    pub force: f64,
+    /// Plastic elongations p of the tie of each side \[m\].
+    pub elongation: Sides,
+}
+
 /// A run from start to end.
 #[derive(Clone, Debug)]
 pub struct Response {
@@ -29,6 +39,8 @@ pub struct Response {
     pub summary: Summary,
     /// Demands of the motion on the wall and on its supports, up to overturning.
     pub demands: Demands,
+    /// What each tie does at each sample.
+    pub ties: Vec<Vec<TieSample>>,
     /// u at the end of the run \[m\].
     pub residual: f64,
     /// What the user should know about the parameters.
@@ -175,6 +187,9 @@ impl Response {
             outputs: simulation.outputs(support),
         };
         samples.push(sample(&simulation, support_at(0.0)));
+        let mut ties: Vec<_> =
+            simulation.wall().ties().iter().map(|_| Vec::with_capacity(count + 1)).collect();
+        add_ties(&mut ties, &simulation);
         let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut put_to_rest = false;
         for index in 1..=count {
@@ -182,6 +197,7 @@ impl Response {
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
             put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?;
             samples.push(sample(&simulation, support_at(time)));
+            add_ties(&mut ties, &simulation);
         }
         let progress = simulation.progress();
         let u_ins = simulation.wall().body().instability;
@@ -204,29 +220,44 @@ impl Response {
         let wall = simulation.wall();
         let of_start = wall.start_warning(scene.parameters.u_start);
         let warnings = wall.warnings().iter().cloned().chain(of_start).collect();
-        Ok(Self { samples, summary, demands, residual, warnings })
+        Ok(Self { samples, summary, demands, ties, residual, warnings })
     }
 
-    /// Returns the columns of the history. Those of a tie follow where there is one: its force, and the
-    /// elongations of one that yields.
-    pub fn columns(&self) -> &'static [Column] {
-        let of_tie = self.demands.tie.map_or(0, |tie| if tie.yielding.is_some() { 3 } else { 1 });
-        &COLUMNS[..COLUMNS.len() - 3 + of_tie]
+    /// Returns the columns of the history. Those of ties follow where there are some: their force, and the
+    /// elongations of those that yield; of several, the force of each.
+    pub fn columns(&self) -> Vec<Column<'_>> {
+        let of_ties = match &self.demands.ties[..] {
+            [] => 0,
+            ties if ties.iter().any(|tie| tie.yielding.is_some()) => 3,
+            _ => 1,
+        };
+        let common = COLUMNS[..COLUMNS.len() - 3 + of_ties].iter().map(|&(name, unit, value)| Column {
+            name: name.into(),
+            unit,
+            value: Box::new(move |index| value(&self.samples[index])),
+        });
+        let several = if self.ties.len() > 1 { &self.ties[..] } else { &[] };
+        let of_each = several.iter().zip(1..).map(|(samples, number)| Column {
+            name: format!("tie_{number}_force").into(),
+            unit: "_n",
+            value: Box::new(move |index: usize| samples[index].force),
+        });
+        common.chain(of_each).collect()
     }
 
     /// Writes the history as CSV, numbers to their last digit; the header names the columns with their units.
     pub fn csv(&self) -> String {
         let columns = self.columns();
         let mut csv = "time_s".to_owned();
-        for (name, unit, _) in columns {
+        for Column { name, unit, .. } in &columns {
             csv.extend([",", name, unit]);
         }
         csv.push('\n');
-        for sample in &self.samples {
+        for (index, sample) in self.samples.iter().enumerate() {
             // writing to a String cannot fail
             let _ = write!(csv, "{:.9}", sample.time);
-            for (.., value) in columns {
-                let _ = write!(csv, ",{:?}", value(sample));
+            for column in &columns {
+                let _ = write!(csv, ",{:?}", (column.value)(index));
             }
             csv.push('\n');
         }
@@ -234,12 +265,31 @@ impl Response {
     }
 }
 
-/// A column of the history beside the time: its name, the unit that ends it in a file, and its value at a
-/// sample.
-pub type Column = (&'static str, &'static str, fn(&Sample) -> f64);
+/// Adds what each tie does now.
+fn add_ties(ties: &mut [Vec<TieSample>], simulation: &Simulation) {
+    let (wall, state) = (simulation.wall(), simulation.progress().state);
+    let memory = wall.tie_memory_at(state.branch, state.displacement);
+    for (samples, tie) in ties.iter_mut().zip(wall.ties().iter()) {
+        let force = wall.force_of(tie, state.branch, state.displacement);
+        samples.push(TieSample { force, elongation: tie.elongations(&memory) });
+    }
+}
+
+/// A column of the history beside the time.
+pub struct Column<'a> {
+    /// Its name.
+    pub name: Cow<'static, str>,
+    /// The unit that ends its name in a file.
+    pub unit: &'static str,
+    /// Its value at the sample of a number.
+    pub value: Box<dyn Fn(usize) -> f64 + 'a>,
+}
+
+/// Name, unit and value at a sample of a column that any history may have.
+type CommonColumn = (&'static str, &'static str, fn(&Sample) -> f64);
 
 /// All columns, the three of a tie last.
-pub const COLUMNS: [Column; 13] = [
+pub const COLUMNS: [CommonColumn; 13] = [
     ("u", "_m", |sample| sample.outputs.displacement),
     ("u_dot", "_m_s", |sample| sample.outputs.velocity),
     ("u_ddot", "_m_s2", |sample| sample.outputs.acceleration),

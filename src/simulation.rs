@@ -31,7 +31,7 @@ pub struct Progress {
     pub state: State,
     /// Time of overturning \[s\]; `None` before.
     pub overturn_time: Option<f64>,
-    /// When the tie of each side broke, u > 0 first \[s\].
+    /// When a tie of each side first broke, u > 0 first \[s\].
     pub tie_breaks: [Option<f64>; 2],
     /// Work so far.
     pub work: Work,
@@ -53,8 +53,8 @@ pub struct Step {
     pub overturned: bool,
     /// The wall left its supports in this step.
     pub departed: bool,
-    /// The tie of each side, u > 0 first, broke in this step; [`Progress::tie_breaks`] says when.
-    pub fractures: [bool; 2],
+    /// When a tie of each side, u > 0 first, first broke in this step \[s\].
+    pub fractures: [Option<f64>; 2],
     /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
 }
@@ -100,7 +100,8 @@ impl Simulation {
         motion.wall().check_start(parameters.u_start).map_err(doubts)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
-        let broken = |sign: f64| motion.wall().tie().is_some_and(|tie| tie.is_broken(sign, &state.tie));
+        let ties = motion.wall().ties();
+        let broken = |sign: f64| ties.iter().any(|tie| tie.is_broken(sign, &state.tie));
         let tie_breaks = [1.0, -1.0].map(|sign| broken(sign).then_some(time));
         let progress = Progress { time, state, overturn_time, tie_breaks, work: Work::default() };
         let mut simulation = Self { first: Arc::new(motion), progress, memo: Memo::default() };
@@ -293,8 +294,8 @@ impl Simulation {
         }
         for (side, offset) in report.fractures.into_iter().enumerate() {
             let Some(offset) = offset else { continue };
-            self.progress.tie_breaks[side] = Some(time + offset);
-            step.fractures[side] = true;
+            self.progress.tie_breaks[side].get_or_insert(time + offset);
+            step.fractures[side].get_or_insert(time + offset);
         }
         if let Some(demands) = demands {
             self.enter_yielding(demands);

@@ -137,7 +137,7 @@ impl Unit {
         {
             self.simulation.restore(before);
             let early = self.move_wall(CommunicationStep { duration, ..step });
-            if early.as_ref().is_ok_and(|done| done.overturned || done.fractures != [false; 2]) {
+            if early.as_ref().is_ok_and(|done| done.overturned || done.fractures != [None; 2]) {
                 (step.duration, event) = (duration, Some(step.from + duration));
                 done = early;
             } else {
@@ -196,10 +196,8 @@ impl Unit {
             let time = self.simulation.progress().overturn_time.unwrap_or(end);
             log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
         }
-        for (broke, time) in done.fractures.into_iter().zip(self.simulation.progress().tie_breaks) {
-            if broke {
-                log.event(format_args!("a tie broke at t = {} s", time.unwrap_or(end)));
-            }
+        for time in done.fractures.into_iter().flatten() {
+            log.event(format_args!("a tie broke at t = {time} s"));
         }
         if done.departed {
             log.event(format_args!(

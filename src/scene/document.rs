@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::variables::RealVariable;
 
-use super::keys::Group;
+use super::keys::{Group, TieTables};
 use super::motion::MotionTable;
 use super::parameter::input_names;
 use super::storeys::{StoreyTable, SupportsTable};
@@ -47,9 +47,9 @@ tables! {
         /// Restitution.
         #[serde(default)]
         pub impact: Group,
-        /// Tie of a parapet.
+        /// Tie of a wall of one body, or a list of several.
         #[serde(default)]
-        pub tie: Group,
+        pub tie: TieTables,
         /// Initial displacement and velocity.
         #[serde(default)]
         pub start: Group,
@@ -71,14 +71,13 @@ tables! {
 }
 
 impl Document {
-    /// Returns the tables of parameters with their names.
-    pub fn groups(&self) -> [(&'static str, &Group); 7] {
+    /// Returns the tables of parameters with their names, but for those of the ties.
+    pub fn groups(&self) -> [(&'static str, &Group); 6] {
         [
             ("geometry", &self.geometry),
             ("force_law", &self.force_law),
             ("damping", &self.damping),
             ("impact", &self.impact),
-            ("tie", &self.tie),
             ("start", &self.start),
             ("solver", &self.solver),
         ]

@@ -1,13 +1,15 @@
 //! Keys of scenes that the model description does not have.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Deref;
 
-use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use toml::{Spanned, Value};
 
 /// A table of parameters: names and values with their places.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Group(BTreeMap<Spanned<String>, Spanned<Value>>);
 
@@ -19,6 +21,42 @@ impl Deref for Group {
     }
 }
 
+/// The ties of a wall: one table `[tie]`, or a list `[[tie]]`.
+#[derive(Clone, Debug, Default)]
+pub struct TieTables(Vec<Group>);
+
+impl Deref for TieTables {
+    type Target = [Group];
+
+    fn deref(&self) -> &[Group] {
+        &self.0
+    }
+}
+
+impl<'de> Deserialize<'de> for TieTables {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrMany;
+
+        impl<'de> Visitor<'de> for OneOrMany {
+            type Value = TieTables;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a table [tie], or several [[tie]]")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TieTables, A::Error> {
+                Ok(TieTables(vec![Group::deserialize(MapAccessDeserializer::new(map))?]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<TieTables, A::Error> {
+                Ok(TieTables(Vec::deserialize(SeqAccessDeserializer::new(seq))?))
+            }
+        }
+
+        deserializer.deserialize_any(OneOrMany)
+    }
+}
+
 /// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
 pub const POINTS: &str = "points";
 /// The key in `[geometry]` that chooses small or full rotations.
@@ -26,8 +64,10 @@ pub const KINEMATICS: &str = "kinematics";
 
 /// The key in `[tie]` of the bar, a table of its own.
 pub(super) const BAR: &str = "bar";
-/// The table that holds the tie.
+/// The table that holds a tie.
 pub(super) const TIE_GROUP: &str = "tie";
+/// Most ties of a wall.
+pub(super) const MOST_TIES: usize = 100;
 /// The parameters that follow from the bar of a tie.
 pub(super) const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 

@@ -29,7 +29,7 @@ use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usag
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OpeningTable, PartTable};
 pub use document::Document;
-pub use keys::{Group, KINEMATICS, POINTS};
+pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{input_names, parameter_text, set_names};
@@ -38,7 +38,7 @@ pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 use body::profile_text;
 pub use error::SceneError;
 use keys::{BAR, OF_BAR, TIE_GROUP};
-pub use parameter::{apply_group, check_limits};
+pub use parameter::{apply_group, apply_ties, check_limits};
 pub use schema::{parameter, parameters, variable};
 pub use storeys::read_floors;
 
@@ -156,6 +156,7 @@ impl Scene {
         for (group, entries) in document.groups() {
             apply_group(&mut scene.parameters, group, entries, file)?;
         }
+        apply_ties(&mut scene.parameters, &document.tie, file)?;
         if let Some(given) = &document.thresholds {
             scene.thresholds.clone_from(given);
         }
@@ -259,12 +260,21 @@ impl Scene {
     pub fn uses(&self, name: &str) -> bool {
         use RealVariable as V;
         let p = &self.parameters;
-        let matters = || usage(p).any(|usage| usage.name == name && usage.matters);
+        let matters = || {
+            let mut usages = p.ties().flat_map(|tie| usage(&p.tied_by(tie)));
+            usages.any(|usage| usage.name == name && usage.matters)
+        };
         match V::from_name(name) {
             None => BooleanVariable::from_name(name).is_some() && matters(),
             Some(input @ (V::AG | V::ABottom | V::ATop | V::Drift)) => self.inputs.contains(&input),
             // 0 stands for "none", and so does -1
             Some(V::Overburden) if p.overburden == 0.0 => false,
+            // the parameters are those of one tie
+            Some(V::TieHeight | V::TieStiffness | V::TieSlack | V::TieStrength | V::TieUltimate)
+                if !p.further_ties.is_empty() =>
+            {
+                false
+            }
             Some(V::TieStiffness) if p.tie_stiffness == 0.0 => false,
             Some(V::TieStrength) if p.tie_strength == 0.0 => false,
             Some(V::TieUltimate) if p.tie_ultimate == -1.0 => false,
@@ -305,44 +315,57 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     }
     let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
-    let usages: Vec<_> = usage(&scene.parameters).collect();
-    // leaves out a parameter at its start value that has no effect beside the others, or that is computed
-    let is_left_out = |name: &str| {
-        let is_computed = is_computable(name);
-        usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
-    };
-    let is_of_bar = scene.parameters.weaker_part().is_some();
+    let parameters = &scene.parameters;
     for (group, names) in GROUPS {
-        let _ = writeln!(text, "\n[{group}]");
-        if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
-            let _ = writeln!(text, "{KINEMATICS} = {:?}", scene.parameters.kinematics.name());
-        }
-        if let ("geometry", Some(profile)) = (group, &scene.parameters.profile) {
-            text.push_str(&profile_text(profile));
-        }
-        // a bar whose numbers have been changed since is none
-        let bar = scene.parameters.bar.filter(|_| group == TIE_GROUP && is_of_bar);
-        text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
-        for name in names {
-            match (&scene.parameters.multilinear, *name) {
-                (Some(points), "force_law") => {
-                    let _ = writeln!(text, "force_law = \"multilinear\"");
-                    let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
-                    let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
-                }
-                (_, name) if scene.parameters.profile.is_some() && OF_RECTANGLE.contains(&name) => {}
-                (_, name) if is_left_out(name) || (bar.is_some() && OF_BAR.contains(&name)) => {}
-                _ => {
-                    if let Some(value) = parameter_text(&scene.parameters, name) {
-                        let _ = writeln!(text, "{name} = {value}");
-                    }
-                }
+        if group == TIE_GROUP && !parameters.further_ties.is_empty() {
+            for tie in parameters.ties() {
+                let _ = write!(text, "\n[[{group}]]\n{}", group_text(&parameters.tied_by(tie), group, names));
             }
+        } else {
+            let _ = write!(text, "\n[{group}]\n{}", group_text(parameters, group, names));
         }
     }
     text.extend(scene.floors.iter().map(Floors::to_toml));
     if !motion.is_empty() {
         let _ = write!(text, "\n[motion]\n{motion}");
+    }
+    text
+}
+
+/// Writes the parameters of a group; of the ties the first.
+fn group_text(parameters: &Parameters, group: &str, names: &[&str]) -> String {
+    let usages: Vec<_> = usage(parameters).collect();
+    // leaves out a parameter at its start value that has no effect beside the others, or that is computed
+    let is_left_out = |name: &str| {
+        let is_computed = is_computable(name);
+        usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
+    };
+    let mut text = String::new();
+    if group == "geometry" && parameters.kinematics != Kinematics::default() {
+        let _ = writeln!(text, "{KINEMATICS} = {:?}", parameters.kinematics.name());
+    }
+    if let ("geometry", Some(profile)) = (group, &parameters.profile) {
+        text.push_str(&profile_text(profile));
+    }
+    // a bar whose numbers have been changed since is none
+    let tie = parameters.ties().next().filter(|tie| tie.weaker_part(parameters.width).is_some());
+    let bar = tie.and_then(|tie| tie.bar).filter(|_| group == TIE_GROUP);
+    text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
+    for name in names {
+        match (&parameters.multilinear, *name) {
+            (Some(points), "force_law") => {
+                let _ = writeln!(text, "force_law = \"multilinear\"");
+                let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
+                let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
+            }
+            (_, name) if parameters.profile.is_some() && OF_RECTANGLE.contains(&name) => {}
+            (_, name) if is_left_out(name) || (bar.is_some() && OF_BAR.contains(&name)) => {}
+            _ => {
+                if let Some(value) = parameter_text(parameters, name) {
+                    let _ = writeln!(text, "{name} = {value}");
+                }
+            }
+        }
     }
     text
 }

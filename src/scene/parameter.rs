@@ -9,7 +9,9 @@ use crate::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
 
 use super::body::{BODY, LOAD, OPENING, PART, apply_body};
 use super::error::SceneError;
-use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP};
+use super::keys::{
+    BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, TieTables,
+};
 use super::schema::groups;
 
 /// Returns the names of the inputs of the model description.
@@ -92,9 +94,41 @@ pub fn apply_group(
     follow_bar(parameters).map_err(|message| place.error(bar.span(), message))
 }
 
-/// Gives the tie the numbers of its bar, once the bar is complete.
+/// Applies the ties of a file: the first sets the parameters `tie_…`.
+///
+/// # Errors
+/// [`FileError`] of a key or a value that cannot be used, of one of several ties that has no stiffness.
+pub fn apply_ties(
+    parameters: &mut Parameters,
+    ties: &TieTables,
+    file: &TomlFile<'_>,
+) -> Result<(), FileError> {
+    let refused = |number: usize, message: String| {
+        let key = ties.get(number).and_then(|tie| tie.keys().next());
+        match key {
+            Some(key) => file.place().error(key.span(), message),
+            None => FileError::whole(file.place().name(), message),
+        }
+    };
+    parameters.further_ties.clear();
+    for (number, table) in ties.iter().enumerate() {
+        let mut alone = Parameters { width: parameters.width, ..Parameters::default() };
+        let of_tie = if number == 0 { &mut *parameters } else { &mut alone };
+        apply_group(of_tie, TIE_GROUP, table, file)?;
+        if ties.len() > 1 && of_tie.tie_stiffness == 0.0 {
+            let message = "has no stiffness: give tie_stiffness or [tie.bar], or leave it out";
+            return Err(refused(number, format!("tie {} of {} {message}", number + 1, ties.len())));
+        }
+        if number > 0 {
+            parameters.further_ties.extend(alone.ties().next());
+        }
+    }
+    Ok(())
+}
+
+/// Gives the ties the numbers of their bars, once these are complete.
 fn follow_bar(parameters: &mut Parameters) -> Result<(), String> {
-    match parameters.apply_bar() {
+    match parameters.apply_bars() {
         Err(ParameterError::BarNeeds { .. }) => return Ok(()),
         applied => applied.map_err(|error| error.to_string())?,
     }
@@ -131,6 +165,11 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     }
     if parameters.profile.is_some() && OF_RECTANGLE.contains(&name) {
         let message = format!("{name} is that of a rectangle, and the wall has parts; change these");
+        return Err(SceneError::Value { message });
+    }
+    if !parameters.further_ties.is_empty() && (name.starts_with("tie_") || name.starts_with("bar_")) {
+        let message =
+            format!("{name} is that of one tie, and the wall has several; change these in its file");
         return Err(SceneError::Value { message });
     }
     if OF_BAR.contains(&name) {

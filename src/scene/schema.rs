@@ -8,7 +8,9 @@ use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, BarNumber, Kinematics};
 
 use super::body::{BODY, LOAD, OPENING, PART, describe_body};
-use super::keys::{BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, POINTS, TIE_GROUP};
+use super::keys::{
+    BAR, Group, KINEMATICS, KINEMATICS_GROUP, MOST_TIES, MULTILINEAR, POINTS, TIE_GROUP, TieTables,
+};
 
 /// Returns the keys of the groups that who applies a group checks, and knows the place of.
 pub(super) fn groups() -> Groups {
@@ -27,6 +29,17 @@ impl Described for Group {
             describe_body(&mut members, tables);
         }
         object(members)
+    }
+}
+
+impl Described for TieTables {
+    const OPTIONAL: bool = true;
+
+    fn describe(key: &str, tables: &mut Tables) -> Schema {
+        let one = Group::describe(key, tables);
+        let most = i64::try_from(MOST_TIES).unwrap_or(i64::MAX);
+        let several = with(with(list(one.clone()), "minItems", 1), "maxItems", most);
+        with(Schema::new(), "anyOf", vec![Value::Table(one), Value::Table(several)])
     }
 }
 

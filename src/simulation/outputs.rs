@@ -4,7 +4,7 @@ use oscillator::KinematicState;
 
 use super::Simulation;
 use crate::solver::{Demands, Phase, State};
-use crate::wall::{Ends, Sides, Support};
+use crate::wall::{Ends, Sides, Support, Tie};
 
 /// Outputs that follow from the state and the supports' present motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +21,11 @@ pub struct Outputs {
     pub restoring_force: f64,
     /// C u̇ \[N\].
     pub damping_force: f64,
-    /// Forces of the supports on the wall \[N\]; that of a parapet's tie is part of the bottom one.
+    /// Forces of the supports on the wall \[N\]; those of a parapet's ties are part of the bottom one.
     pub reactions: Ends,
-    /// Force N of the tie, tension positive \[N\].
+    /// Force N of the tie, of several their sum, tension positive \[N\].
     pub tie_force: f64,
-    /// Plastic elongation p of the ties \[m\].
+    /// Plastic elongation p of the tie of each side, of several the largest \[m\].
     pub tie_elongation: Sides,
 }
 
@@ -72,20 +72,27 @@ impl Simulation {
     /// Returns the demands of a motion that starts now, under the supports' present motion. `fractions` of
     /// `u_ins`, each above 0 and at most 1, are the limit states whose first crossings are wanted.
     pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
-        let Outputs { displacement, velocity, acceleration, reactions, tie_force, .. } =
-            self.outputs(support);
+        let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
         let (motion, time) = ([displacement, velocity, acceleration], self.progress.time);
-        let mut demands = Demands::new(self.wall(), time, motion, reactions, tie_force, fractions);
+        let State { branch, tie: memory, .. } = self.progress.state;
+        let wall = self.wall();
+        let force = |tie: &Tie| wall.force_of(tie, branch, displacement);
+        let mut demands = Demands::new(wall, time, motion, reactions, force, fractions);
+        for (tie, demands) in wall.ties().iter().zip(&mut demands.ties) {
+            demands.break_with(tie, &memory, time);
+        }
         self.enter_yielding(&mut demands);
         demands
     }
 
-    /// Enters what the ties have undergone so far.
+    /// Enters how far the ties have yielded so far.
     pub(super) fn enter_yielding(&self, demands: &mut Demands) {
-        if let Some(yielding) = demands.tie.as_mut().and_then(|tie| tie.yielding.as_mut()) {
-            let State { displacement, branch, .. } = self.progress.state;
-            yielding.elongation = self.wall().tie_elongation(branch, displacement);
-            yielding.breaks = self.progress.tie_breaks;
+        let State { displacement, branch, .. } = self.progress.state;
+        let wall = self.wall();
+        for (tie, demands) in wall.ties().iter().zip(&mut demands.ties) {
+            if let Some(yielding) = &mut demands.yielding {
+                yielding.elongation = tie.elongations(&wall.tie_memory_at(branch, displacement));
+            }
         }
     }
 
@@ -98,11 +105,11 @@ impl Simulation {
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
         // dN/du = ±K times the lever
         let tie_force = wall.tie_slope(branch) * displacement.signum() * du;
-        let branch = &wall.branches()[branch];
+        let (number, branch) = (branch, &wall.branches()[branch]);
         let mut tie_elongation = Sides::default();
-        if let (Some(side), Some(tie)) = (branch.yielding_side(), wall.tie()) {
-            // dp/du = ± the lever
-            *tie_elongation.of_mut(side) = tie.lever * side * du;
+        if let Some(side) = branch.yielding_side() {
+            // dp/du = ± the lever, of the tie that is the longest
+            *tie_elongation.of_mut(side) = wall.elongating_lever(number, displacement) * side * du;
         }
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });

@@ -270,7 +270,7 @@ mod tests {
             let motion = Motion::of(&parameters, 1e-8).unwrap();
             let wall = motion.wall();
             let mut state = motion.start(0.0, 0.0, Support::default());
-            let mut demands = Demands::new(wall, 0.0, [0.0; 3], Ends::default(), 0.0, &[0.1, 0.3]);
+            let mut demands = Demands::new(wall, 0.0, [0.0; 3], Ends::default(), |_| 0.0, &[0.1, 0.3]);
             let (mut memo, mut by_ends) = (Memo::default(), 0);
             for index in 0..steps {
                 let time = f64::from(index) * step;

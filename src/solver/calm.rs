@@ -95,7 +95,7 @@ impl<'a> Calm<'a> {
 /// Returns the range of u on the branch of a state in which no extreme is raised and no half cycle begins or
 /// ends; `None` where each step has to be searched.
 fn limits(branch: &Branch, state: &State, demands: &Demands) -> Option<Bounds> {
-    if state.overturned || demands.tie.is_some() && branch.tie != TieAction::None {
+    if state.overturned || !demands.ties.is_empty() && branch.tie != TieAction::None {
         return None;
     }
     let reached = within(&demands.displacement, 0.0);
@@ -231,7 +231,7 @@ mod tests {
             let motion = Motion::of(&parameters, 1e-8).unwrap();
             let mut state = motion.start(0.0, 0.0, Support::default());
             let mut demands =
-                Demands::new(motion.wall(), 0.0, [0.0; 3], Ends::default(), 0.0, &[0.01, 0.05, 0.3]);
+                Demands::new(motion.wall(), 0.0, [0.0; 3], Ends::default(), |_| 0.0, &[0.01, 0.05, 0.3]);
             let (mut memo, mut calm, mut index) = (Memo::default(), 0, 0);
             let search = |state: &mut State, demands: &mut Demands, index: usize| {
                 let [from, to] = [index, index + 1].map(|n| Support::rigid(accelerations[n]));

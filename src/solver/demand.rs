@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::wall::{Ends, Sides, Wall};
+use crate::wall::{Ends, Sides, Tie, TieMemory, Wall};
 
 /// A value and its time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -92,6 +92,9 @@ impl Serialize for Crossing {
 /// The demands of a motion on a tie, until the wall leaves its supports.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TieDemands {
+    /// Height of the tie above the base \[m\].
+    #[serde(skip)]
+    pub height: f64,
     /// The largest force \[N\].
     #[serde(rename = "tie_force")]
     pub force: Instant,
@@ -103,7 +106,49 @@ pub struct TieDemands {
     pub yielding: Option<Yielding>,
 }
 
-/// How far ties have yielded, and when they broke.
+impl TieDemands {
+    /// Returns the demands on a tie whose force at one instant is `force`.
+    fn at(tie: &Tie, force: Instant) -> Self {
+        let reached = tie.strength.filter(|strength| force.value >= *strength);
+        let strength = reached.map(|value| Instant { value, time: force.time });
+        let yielding = tie.ultimate.map(|_| Yielding::default());
+        Self { height: tie.height, force, strength, yielding }
+    }
+
+    /// Enters the time at which the tie is found to have broken.
+    pub(crate) fn break_with(&mut self, tie: &Tie, memory: &TieMemory, time: f64) {
+        let Some(Yielding { breaks, .. }) = &mut self.yielding else { return };
+        for (sign, broke) in [1.0, -1.0].into_iter().zip(breaks) {
+            if tie.is_broken(sign, memory) {
+                broke.get_or_insert(time);
+            }
+        }
+    }
+}
+
+/// Writes the demands on one tie among those on the wall, those on several as a list.
+fn one_or_list<S: Serializer>(ties: &[TieDemands], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Of<'a> {
+        tie_height: f64,
+        #[serde(flatten)]
+        demands: &'a TieDemands,
+    }
+    #[derive(Serialize)]
+    struct Several<'a> {
+        ties: Vec<Of<'a>>,
+    }
+    match ties {
+        [] => serializer.serialize_none(),
+        [one] => one.serialize(serializer),
+        several => {
+            let ties = several.iter().map(|demands| Of { tie_height: demands.height, demands }).collect();
+            Several { ties }.serialize(serializer)
+        }
+    }
+}
+
+/// How far a tie has yielded on each side, and when it broke.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Yielding {
     /// Plastic elongation p \[m\].
@@ -130,7 +175,7 @@ impl Serialize for Yielding {
     }
 }
 
-/// The demands of a motion on a wall, up to overturning; those on its tie go on until the wall leaves its
+/// The demands of a motion on a wall, up to overturning; those on its ties go on until the wall leaves its
 /// supports. Serialised, they have the names of the FMU's outputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Demands {
@@ -153,23 +198,23 @@ pub struct Demands {
     /// Rocking half cycles: excursions beyond the elastic branch with a passage of u = 0 between them. For
     /// the rigid-linear law each motion away from u = 0 is one.
     pub half_cycles: u64,
-    /// Demands on the tie; `None` without one.
-    #[serde(flatten)]
-    pub tie: Option<TieDemands>,
+    /// Demands on each tie, in their order.
+    #[serde(flatten, serialize_with = "one_or_list")]
+    pub ties: Vec<TieDemands>,
     /// The sign of an excursion that has not ended at u = 0 yet.
     #[serde(skip)]
     pub(super) excursion: Option<f64>,
 }
 
 impl Demands {
-    /// Returns the demands of u, u̇ and ü, of the reactions and of the tie's force at one instant.
-    /// `fractions` of `u_ins` are the limit states whose first crossings are wanted.
+    /// Returns the demands of u, u̇ and ü, of the reactions and of the ties at one instant. `fractions` of
+    /// `u_ins` are the limit states whose first crossings are wanted.
     pub(crate) fn new(
         wall: &Wall,
         time: f64,
         [displacement, velocity, acceleration]: [f64; 3],
         reactions: Ends,
-        tie_force: f64,
+        tie_forces: impl Fn(&Tie) -> f64,
         fractions: &[f64],
     ) -> Self {
         let u_ins = wall.body().instability.of(displacement);
@@ -177,6 +222,7 @@ impl Demands {
             fraction,
             first: (displacement.abs() >= fraction * u_ins).then_some(Instant { value: displacement, time }),
         };
+        let ties = wall.ties().iter();
         Self {
             displacement: Extremes::at(displacement, time),
             velocity: Extremes::at(velocity, time),
@@ -185,12 +231,7 @@ impl Demands {
             reaction_top: Extremes::at(reactions.top, time),
             crossings: fractions.iter().map(crossing).collect(),
             half_cycles: 0,
-            tie: wall.tie().map(|tie| {
-                let force = Instant { value: tie_force, time };
-                let reached = tie.strength.filter(|strength| force.value >= *strength);
-                let yielding = tie.ultimate.map(|_| Yielding::default());
-                TieDemands { force, strength: reached.map(|value| Instant { value, time }), yielding }
-            }),
+            ties: ties.map(|tie| TieDemands::at(tie, Instant { value: tie_forces(tie), time })).collect(),
             excursion: None,
         }
     }

@@ -117,20 +117,20 @@ impl Motion {
             let side = self.wall.branches()[state.branch].side();
             return [side * self.wall.body().departure.of(side), side];
         };
-        let is_broken = self.wall.tie().is_some_and(|tie| tie.is_broken(side, &state.tie));
-        [side * after.of(side), if is_broken { side } else { -side }]
+        let breaks = self.wall.ties().break_at_memory(side, &state.tie);
+        [side * after.of(side), if breaks { side } else { -side }]
     }
 
-    /// Breaks a tie beyond whose fracture the wall has been placed.
+    /// Breaks ties beyond whose fracture the wall has been placed.
     fn break_overstretched(&self, state: &mut State, event: &mut Event) {
-        let (Some(tie), branch) = (self.wall.tie(), &self.wall.branches()[state.branch]) else { return };
-        let Some(hold) = tie.hold(branch.side(), &state.tie) else { return };
-        if branch.lower.abs().min(branch.upper.abs()) >= hold.breaks {
-            event.fractured |= tie.stretch(&mut state.tie, state.displacement);
+        let branch = &self.wall.branches()[state.branch];
+        let inner = branch.lower.abs().min(branch.upper.abs());
+        if self.wall.ties().holds(branch.side(), state.tie).any(|hold| inner >= hold.breaks) {
+            event.fractured |= self.wall.ties().stretch(&mut state.tie, state.displacement);
         }
     }
 
-    /// Returns whether the wall moves inwards on a branch on which its tie yields.
+    /// Returns whether the wall moves inwards on a branch on which a tie yields.
     fn has_turned_back(&self, state: &State) -> bool {
         let speed = self.wall.displacement_scale() * self.wall.rocking_rate();
         let side = self.wall.branches()[state.branch].yielding_side();

@@ -199,9 +199,9 @@ impl<'a> Run<'a> {
         if let Some(watch) = &mut self.watch {
             let State { branch, overturned, departed, .. } = self.state;
             let followed = Followed { piece, branch, from: self.time, length, displacement };
-            let (motion, tie) = (!overturned, !departed && watch.demands.tie.is_some());
+            let (motion, tied) = (!overturned, !departed && !watch.demands.ties.is_empty());
             let watched = if motion { watch.piece(&followed) } else { Ok(()) };
-            let watched = watched.and_then(|()| if tie { watch.tie(&followed) } else { Ok(()) });
+            let watched = watched.and_then(|()| if tied { watch.ties(&followed) } else { Ok(()) });
             watched.map_err(|_| self.not_followed("a largest value of the motion cannot be found"))?;
         }
         if self.with_couple && !self.state.departed {
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
         self.check()
     }
 
-    /// Ends the yielding of a tie at its largest displacement.
+    /// Ends the yielding of ties at their largest displacement.
     fn unload(&mut self, displacement: f64) {
         if transition::unload(self.motion, &mut self.state, displacement) {
             self.enter_fracture(displacement);
@@ -239,7 +239,10 @@ impl<'a> Run<'a> {
     }
 
     fn enter_fracture(&mut self, displacement: f64) {
-        self.report.fractures[usize::from(displacement < 0.0)] = Some(self.time);
+        self.report.fractures[usize::from(displacement < 0.0)].get_or_insert(self.time);
+        if let Some(watch) = &mut self.watch {
+            watch.fracture(&self.state.tie, self.time);
+        }
     }
 
     /// Returns the lower and upper corner that end a piece: the ends of the branch, or for Newmark the

@@ -53,10 +53,10 @@ impl Motion {
     }
 
     /// Returns the state at the start, under a forcing p \[m/s²\]. A wall that starts far from upright has
-    /// stretched its tie.
+    /// stretched its ties.
     pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
-        let mut memory = self.wall.tie().map(|tie| tie.memory_at(displacement)).unwrap_or_default();
-        memory.lost = self.wall.tie().is_some() && self.is_beyond_departure(displacement);
+        let mut memory = self.wall.ties().memory_at(displacement);
+        memory.lost = !self.wall.ties().is_empty() && self.is_beyond_departure(displacement);
         if memory != *self.wall.tie_memory() {
             return self.with_tie_memory(memory).start_under(displacement, velocity, forcing);
         }
@@ -150,11 +150,9 @@ pub(super) fn pass_corner(
     };
     state.overturned |= event.overturned;
     state.departed |= event.departed;
-    if let Some(tie) = motion.wall.tie()
-        && (event.fractured || event.departed)
-    {
-        event.fractured |= tie.stretch(&mut state.tie, displacement);
-        state.tie.lost |= event.departed;
+    if event.fractured || event.departed {
+        event.fractured |= motion.wall.ties().stretch(&mut state.tie, displacement);
+        state.tie.lost |= event.departed && !motion.wall.ties().is_empty();
     }
     if landing {
         (state.displacement, state.velocity, state.phase) = (displacement, 0.0, Phase::Landed);
@@ -179,10 +177,10 @@ pub(super) fn pass_corner(
     event
 }
 
-/// Ends the yielding of a tie that has reached `displacement` \[m\]; returns whether that has broken it.
+/// Ends the yielding of ties that have reached `displacement` \[m\]; returns whether that has broken one.
 pub(super) fn unload(motion: &Motion, state: &mut State, displacement: f64) -> bool {
-    let has_broken = motion.wall.tie().is_some_and(|tie| tie.stretch(&mut state.tie, displacement));
-    // where that is all the tie remembers anyway, branches keep their numbers
+    let has_broken = motion.wall.ties().stretch(&mut state.tie, displacement);
+    // where that is all the ties remember anyway, branches keep their numbers
     motion.find_branch(state);
     has_broken
 }

@@ -5,7 +5,7 @@
 
 use oscillator::KinematicState;
 
-use crate::wall::{Branch, Couple, Ends, Support, TieAction, Wall};
+use crate::wall::{Branch, Couple, Ends, Support, Tie, TieAction, TieMemory, Wall};
 
 use super::demand::{Demands, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
@@ -66,7 +66,7 @@ impl Watch<'_> {
         [from, to]: [KinematicState; 2],
         bounds: [f64; 3],
     ) -> bool {
-        if self.demands.tie.is_some() && branch.tie != TieAction::None {
+        if !self.demands.ties.is_empty() && branch.tie != TieAction::None {
             return false;
         }
         if is_overturned {
@@ -269,19 +269,39 @@ impl Watch<'_> {
         Ok(())
     }
 
-    /// Includes the force of the tie over a piece, on which it is linear in u.
+    /// Enters the time at which ties have broken, as far into the segment as `offset` \[s\].
+    pub(super) fn fracture(&mut self, memory: &TieMemory, offset: f64) {
+        for (tie, demands) in self.wall.ties().iter().zip(&mut self.demands.ties) {
+            demands.break_with(tie, memory, self.time + offset);
+        }
+    }
+
+    /// Includes the forces of the ties over a piece, on which they are linear in u.
     #[inline(never)]
-    pub(super) fn tie<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
-        let &Followed { piece, branch, from, length, displacement } = followed;
-        let (action, Some(tie), Some(demands)) =
-            (self.wall.branches()[branch].tie, self.wall.tie(), &mut self.demands.tie)
-        else {
+    pub(super) fn ties<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
+        if self.wall.branches()[followed.branch].tie == TieAction::None {
             return Ok(());
-        };
+        }
+        for (number, tie) in self.wall.ties().iter().enumerate() {
+            self.tie(followed, tie, number)?;
+        }
+        Ok(())
+    }
+
+    fn tie<P: Piece>(
+        &mut self,
+        followed: &Followed<'_, P>,
+        tie: &Tie,
+        number: usize,
+    ) -> Result<(), SearchExhausted> {
+        let &Followed { piece, branch, from, length, displacement } = followed;
+        let action = self.wall.tie_action(tie, branch);
         if action == TieAction::None {
             return Ok(());
         }
-        let (TieDemands { force, strength, .. }, limit) = (demands, tie.strength.unwrap_or(f64::INFINITY));
+        let search = Self::search_of(self.segment, self.time, followed);
+        let TieDemands { force, strength, .. } = &mut self.demands.ties[number];
+        let limit = tie.strength.unwrap_or(f64::INFINITY);
         let hold = tie.hold(displacement, self.wall.tie_memory());
         let reached = if action == TieAction::Yields {
             Some(from)
@@ -297,9 +317,8 @@ impl Watch<'_> {
             }
             return Ok(());
         }
-        let search = Self::search_of(self.segment, self.time, followed);
-        let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
-        let slope = self.wall.tie_slope(branch);
+        let value = |_: f64, motion: &KinematicState| self.wall.force_of(tie, branch, motion.displacement);
+        let slope = self.wall.slope_of(tie, branch);
         let size = || slope * search.largest(|m| m.displacement);
         let quantity = Quantity { value, curvature: [slope, 0.0, 0.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };

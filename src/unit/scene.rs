@@ -5,8 +5,9 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use fmu_export::{Failure, StateCodec};
 use ground_motion::GroundMotion;
 
+use crate::choices::TieSide;
 use crate::simulation::Excitation;
-use crate::wall::{Hollow, Kinematics, Load, Opening, Parameters, Part, Profile};
+use crate::wall::{Hollow, Kinematics, Load, Opening, Parameters, Part, Profile, TieNumbers};
 
 /// The first bytes of the file: what it is, and the version of its layout.
 const KIND: &str = "rocking-wall scene 3";
@@ -23,7 +24,7 @@ const KIND: &str = "rocking-wall scene 3";
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnitScene {
-    /// The wall and its solver. Only the variables of the description, the kinematics, the parts of a wall
+    /// The wall and its solver. Only the variables of the description, the kinematics, parts, further ties
     /// and the points of a multilinear law are carried.
     pub parameters: Parameters,
     /// The motion of the supports, interpolated between samples.
@@ -66,6 +67,7 @@ impl UnitScene {
         let points: Arc<[[f64; 2]]> = numbers.as_chunks().0.into();
         self.parameters.multilinear = (!points.is_empty()).then_some(points);
         transfer_profile(&mut self.parameters, codec)?;
+        transfer_ties(&mut self.parameters.further_ties, codec)?;
         let motion = self.motion.take();
         let mut records = motion.as_ref().map_or([None, None, None], Excitation::records_of_supports);
         for record in &mut records {
@@ -96,6 +98,24 @@ impl UnitScene {
             motion
         }))
     }
+}
+
+/// The ties after the first, with the numbers that their bars have given them.
+#[cold]
+fn transfer_ties(ties: &mut Vec<TieNumbers>, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+    let of_tie = |tie: &TieNumbers| {
+        let TieNumbers { height, stiffness, slack, strength, ultimate, side, bar: _ } = *tie;
+        [height, stiffness, slack, strength, ultimate, f64::from(side.value())]
+    };
+    let mut numbers: Vec<f64> = ties.iter().flat_map(of_tie).collect();
+    transfer_numbers(&mut numbers, codec)?;
+    let read = numbers.as_chunks().0.iter().map(|&[height, stiffness, slack, strength, ultimate, side]| {
+        let side = TieSide::ALL.iter().copied().find(|known| f64::from(known.value()) == side);
+        let side = side.ok_or_else(|| Failure("a tie has no such side: package the FMU again".to_owned()))?;
+        Ok(TieNumbers { height, stiffness, slack, strength, ultimate, side, bar: None })
+    });
+    *ties = read.collect::<Result<_, Failure>>()?;
+    Ok(())
 }
 
 /// The parts, openings and loads of a wall, if it has parts.

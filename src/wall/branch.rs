@@ -47,9 +47,9 @@ pub struct Branch {
     pub force: f64,
     /// Slope of F/`m_eff` \[1/s²\].
     pub stiffness: f64,
-    /// The force of the wall alone over `m_eff`, without a tie: secant damping follows from it.
+    /// The force of the wall alone over `m_eff`, without ties: secant damping follows from it.
     pub own: Line,
-    /// What a tie does.
+    /// The most that a tie does.
     pub tie: TieAction,
     /// The couple of a strip wall.
     pub couple: Couple,
@@ -114,7 +114,7 @@ pub struct Corner {
     pub overturning: bool,
     /// Beyond it the wall has left its supports.
     pub departure: bool,
-    /// Here the tie of this side breaks.
+    /// Here a tie of this side breaks.
     pub fracture: bool,
     /// Here the wall lies down.
     pub landing: bool,

@@ -11,7 +11,7 @@ use super::tie::Tie;
 pub struct CapacityPoint {
     /// |u| \[m\].
     pub displacement: f64,
-    /// |F| with that of a tie, negative beyond u₃ \[N\].
+    /// |F| with that of ties, negative beyond u₃ \[N\].
     pub force: f64,
     /// |u|/`u_ins` \[-\].
     pub displacement_ratio: f64,
@@ -30,11 +30,11 @@ pub struct CapacityPoint {
 }
 
 impl Wall {
-    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. The tie
-    /// has the force of a displacement that is reached for the first time.
+    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`. Ties
+    /// have the force of a displacement that is reached for the first time.
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
         let u = fraction * self.body().instability.of(sign);
-        let point = self.capacity_point(sign, u, self.first_tie_force(sign, u));
+        let point = self.capacity_point(sign, u, self.ties().pull(sign, u));
         // keep the fraction itself: the quotient u/u_ins may differ from it in the last digit
         CapacityPoint { displacement_ratio: fraction, ..point }
     }
@@ -45,20 +45,28 @@ impl Wall {
         let u_ins = self.body().instability.of(sign);
         let side = self.statics().force.side(sign);
         let mut corners = vec![0.0];
-        let tie = self.tie().filter(|tie| tie.holds(sign));
-        let breaks = tie.and_then(Tie::fracture_displacement);
-        corners.extend(tie.map(Tie::onset));
-        corners.extend(breaks.and_then(|_| tie?.strength_displacement()));
-        corners.extend(breaks);
+        for tie in self.ties().of_side(sign) {
+            corners.push(tie.onset());
+            if let Some(breaks) = tie.fracture_displacement() {
+                corners.extend(tie.strength_displacement().into_iter().chain([breaks]));
+            }
+        }
         corners.extend(side.corners.iter().chain([&side.end, &u_ins]));
         corners.retain(|corner| *corner <= u_ins);
         corners.sort_by(f64::total_cmp);
         corners.dedup_by(|a, b| *a - *b <= ROUNDING * u_ins);
         let points = |u: f64| {
-            let after = self.capacity_point(sign, u, self.first_tie_force(sign, u));
-            let is_fracture = breaks.is_some_and(|breaks| (u - breaks).abs() <= ROUNDING * u_ins);
-            let strength = tie.and_then(|tie| tie.strength).filter(|_| is_fracture);
-            let before = strength.map(|force| self.capacity_point(sign, u, force));
+            let after = self.capacity_point(sign, u, self.ties().pull(sign, u));
+            let breaks = |tie: &&Tie| {
+                tie.fracture_displacement().is_some_and(|breaks| (u - breaks).abs() <= ROUNDING * u_ins)
+            };
+            let lost: f64 = self
+                .ties()
+                .of_side(sign)
+                .filter(breaks)
+                .map(|tie| tie.lever * tie.strength.unwrap_or_default())
+                .sum();
+            let before = (lost > 0.0).then(|| self.capacity_point(sign, u, self.ties().pull(sign, u) + lost));
             before.into_iter().chain(std::iter::once(after))
         };
         corners.into_iter().flat_map(points).collect()
@@ -73,25 +81,22 @@ impl Wall {
         self.sides().map(largest).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the |u| of the unstable equilibrium that a yielding tie moves outwards on the side of `sign`,
-    /// u₃ + (y/`z_G`) `N_y`/k₀ with parallel softening \[m\]; `None` where the tie does not yield there.
+    /// Returns the |u| of the unstable equilibrium that yielding ties move outwards on the side of `sign`, of
+    /// one tie u₃ + (y/`z_G`) `N_y`/k₀ with parallel softening \[m\]; `None` where no tie yields there.
     pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
-        let tie = self.tie().filter(|tie| tie.holds(sign))?;
-        let side = self.statics().force.side(sign);
-        let u = side.end - tie.lever * tie.strength? / side.lines.last()?.slope;
-        let yields = tie.strength_displacement()?..tie.fracture_displacement()?;
-        (yields.contains(&u) && u < self.body().departure.of(sign)).then_some(u)
+        let yielding = self.branches().iter().filter(|branch| branch.yielding_side() == Some(sign));
+        let falling = yielding.filter(|branch| branch.stiffness < 0.0);
+        let zeros = falling.map(|branch| (branch.anchor - branch.force / branch.stiffness, branch));
+        let mut within = zeros.filter(|(u, branch)| (branch.lower..branch.upper).contains(u));
+        within.next().map(|(u, _)| u.abs())
     }
 
-    fn first_tie_force(&self, sign: f64, u: f64) -> f64 {
-        self.tie().map_or(0.0, |tie| tie.force(u.copysign(sign)))
-    }
-
-    fn capacity_point(&self, sign: f64, u: f64, tie_force: f64) -> CapacityPoint {
+    /// Returns a point of the curve on which the ties take the part `pull` of |F| \[N\].
+    fn capacity_point(&self, sign: f64, u: f64, pull: f64) -> CapacityPoint {
         let body = self.body();
         let (m, participation) = (body.effective_mass, body.participation);
         let (u_ins, strength) = (body.instability.of(sign), body.strength.of(sign));
-        let force = self.statics().own_force(sign, u) + self.tie().map_or(0.0, |tie| tie.lever * tie_force);
+        let force = self.statics().own_force(sign, u) + pull;
         CapacityPoint {
             displacement: u,
             force,

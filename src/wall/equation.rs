@@ -13,7 +13,8 @@ use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::sides::Sides;
 use super::statics::Statics;
-use super::tie::{Tie, TieAction, TieMemory};
+use super::tie::{Tie, TieMemory};
+use super::ties::Ties;
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
 use super::warnings;
@@ -60,15 +61,12 @@ impl Wall {
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
         }
-        if let Some(bar) = &parameters.bar {
-            bar.tie(parameters.width)?;
-        }
-        let tie = Tie::new(parameters, &body)?;
+        let ties = Ties::new(parameters, &body)?;
         let at_impacts = impact.then_some(restitution.most());
-        let warnings = warnings::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
+        let warnings = warnings::collect(parameters, &body, &force, &ties, &damping, at_impacts);
         let rocking = parameters.rocking;
         let wall = Self {
-            statics: Statics { body, force, tie },
+            statics: Statics { body, force, ties },
             rotations,
             tie_memory: TieMemory::default(),
             damping,
@@ -155,23 +153,6 @@ impl Wall {
         Err(ParameterError::StartsOverturned { u_start, u_ins })
     }
 
-    /// Returns the warning of a start that has stretched or broken a tie: whoever pulls the wall to `u_start`
-    /// \[m\] pulls the tie with it.
-    pub fn start_warning(&self, u_start: f64) -> Option<Warning> {
-        let tie = self.tie()?;
-        let memory = tie.memory_at(u_start);
-        let (broken, elongation) =
-            (tie.is_broken(u_start, &memory), tie.elongation(memory.yielded.of(u_start)));
-        let limit = if broken { tie.fracture_displacement() } else { tie.strength_displacement() };
-        let is_stretched = memory != TieMemory::default();
-        limit.filter(|_| is_stretched).map(|limit| Warning::StretchedStart {
-            u_start,
-            limit: limit.copysign(u_start),
-            elongation,
-            broken,
-        })
-    }
-
     /// The signs of u to which the wall can rock.
     pub fn sides(&self) -> impl Iterator<Item = f64> + use<> {
         let rocking = self.rocking;
@@ -181,7 +162,7 @@ impl Wall {
     /// Returns whether both sides are alike. A motion and its reverse then place the same demands on the
     /// wall.
     pub fn has_equal_sides(&self) -> bool {
-        let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
+        let one_tied = self.ties().iter().any(|tie| tie.holds(1.0) != tie.holds(-1.0));
         self.statics.body.strength.positive == self.statics.body.strength.negative
             && self.restitution.positive == self.restitution.negative
             && self.rotations.as_ref().is_none_or(FullRotations::has_equal_sides)
@@ -229,45 +210,19 @@ impl Wall {
         self.rotations.as_ref().map_or(motion.acceleration, |rotations| rotations.carried(sign, motion))
     }
 
-    /// The tie; `None` without one.
+    /// The first tie, for those who know one; `None` without one.
     pub fn tie(&self) -> Option<&Tie> {
-        self.statics.tie.as_ref()
+        self.ties().first()
     }
 
-    /// What the ties remember; branches and corners are those of ties with this memory.
+    /// The ties.
+    pub fn ties(&self) -> &Ties {
+        &self.statics.ties
+    }
+
+    /// What they remember; branches and corners are those of ties with this memory.
     pub fn tie_memory(&self) -> &TieMemory {
         &self.tie_memory
-    }
-
-    /// Force N of the tie on a branch \[N\]; 0 without one.
-    pub fn tie_force(&self, branch: usize, displacement: f64) -> f64 {
-        let Branch { tie: action, lower, upper, .. } = self.branches[branch];
-        let Some(tie) = self.tie() else { return 0.0 };
-        match action {
-            TieAction::None => 0.0,
-            TieAction::Pulls => tie
-                .hold(0.5 * (lower + upper), &self.tie_memory)
-                .map_or(0.0, |hold| tie.tension(&hold, displacement)),
-            TieAction::Yields => tie.strength.unwrap_or_default(),
-        }
-    }
-
-    /// dN/d|u| on a branch, K y/`z_G` where the tie pulls \[N/m\].
-    pub fn tie_slope(&self, branch: usize) -> f64 {
-        let pulls = self.branches[branch].tie == TieAction::Pulls;
-        self.tie().filter(|_| pulls).map_or(0.0, |tie| tie.stiffness * tie.lever)
-    }
-
-    /// Plastic elongations p of the ties of a wall at a displacement on a branch \[m\].
-    pub fn tie_elongation(&self, branch: usize, displacement: f64) -> Sides {
-        let Some(tie) = self.tie() else { return Sides::default() };
-        let mut yielded = self.tie_memory.yielded;
-        let branch = &self.branches[branch];
-        if let Some(side) = branch.yielding_side() {
-            let of_side = yielded.of_mut(side);
-            *of_side = of_side.max(side * displacement);
-        }
-        yielded.map(|yielded| tie.elongation(yielded))
     }
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.

@@ -1,5 +1,6 @@
 //! The numbers that follow from the parameters of a wall.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use crate::choices::RestitutionSource;
@@ -9,13 +10,12 @@ use super::equivalence;
 use super::given::COMPUTED;
 use super::impact::of_rectangle;
 use super::sides::Sides;
-use super::tie::Tie;
 
 /// A number that follows from the parameters of a wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Fact {
     /// Its name, that of the variable of the model description where there is one.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its symbol.
     pub symbol: &'static str,
     /// Its value.
@@ -47,7 +47,7 @@ impl Wall {
             ("omega1", "omega1", omega1, "rad/s"),
             ("elastic_period", "T1", period, "s"),
         ]
-        .map(|(name, symbol, value, unit)| Fact { name, symbol, value, unit })
+        .map(|(name, symbol, value, unit)| Fact { name: name.into(), symbol, value, unit })
         .into_iter()
         .chain(self.impact_facts())
         .chain(self.body_facts())
@@ -101,21 +101,31 @@ impl Wall {
         ])
     }
 
-    /// Lists the numbers of a tie, and the |u| at which it first pulls, yields and breaks.
-    fn tie_facts(&self) -> impl Iterator<Item = Fact> + use<> {
-        let tie = self.tie();
+    /// Lists the numbers of each tie, and the |u| at which it first pulls, yields and breaks. Names of
+    /// several ties are numbered.
+    fn tie_facts(&self) -> impl Iterator<Item = Fact> {
+        let are_several = self.ties().len() > 1;
+        let of_each = self.ties().iter().zip(1..).flat_map(move |(tie, number)| {
+            let facts = given([
+                ("tie_height", "y", are_several.then_some(tie.height), "m"),
+                ("tie_stiffness", "K", Some(tie.stiffness), "N/m"),
+                ("tie_strength", "N_y", tie.strength, "N"),
+                ("tie_ultimate", "p_u", tie.ultimate, "m"),
+                ("tie_engages", "u_e", Some(tie.onset()), "m"),
+                ("tie_yields", "u_y", tie.strength_displacement(), "m"),
+                ("tie_breaks", "u_f", tie.fracture_displacement(), "m"),
+            ]);
+            let numbered = move |fact: Fact| match fact.name.strip_prefix("tie_") {
+                Some(name) if are_several => Fact { name: format!("tie_{number}_{name}").into(), ..fact },
+                _ => fact,
+            };
+            facts.map(numbered)
+        });
         let [positive, negative] = [1.0, -1.0].map(|sign| self.yielding_equilibrium(sign));
-        let facts = [
-            ("tie_stiffness", "K", tie.map(|tie| tie.stiffness), "N/m"),
-            ("tie_strength", "N_y", tie.and_then(|tie| tie.strength), "N"),
-            ("tie_ultimate", "p_u", tie.and_then(|tie| tie.ultimate), "m"),
-            ("tie_engages", "u_e", tie.map(Tie::onset), "m"),
-            ("tie_yields", "u_y", tie.and_then(Tie::strength_displacement), "m"),
-            ("tie_breaks", "u_f", tie.and_then(Tie::fracture_displacement), "m"),
+        of_each.chain(given([
             ("tie_equilibrium", "u*+", positive, "m"),
             ("tie_equilibrium_negative", "u*-", negative, "m"),
-        ];
-        given(facts)
+        ]))
     }
 }
 
@@ -123,8 +133,8 @@ impl Wall {
 fn given<const N: usize>(
     facts: [(&'static str, &'static str, Option<f64>, &'static str); N],
 ) -> impl Iterator<Item = Fact> {
-    let given = |(name, symbol, value, unit): (_, _, Option<f64>, _)| {
-        value.map(|value| Fact { name, symbol, value, unit })
+    let given = |(name, symbol, value, unit): (&'static str, _, Option<f64>, _)| {
+        value.map(|value| Fact { name: name.into(), symbol, value, unit })
     };
     facts.into_iter().filter_map(given)
 }

@@ -5,18 +5,17 @@ use super::equation::Wall;
 use super::force_law::Line;
 use super::sides::Sides;
 use super::statics::Statics;
-use super::tie::TieAction;
 
 impl Wall {
-    /// Returns the corners in order of displacement, the two landings first and last. A tie has those that
-    /// belong to its memory. A wall with one free side has no landing on the other: the corner at u = 0 is
+    /// Returns the corners in order of displacement, the two landings first and last. Ties have those that
+    /// belong to their memory. A wall with one free side has no landing on the other: the corner at u = 0 is
     /// its end there.
     pub(super) fn lay_out_corners(&self) -> Vec<Corner> {
         let Statics { body, force, .. } = self.statics();
         let passage = self.impact || self.is_rigid();
         let stop = self.free_side().is_some();
         let mut corners = vec![Corner { displacement: 0.0, passage, stop, ..Corner::default() }];
-        let hold = |sign: f64| self.tie()?.hold(sign, self.tie_memory());
+        let memory = *self.tie_memory();
         for sign in self.sides() {
             let side = force.side(sign);
             let of = |sides: Sides| sides.of(sign);
@@ -32,7 +31,7 @@ impl Wall {
                 place(side.end, |_| {});
                 place(side.end * self.damping.rocking.end(), |_| {});
             }
-            if let Some(hold) = hold(sign) {
+            for hold in self.ties().holds(sign, memory) {
                 let mut before_departure = |displacement: f64, mark: fn(&mut Corner)| {
                     if displacement < of(body.departure) {
                         place(displacement, mark);
@@ -47,7 +46,8 @@ impl Wall {
             place(of(body.landing), |corner| corner.landing = true);
         }
         corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
-        let pulls_at_once = [1.0, -1.0].into_iter().filter_map(hold).any(|hold| hold.onset == 0.0);
+        let of_both = [1.0, -1.0].into_iter().flat_map(|sign| self.ties().holds(sign, memory));
+        let pulls_at_once = of_both.map(|hold| hold.onset).any(|onset| onset == 0.0);
         if !passage && force.is_straight() && !body.has_bent_couple() && !pulls_at_once {
             // One elastic line runs through the origin, and one line of the couple.
             corners.retain(|corner| corner.displacement != 0.0);
@@ -73,10 +73,8 @@ impl Wall {
             let damping = self.damping.on_branch(line.is_elastic(), is_beyond);
             let couple = Couple::on(&line, self.body(), middle);
             let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
-            let (line, tie) = self.tie().map_or((own, TieAction::None), |tie| {
-                let (memory, action) = (self.tie_memory(), tie.action(lower, upper, self.tie_memory()));
-                (tie.added_to(own, action, middle, memory, m), action)
-            });
+            let tie = self.ties().action(lower, upper, self.tie_memory());
+            let line = self.ties().added_to(own, [lower, upper], self.tie_memory(), m);
             let Line { anchor, force, slope: stiffness } = line;
             Branch { lower, upper, anchor, force, stiffness, own, tie, couple, damping }
         };

@@ -17,11 +17,13 @@
 //! | `warning`, `error` | what a user is told |
 //! | `sides`, `ratio` | quantities of both sides; the ratios of damping |
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
-//! | `bar`, `parameters`, `usage` | what is given, and which of it has an effect |
+//! | `bar`, `tie_numbers`, `parameters`, `usage` | what is given, and which of it has an effect |
 //! | `points` | masses and loads of parts as points |
-//! | `mechanism`, `assembled`, `force_law`, `damping`, `turn`, `trigonometric`, `tie` | what is made of it |
+//! | `mechanism`, `assembled`, `force_law`, `damping`, `turn`, `trigonometric` | what is made of it |
+//! | `tie`, `ties` | a tie, and those of a wall |
 //! | `impact`, `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
-//! | `branch`, `equation`, `layout`, `supports`, `capacity`, `facts` | the wall, its branches and its curve |
+//! | `branch`, `equation`, `layout`, `tied` | the wall, its branches, and ties on them |
+//! | `supports`, `capacity`, `facts` | supports that move; the capacity curve; the numbers of a wall |
 
 mod assembled;
 mod bar;
@@ -48,6 +50,9 @@ mod sides;
 mod statics;
 mod supports;
 mod tie;
+mod tie_numbers;
+mod tied;
+mod ties;
 mod trigonometric;
 mod turn;
 mod usage;
@@ -77,6 +82,8 @@ pub use sides::Sides;
 pub use statics::Statics;
 pub use supports::{Ends, Support};
 pub use tie::{Hold, Tie, TieAction, TieMemory};
+pub use tie_numbers::TieNumbers;
+pub use ties::Ties;
 pub use trigonometric::FullRotations;
 pub(crate) use turn::Turn;
 pub use usage::{Usage, usage};

@@ -8,6 +8,7 @@ use super::given::COMPUTED;
 use super::profile::Profile;
 use super::ratio::Ratio;
 use super::sides::Sides;
+use super::tie_numbers::TieNumbers;
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
     Solver, TieSide, start_values,
@@ -77,9 +78,11 @@ pub struct Parameters {
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
     /// replaces `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
     pub multilinear: Option<Arc<[[f64; 2]]>>,
-    /// The bar of the tie, which [`Parameters::apply_bar`] turns into the tie's own numbers. Only scenes
+    /// The bar of the tie, which [`Parameters::apply_bars`] turns into the tie's own numbers. Only scenes
     /// carry it.
     pub bar: Option<Bar>,
+    /// The ties after the first, which the parameters `tie_…` are. Only scenes carry them.
+    pub further_ties: Vec<TieNumbers>,
     /// a₃ of each side in place of `a3`. No file carries it: a check sets it for hinges that are set back.
     pub a3_of_sides: Option<Sides>,
 }
@@ -92,6 +95,7 @@ impl Default for Parameters {
             kinematics: Kinematics::Linear,
             multilinear: None,
             bar: None,
+            further_ties: Vec::new(),
             a3_of_sides: None
         })
     }
@@ -132,27 +136,55 @@ impl Parameters {
         self.profile = (!profile.is_rectangle()).then(|| Arc::new(profile));
     }
 
-    /// Gives the tie the stiffness, strength and ultimate elongation of its bar; leaves one without a bar as
-    /// it is.
+    /// Returns the ties: the first, which the parameters `tie_…` and the bar are, and the further ones. Their
+    /// stiffness may be 0.
+    pub fn ties(&self) -> impl Iterator<Item = TieNumbers> {
+        let first = TieNumbers {
+            height: self.tie_height,
+            stiffness: self.tie_stiffness,
+            slack: self.tie_slack,
+            strength: self.tie_strength,
+            ultimate: self.tie_ultimate,
+            side: self.tie_side,
+            bar: self.bar,
+        };
+        std::iter::once(first).chain(self.further_ties.iter().copied())
+    }
+
+    /// Returns which part of the first tie gives way first; `None` for one that is given by its own numbers.
+    pub fn weaker_part(&self) -> Option<TiePart> {
+        self.ties().next()?.weaker_part(self.width)
+    }
+
+    /// Returns the wall with this tie alone.
+    #[must_use]
+    pub fn tied_by(&self, tie: TieNumbers) -> Self {
+        Self {
+            tie_height: tie.height,
+            tie_stiffness: tie.stiffness,
+            tie_slack: tie.slack,
+            tie_strength: tie.strength,
+            tie_ultimate: tie.ultimate,
+            tie_side: tie.side,
+            bar: tie.bar,
+            further_ties: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Gives each tie the stiffness, strength and ultimate elongation of its bar; leaves those without a bar
+    /// as they are.
     ///
     /// # Errors
     /// Those of [`Bar::tie`].
-    pub fn apply_bar(&mut self) -> Result<(), ParameterError> {
-        if let Some(bar) = &self.bar {
-            let tie = bar.tie(self.width)?;
-            self.tie_stiffness = tie.stiffness;
-            self.tie_strength = tie.strength;
-            self.tie_ultimate = tie.ultimate;
-        }
+    pub fn apply_bars(&mut self) -> Result<(), ParameterError> {
+        let mut ties = self.ties().map(|tie| tie.with_bar(self.width)).collect::<Result<Vec<_>, _>>()?;
+        let first = ties.remove(0);
+        self.tie_stiffness = first.stiffness;
+        self.tie_strength = first.strength;
+        self.tie_ultimate = first.ultimate;
+        self.further_ties = ties;
         Ok(())
-    }
-
-    /// Returns which part of the tie gives way first; `None` for a tie that is given by its own numbers.
-    pub fn weaker_part(&self) -> Option<TiePart> {
-        let tie = self.bar?.tie(self.width).ok()?;
-        let is_own = [tie.stiffness, tie.strength, tie.ultimate]
-            == [self.tie_stiffness, self.tie_strength, self.tie_ultimate];
-        is_own.then_some(tie.weaker)
     }
 }
 

@@ -6,11 +6,12 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
 use super::tie::Tie;
+use super::ties::Ties;
 
 /// Share of F₀ below which a force counts as 0: at the end of a softening line only rounding is left of it.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// A wall at rest: its body, its restoring force and its tie. Damping and impacts have no part in it.
+/// A wall at rest: its body, its restoring force and its ties. Damping and impacts have no part in it.
 ///
 /// ```
 /// use rocking_wall::wall::{Parameters, Statics};
@@ -23,19 +24,19 @@ pub(super) const ROUNDING: f64 = 1e-12;
 pub struct Statics {
     pub(super) body: Body,
     pub(super) force: RestoringForce,
-    pub(super) tie: Option<Tie>,
+    pub(super) ties: Ties,
 }
 
 impl Statics {
-    /// Makes the body, the force and the tie that the parameters ask for.
+    /// Makes the body, the force and the ties that the parameters ask for.
     ///
     /// # Errors
     /// [`ParameterError`], with the values, the limit and the remedy.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let body = Body::new(parameters)?;
         let force = RestoringForce::new(parameters, &body)?;
-        let tie = Tie::new(parameters, &body)?;
-        Ok(Self { body, force, tie })
+        let ties = Ties::new(parameters, &body)?;
+        Ok(Self { body, force, ties })
     }
 
     /// Masses, geometry and the rigid force.
@@ -43,9 +44,14 @@ impl Statics {
         &self.body
     }
 
-    /// The tie; `None` without one.
+    /// The first tie, for those who know one; `None` without one.
     pub fn tie(&self) -> Option<&Tie> {
-        self.tie.as_ref()
+        self.ties().first()
+    }
+
+    /// The ties.
+    pub fn ties(&self) -> &Ties {
+        &self.ties
     }
 
     /// Displacements at which the force falls to zero, u₃ of each side \[m\].
@@ -58,7 +64,7 @@ impl Statics {
         &self.force.side(sign).corners
     }
 
-    /// |F| of the wall without its tie at |u| on the side of `sign` \[N\].
+    /// |F| of the wall without its ties at |u| on the side of `sign` \[N\].
     pub fn own_force(&self, sign: f64, u: f64) -> f64 {
         let side = self.force.side(sign);
         let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
@@ -79,12 +85,12 @@ impl Statics {
         self.force.side(sign).corners.first().copied().unwrap_or(0.0)
     }
 
-    /// The largest |F| of the wall without its tie on the side of `sign` \[N\].
+    /// The largest |F| of the wall without its ties on the side of `sign` \[N\].
     pub fn largest_own_force(&self, sign: f64) -> f64 {
         self.largest_own_force_from(sign, 0.0)
     }
 
-    /// The largest |F| of the wall without its tie from |u| on, on the side of `sign` \[N\].
+    /// The largest |F| of the wall without its ties from |u| on, on the side of `sign` \[N\].
     pub fn largest_own_force_from(&self, sign: f64, u: f64) -> f64 {
         let corners = self.force.side(sign).corners.iter().copied().filter(|corner| *corner > u);
         corners.map(|corner| self.own_force(sign, corner)).fold(self.own_force(sign, u), f64::max)

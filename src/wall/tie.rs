@@ -1,4 +1,4 @@
-//! The one-way tie of a wall of one body, anchored to its own support.
+//! A one-way tie of a wall of one body, anchored to its own support.
 //!
 //! A tie at the height y, of stiffness K and slack g₀, that resists the side of σ = ±1 has the force N at the
 //! elongation e = σ (y/`z_G`) u of the wall there, in a rectangle (2y/h) u:
@@ -18,14 +18,15 @@
 use crate::choices::TieSide;
 
 use super::error::{Choice, ParameterError};
-use super::force_law::{Line, RestoringForce};
+use super::force_law::Line;
 use super::given::given;
 use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::sides::Sides;
+use super::tie_numbers::TieNumbers;
 use super::trigonometric::conflict;
 
-/// The tie of a wall of one body; on both sides two ties of equal data.
+/// A tie of a wall of one body; on both sides two ties of equal data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tie {
     /// Stiffness K \[N/m\].
@@ -38,6 +39,8 @@ pub struct Tie {
     pub ultimate: Option<f64>,
     /// The side it holds.
     pub side: TieSide,
+    /// Height y above the base \[m\].
+    pub height: f64,
     /// de/du = y/`z_G`, in a rectangle 2y/h.
     pub lever: f64,
     /// |u| from which on the wall has left its supports, and the tie with them \[m\].
@@ -76,7 +79,7 @@ pub struct Hold {
 }
 
 /// What a tie does on a branch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TieAction {
     /// It is slack or broken, or there is none.
     #[default]
@@ -89,7 +92,7 @@ pub enum TieAction {
 
 impl Hold {
     /// Returns what the tie does at |u|, which is none of its corners.
-    fn action(&self, reach: f64) -> TieAction {
+    pub(super) fn action(&self, reach: f64) -> TieAction {
         if reach <= self.onset || reach >= self.breaks {
             TieAction::None
         } else if reach < self.yields {
@@ -101,14 +104,18 @@ impl Hold {
 }
 
 impl Tie {
-    /// Returns the tie that the parameters ask for; `None` for a stiffness of 0.
+    /// Returns the tie that its numbers ask for; `None` for a stiffness of 0.
     ///
     /// # Errors
     /// [`ParameterError::Conflict`], [`ParameterError::TieHeight`], [`ParameterError::NotGiven`].
-    pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Option<Self>, ParameterError> {
-        let Parameters { tie_height, tie_stiffness: stiffness, tie_slack: slack, .. } = *parameters;
+    pub(super) fn new(
+        numbers: &TieNumbers,
+        parameters: &Parameters,
+        body: &Body,
+    ) -> Result<Option<Self>, ParameterError> {
+        let TieNumbers { height: tie_height, stiffness, slack, strength, side, .. } = *numbers;
         let height = body.height;
-        let ultimate = given("tie_ultimate", parameters.tie_ultimate)?;
+        let ultimate = given("tie_ultimate", numbers.ultimate)?;
         if stiffness == 0.0 {
             return Ok(None);
         }
@@ -127,7 +134,7 @@ impl Tie {
         if !(tie_height > 0.0 && tie_height <= height) {
             return Err(ParameterError::TieHeight { tie_height, height });
         }
-        let strength = Some(parameters.tie_strength).filter(|strength| *strength > 0.0);
+        let strength = Some(strength).filter(|strength| *strength > 0.0);
         let ultimate = strength.and(ultimate);
         let lever = tie_height / body.centroid_height;
         // the elongation under the strength; with no plastic elongation the tie breaks where it yields
@@ -137,7 +144,8 @@ impl Tie {
             slack,
             strength,
             ultimate,
-            side: parameters.tie_side,
+            side,
+            height: tie_height,
             lever,
             departure: body.departure,
             onset: slack / lever,
@@ -204,25 +212,7 @@ impl Tie {
         Some(Hold { onset: slack / self.lever, yields: first.max(yielded), breaks, slack })
     }
 
-    /// Returns the memory of ties whose wall has been pulled to a displacement \[m\].
-    pub(crate) fn memory_at(&self, displacement: f64) -> TieMemory {
-        let mut memory = TieMemory::default();
-        self.stretch(&mut memory, displacement);
-        memory
-    }
-
-    /// Enters in the memory that the wall has pulled its tie to a displacement \[m\], if it yields there;
-    /// returns whether that breaks it.
-    pub(crate) fn stretch(&self, memory: &mut TieMemory, displacement: f64) -> bool {
-        let Some(hold) = self.hold(displacement, memory) else { return false };
-        let reached = displacement.abs().min(hold.breaks);
-        if reached >= hold.yields {
-            *memory.yielded.of_mut(displacement) = reached;
-        }
-        reached == hold.breaks
-    }
-
-    /// Returns whether the tie of the side of `sign` has broken.
+    /// Returns whether the tie of the side of `sign` has broken with this memory.
     pub fn is_broken(&self, sign: f64, memory: &TieMemory) -> bool {
         let has_reached = |breaks| memory.yielded.of(sign) >= breaks;
         self.holds(sign) && self.fracture_displacement().is_some_and(has_reached)
@@ -235,6 +225,13 @@ impl Tie {
             return ultimate;
         }
         (self.lever * (yielded - first)).clamp(0.0, ultimate)
+    }
+
+    /// Returns the plastic elongations p of the tie of each side with a memory \[m\]; 0 on a side that it
+    /// does not hold.
+    pub fn elongations(&self, memory: &TieMemory) -> Sides {
+        let of = |sign: f64| if self.holds(sign) { self.elongation(memory.yielded.of(sign)) } else { 0.0 };
+        Sides { positive: of(1.0), negative: of(-1.0) }
     }
 
     /// Returns K (|e| − g₀ − p), the force of the tie where it pulls \[N\]. Of one that yields it is at most
@@ -252,27 +249,10 @@ impl Tie {
         hold.map_or(TieAction::None, |hold| hold.action(middle.abs()))
     }
 
-    /// Returns whether the tie pulls the wall back even where the wall leaves its supports, so that no
-    /// equilibrium is unstable beyond the wall's own.
-    pub(super) fn steadies(&self, force: &RestoringForce, sign: f64) -> bool {
-        let end = self.departure.of(sign);
-        let Some(hold) = self.hold(sign, &TieMemory::default()) else { return false };
-        let [pull, slope] = match hold.action(end) {
-            TieAction::None => return false,
-            TieAction::Pulls => [self.slope() * (end - hold.onset), self.slope()],
-            TieAction::Yields => [self.lever * self.strength.unwrap_or_default(), 0.0],
-        };
-        // under a constant pull the force falls up to there, so it is positive all the way
-        let rises = |line: &Line| slope == 0.0 || line.slope + slope > 0.0;
-        let reaches = |line: &Line| rises(line) && sign * line.at(sign * end) + pull > 0.0;
-        force.side(sign).lines.last().is_some_and(reaches)
-    }
-
-    /// Adds the force of the tie to a line of the wall alone on the side of `sign`, both per unit effective
-    /// mass `m` \[kg\].
+    /// Adds the force of the tie to a line on the side of `sign`, both per unit effective mass `m` \[kg\].
     pub(super) fn added_to(
         &self,
-        own: Line,
+        line: Line,
         action: TieAction,
         sign: f64,
         memory: &TieMemory,
@@ -281,13 +261,13 @@ impl Tie {
         match (action, self.hold(sign, memory)) {
             (TieAction::Pulls, Some(hold)) => {
                 let anchor = hold.onset.copysign(sign);
-                Line { anchor, force: own.at(anchor), slope: own.slope + self.slope() / m }
+                Line { anchor, force: line.at(anchor), slope: line.slope + self.slope() / m }
             }
             (TieAction::Yields, _) => {
                 let most = self.lever * self.strength.unwrap_or_default() / m;
-                Line { force: own.force + most.copysign(sign), ..own }
+                Line { force: line.force + most.copysign(sign), ..line }
             }
-            _ => own,
+            _ => line,
         }
     }
 }

@@ -2,13 +2,12 @@
 
 use crate::choices::RestitutionSource;
 
-use super::bar::Bar;
 use super::damping::DampingLaw;
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
-use super::tie::Tie;
+use super::ties::Ties;
 use super::usage::{Usage, usage};
 use super::usual::{FORCES, LENGTHS, Usual};
 use super::warning::{USUAL_STEP, Warning};
@@ -25,11 +24,15 @@ pub(super) fn collect(
     parameters: &Parameters,
     body: &Body,
     force: &RestoringForce,
-    tie: Option<&Tie>,
+    ties: &Ties,
     damping: &DampingLaw,
     restitution: Option<f64>,
 ) -> Vec<Warning> {
-    let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);
+    let of_further = parameters
+        .further_ties
+        .iter()
+        .flat_map(|tie| usage(&parameters.tied_by(*tie)).filter(|usage| usage.name.starts_with("tie_")));
+    let unused = usage(parameters).chain(of_further).filter(|usage| !usage.is_start && !usage.matters);
     let mut warnings: Vec<_> =
         unused.map(|Usage { name, condition, .. }| Warning::NoEffect { name, condition }).collect();
     let computed = damping.asked.computed_name();
@@ -57,7 +60,7 @@ pub(super) fn collect(
     if damping.elastic == 0.0 && restitution == Some(1.0) {
         warnings.push(Warning::NeverRests);
     }
-    let held = |sign: f64| tie.is_some_and(|tie| tie.holds(sign) && tie.steadies(force, sign));
+    let held = |sign: f64| ties.steady(force, body, sign);
     if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {
         warnings.push(Warning::TieHolds { u_ins: body.instability.of(sign) });
     }
@@ -72,10 +75,7 @@ pub(super) fn collect(
 impl Parameters {
     /// Finds the parameters of a wall whose values are improbable.
     pub fn unusual(&self) -> impl Iterator<Item = Warning> + use<> {
-        let Parameters { height, thickness, width, overburden, tie_strength, .. } = *self;
-        let of_bar: Vec<_> = self.bar.iter().flat_map(Bar::warnings).collect();
-        // of a bar with a number in another unit, stiffness and strength say nothing more
-        let has_tie = self.tie_stiffness > 0.0 && of_bar.is_empty();
+        let Parameters { height, thickness, width, overburden, .. } = *self;
         let half = thickness / 2.0;
         let is_rectangle = self.is_rectangle();
         let usual = |name, unit, range, others| Usual { name, unit, range, others };
@@ -100,14 +100,6 @@ impl Parameters {
                 self.overburden_eccentricity,
                 usual("overburden_eccentricity", "m", [-half, half], LENGTHS),
             ),
-            // a steel bar of 12 mm over 20 m has 1.2e6 N/m, two of 40 mm over 1 m have 5e8 N/m
-            (
-                has_tie,
-                self.tie_stiffness,
-                usual("tie_stiffness", "N/m", [1e5, 1e9], &[("in kN/m", 1e3), ("in kN/mm", 1e6)]),
-            ),
-            // an anchor in poor masonry resists some kN, two steel bars of 40 mm 1.3e6 N
-            (has_tie && tie_strength > 0.0, tie_strength, usual("tie_strength", "N", [1e3, 2e6], FORCES)),
         ];
         let of_shape = of_shape.map(|(value, usual)| (is_rectangle, value, usual));
         let parts = self.profile.iter().flat_map(|profile| profile.parts());
@@ -126,6 +118,7 @@ impl Parameters {
         });
         let of_profile: Vec<_> = of_parts.chain(of_loads).collect();
         let all = of_shape.into_iter().chain(of_profile).chain(of_wall);
-        all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_bar)
+        let of_ties: Vec<_> = self.ties().flat_map(|tie| tie.unusual()).collect();
+        all.filter(|(counts, ..)| *counts).filter_map(|(_, value, usual)| usual.warning(value)).chain(of_ties)
     }
 }

@@ -82,7 +82,7 @@ fn steps_and_demands_keep_the_elongation() {
                 }
             }
             assert!(seen > 0 && simulation.progress().tie_break_time().is_none(), "{parameters:?}");
-            let yielding = demands.tie.unwrap().yielding.unwrap();
+            let yielding = demands.ties[0].yielding.unwrap();
             assert_stretched([side, -side].map(|side| yielding.elongation.of(side)), "demands");
         }
     }

@@ -46,6 +46,7 @@ mod record_path;
 mod refusals;
 mod return_mapping;
 mod runge_kutta;
+mod several_ties;
 mod ties;
 mod trigonometric;
 mod unit;

@@ -101,7 +101,7 @@ impl Run {
         history
     }
 
-    fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         Wall::new(&self.parameters).expect("a valid wall").displacement_scale()
     }
 }
@@ -125,7 +125,7 @@ const PROBE: f64 = 1e-8;
 /// Bounds the effect of rounding on a history with `parts` parts per segment: 16 ε for each piece, plus
 /// 1e-13 for the adaptive solver, both amplified as the wall amplifies a change of its motion.
 /// Beyond an amplification of 1e5, the limit of the reference cases too, histories cannot be compared.
-fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
+pub(crate) fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     let history = run.history(0.0, 1);
     // one change alone may cancel out: all samples alike, and every other one
     let changes: [fn(usize) -> f64; 2] = [|_| PROBE, |index| if index % 2 == 0 { PROBE } else { -PROBE }];

@@ -177,7 +177,7 @@ fn tie_force_is_a_demand() {
     };
     let coarse = Response::of(&scene(0.05)).unwrap();
     let fine = Response::of(&scene(1e-4)).unwrap();
-    let tie = coarse.demands.tie.unwrap();
+    let tie = coarse.demands.ties[0];
     let demand = coarse.demands.displacement.highest;
     let wall = Wall::new(&scene(0.1).parameters).unwrap();
     let force = wall.tie().unwrap().force(demand.value);
@@ -295,7 +295,7 @@ fn the_largest_force_is_at_the_turning_point() {
         let mut simulation = crate::start(&Parameters { u_start, ..hard.clone() });
         let mut demands = simulation.demands(Support::default(), &[]);
         simulation.advance_watched(&still(3.0), &mut demands).unwrap();
-        let (tie, highest) = (demands.tie.unwrap(), demands.displacement.highest);
+        let (tie, highest) = (demands.ties[0], demands.displacement.highest);
         let wanted = simulation.wall().tie().unwrap().force(highest.value);
         assert!(highest.value > 0.0 && wanted > 1e4, "{highest:?}");
         // what both searches leave

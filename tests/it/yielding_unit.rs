@@ -55,7 +55,7 @@ fn step_to(unit: &mut Unit, motion: [f64; 2]) -> bool {
 }
 
 /// Moves a unit to a time by the classical Runge-Kutta method, through the events that its indicators show.
-fn integrate(unit: &mut Unit, time: &mut f64, end: f64, step: f64) {
+pub(crate) fn integrate(unit: &mut Unit, time: &mut f64, end: f64, step: f64) {
     while *time < end {
         let from = [unit.real(V::U), unit.real(V::UDot)];
         let mut reach = |length: f64| {

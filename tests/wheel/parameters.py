@@ -50,9 +50,13 @@ def schemas() -> tuple[dict[str, Any], dict[str, Any]]:
 def text() -> str:
     """Returns the text of the file."""
     tables = schemas()[0]["properties"]
-    known = {name: value for group in GROUPS for name, value in tables[group]["properties"].items()}
+    # one tie is a table, several are a list of such tables
+    one, several = tables["tie"]["anyOf"]
+    groups = tables | {"tie": one}
+    known = {name: value for group in GROUPS for name, value in groups[group]["properties"].items()}
+    known["tie"] = several | {"description": "Several ties, in place of one by tie_height, tie_stiffness, …."}
     bar = {f"bar_{name}": value for name, value in known["bar"]["properties"].items()}
-    names = [*rw.Wall().parameters, "kinematics", "points", "part", "opening", "load"]
+    names = [*rw.Wall().parameters, "kinematics", "points", "part", "opening", "load", "tie"]
     made = Options({"$defs": schemas()[0]["$defs"], "properties": {}})
     made.table("Parameters", {"description": ABOUT, "properties": {n: known[n] for n in names} | bar})
     return HEAD + "".join(made.classes.values())
@@ -105,7 +109,7 @@ OPTIONS_OF_STUDY = (
     "uncertain",
 )
 """Keys of a study that are typed."""
-INLINE = {"bar": "Bar", "models": "Model", "parameters": "Distribution"}
+INLINE = {"bar": "Bar", "tie": "Tie", "models": "Model", "parameters": "Distribution"}
 """Names of the tables that have none in the schema, by the keys that hold them."""
 KINDS = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
 

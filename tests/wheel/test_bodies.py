@@ -87,3 +87,27 @@ def test_what_makes_no_wall_is_refused(given, message):
         return
     with pytest.raises(ValueError, match=message):
         rw.Wall(**given)
+
+
+def test_a_facade_is_tied_at_several_heights(tmp_path):
+    bar = {"diameter": 0.016, "length": 5.0, "yield_stress": 235e6, "ultimate_strain": 0.02}
+    ties = [{"tie_height": 6.2, "bar": bar}, {"tie_height": 9.4, "tie_stiffness": 2e7, "tie_side": "both"}]
+    wall = facade(tie=ties)
+    record = rw.synthetic_record(pga=3.0)
+    response = wall.simulate(record)
+    lower, upper = response.tie_forces
+    assert np.allclose(response.tie_force, lower + upper, rtol=1e-15, atol=0)
+    assert lower.max() > 0 and upper.max() > 0
+    told = response.demands["ties"]
+    assert [tie["tie_height"] for tie in told] == [6.2, 9.4]
+    assert "tie_elongation" in told[0] and "tie_elongation" not in told[1]
+    assert list(response.history)[-2:] == ["tie_1_force", "tie_2_force"]
+    assert wall.describe()["tie_2_stiffness"] == 2e7
+    # sent, replaced and packaged it is the same; one tie of several cannot be set by its parameters
+    sent = pickle.loads(pickle.dumps(wall))
+    assert sent == wall and np.array_equal(sent.simulate(record).u, response.u)
+    assert facade().replace(tie=ties) == wall
+    with pytest.raises(ValueError, match="is that of one tie, and the wall has several"):
+        wall.replace(tie_height=3.0)
+    with pytest.raises(ValueError, match=r"tie 2 of 2 has no stiffness"):
+        facade(tie=[*ties[:1], {"tie_height": 9.4}])

@@ -58,7 +58,7 @@ pub fn walls(building: &Building, parts: &Parts, run: &Coupled) -> Table {
 
 /// Returns whether a wall has a tie that may yield.
 fn yields(wall: &Wall) -> bool {
-    wall.tie().is_some_and(|tie| tie.ultimate.is_some())
+    wall.ties().iter().any(|tie| tie.ultimate.is_some())
 }
 
 /// Returns all histories: a row for each sample of the record, and on at its step.

@@ -88,6 +88,21 @@ fn declared<'a>(schema: &Value, tables: &'a Tables) -> Option<&'a Value> {
     tables.schemas.get(schema.get("$ref")?.as_str()?.rsplit('/').next()?)
 }
 
+/// Returns the only one of a schema's forms that a table or a list can have, or else the schema.
+fn form_of<'a>(schema: &'a Value, value: &DeValue<'_>) -> &'a Value {
+    let kind = match value {
+        DeValue::Table(_) => "object",
+        DeValue::Array(_) => "array",
+        _ => return schema,
+    };
+    let forms = schema.get("anyOf").and_then(Value::as_array).into_iter().flatten();
+    let mut own = forms.filter(|form| form.get("type").and_then(Value::as_str) == Some(kind));
+    match (own.next(), own.next()) {
+        (Some(form), None) => form,
+        _ => schema,
+    }
+}
+
 fn in_value(
     schema: &Value,
     about: &str,
@@ -97,7 +112,7 @@ fn in_value(
 ) -> Option<Fault> {
     let about = schema.get("description").and_then(Value::as_str).unwrap_or(about).trim_end_matches('.');
     let declared = declared(schema, tables);
-    let schema = declared.unwrap_or(schema);
+    let schema = form_of(declared.unwrap_or(schema), value.get_ref());
     let fault = |said: String| {
         let message = format!("{} {said}: {about}", keys.join("."));
         Some(Fault { keys: keys.to_vec(), span: value.span(), message })

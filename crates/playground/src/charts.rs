@@ -67,8 +67,8 @@ pub(crate) struct Frames {
     u: Vec<f32>,
     /// Restoring forces \[kN\].
     f: Vec<f32>,
-    /// What a tie does; null without one.
-    tie: Value,
+    /// What ties do.
+    ties: Value,
 }
 
 impl Frames {
@@ -81,7 +81,7 @@ impl Frames {
             t: column(|sample| sample.time),
             u: column(|sample| sample.outputs.displacement),
             f: column(|sample| 1e-3 * sample.outputs.restoring_force),
-            tie: tie::data(wall, response, &shown),
+            ties: tie::data(wall, response, &(0..shown.len()).collect::<Vec<_>>()),
         }
     }
 }

@@ -237,13 +237,13 @@ fn a_tie_is_slack_pulls_yields_and_breaks() {
     for (place, name) in ["tie_force", "tie_elongation"].into_iter().enumerate() {
         assert!(answer["captions"][place][0] == name && answer["charts"][name]["svg"].is_string());
     }
-    let tie = ask(&mut session, &json!("frames"))["answer"]["tie"].clone();
+    let tie = ask(&mut session, &json!("frames"))["answer"]["ties"][0].clone();
     let states = tie["sides"].as_array().unwrap().iter().flat_map(|side| side["state"].as_array().unwrap());
     let states: std::collections::BTreeSet<_> = states.map(|state| state.as_u64().unwrap()).collect();
     assert!(states.into_iter().eq(0..4) && tie["sides"].as_array().unwrap().len() == 2);
     let free = run(&mut session, &json!({}), &motion)["answer"].clone();
     let frames = ask(&mut session, &json!("frames"))["answer"].clone();
-    assert!(free["captions"] == json!([]) && frames["tie"].is_null());
+    assert!(free["captions"] == json!([]) && frames["ties"] == json!([]));
 }
 
 /// The page shows the fields that matter, by the conditions of the model description.

@@ -65,14 +65,13 @@ pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[Str
     if parameters.impact == Impact::Restitution {
         rows.push(row("coefficient of restitution e", wall.restitution().positive, ""));
     }
-    if let Some(tie) = &response.demands.tie {
+    for tie in &response.demands.ties {
         rows.push(row("largest force of the tie", 1e-3 * tie.force.value, "kN"));
         if let Some(reached) = tie.strength {
             rows.push(row("the tie reaches its strength at", reached.time, "s"));
         }
         if let Some(Yielding { elongation, breaks }) = tie.yielding {
-            let longest = elongation.positive.max(elongation.negative);
-            rows.push(row("largest plastic elongation of the tie", 1000.0 * longest, "mm"));
+            rows.push(row("largest plastic elongation of the tie", 1000.0 * elongation.most(), "mm"));
             let first = breaks.into_iter().flatten().reduce(f64::min);
             rows.extend(first.map(|time| row("the tie breaks at", time, "s")));
         }

@@ -2,9 +2,9 @@
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use report::plot::stacked;
-use rocking_wall::response::Response;
+use rocking_wall::response::{COLUMNS, Column, Response, TieSample};
 use run::figure;
 
 use crate::arrays::samples;
@@ -18,8 +18,13 @@ pub(crate) fn values<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let history = PyDict::new(py);
     history.set_item("time", PyArray1::from_iter(py, response.samples.iter().map(|sample| sample.time)))?;
-    for (name, _, value) in response.columns() {
-        history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
+    let is_common = |column: &Column<'_>| COLUMNS.iter().any(|(name, ..)| *name == column.name);
+    for Column { name, value, .. } in response.columns().into_iter().filter(is_common) {
+        history.set_item(name, PyArray1::from_iter(py, (0..response.samples.len()).map(value)))?;
+    }
+    if response.ties.len() > 1 {
+        let forces = |samples: &Vec<TieSample>| PyArray1::from_iter(py, samples.iter().map(|of| of.force));
+        history.set_item("tie_forces", PyTuple::new(py, response.ties.iter().map(forces))?)?;
     }
     let text = serde_json::to_string(response).map_err(failed)?;
     let values = py.import("json")?.call_method1("loads", (text,))?.cast_into::<PyDict>()?;

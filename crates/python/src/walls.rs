@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use check::Subject;
-use files::check_value;
+use files::{TomlFile, check_value};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
@@ -46,13 +46,13 @@ type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
 
 #[pymethods]
 impl Wall {
-    /// Makes a wall; `body` has parts, openings and loads as lines of `[geometry]`.
+    /// Makes a wall; `tables` are those of a scene that have parts, openings and loads, and ties.
     #[new]
-    #[pyo3(signature = (parameters, body=None))]
-    fn new(parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (parameters, tables=None))]
+    fn new(parameters: &Bound<'_, PyDict>, tables: Option<&str>) -> PyResult<Self> {
         let mut scene = Scene { title: "rocking wall".into(), ..Scene::default() };
         let mut assumed = assumed(|_, _| false);
-        set_body(&mut scene, &mut assumed, body)?;
+        set_tables(&mut scene, &mut assumed, tables)?;
         Self::of(scene, None, assumed, parameters)
     }
 
@@ -64,10 +64,10 @@ impl Wall {
     }
 
     /// Returns the same wall with other values of some parameters.
-    #[pyo3(signature = (parameters, body=None))]
-    fn replaced(&self, parameters: &Bound<'_, PyDict>, body: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (parameters, tables=None))]
+    fn replaced(&self, parameters: &Bound<'_, PyDict>, tables: Option<&str>) -> PyResult<Self> {
         let (mut scene, mut assumed) = (self.scene.clone(), self.assumed.clone());
-        set_body(&mut scene, &mut assumed, body)?;
+        set_tables(&mut scene, &mut assumed, tables)?;
         Self::of(scene, self.start, assumed, parameters)
     }
 
@@ -149,9 +149,11 @@ impl Wall {
     /// Returns the parameters as texts of a scene file.
     #[getter]
     fn parameters(&self) -> Vec<(&'static str, String)> {
-        let has_parts = self.scene.parameters.profile.is_some();
+        let Parameters { profile, further_ties, .. } = &self.scene.parameters;
+        let (has_parts, has_ties) = (profile.is_some(), !further_ties.is_empty());
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
         let names = names.filter(|name| !(has_parts && OF_RECTANGLE.contains(name)));
+        let names = names.filter(|name| !(has_ties && name.starts_with("tie_")));
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
     }
 
@@ -179,9 +181,9 @@ impl Wall {
     }
 
     /// Returns name, symbol, value and unit of the numbers that follow from the parameters.
-    fn facts(&self) -> Vec<(&'static str, &'static str, f64, &'static str)> {
+    fn facts(&self) -> Vec<(String, &'static str, f64, &'static str)> {
         let facts = self.equation.facts().into_iter();
-        facts.map(|fact| (fact.name, fact.symbol, fact.value, fact.unit)).collect()
+        facts.map(|fact| (fact.name.into_owned(), fact.symbol, fact.value, fact.unit)).collect()
     }
 
     /// Returns the solver in words, u and F at the corners of the restoring force, what is unusual about the
@@ -261,15 +263,24 @@ impl<'a> From<&'a Wall> for Subject<'a> {
     }
 }
 
-/// Makes the wall of a scene one of parts, if they are given as lines of `[geometry]`. They state what a
+/// Gives the wall of a scene the parts and the ties of `tables`, those that are given. Parts state what a
 /// rectangle has.
-fn set_body(scene: &mut Scene, assumed: &mut Vec<&'static str>, body: Option<&str>) -> PyResult<()> {
-    let Some(body) = body else { return Ok(()) };
-    assumed.retain(|name| !OF_RECTANGLE.contains(name));
-    let text = format!("[geometry]\n{body}");
-    let given = Scene::parse("a wall of parts", &text, Path::new(".")).map_err(of_scene)?.parameters;
-    let Parameters { height, thickness, width, density, profile, .. } = given;
-    scene.parameters = Parameters { height, thickness, width, density, profile, ..scene.parameters.clone() };
+fn set_tables(scene: &mut Scene, assumed: &mut Vec<&'static str>, tables: Option<&str>) -> PyResult<()> {
+    let Some(tables) = tables else { return Ok(()) };
+    let file = TomlFile::new("the tables of a wall", tables).map_err(|error| of_scene(error.into()))?;
+    let given = Scene::of(&file, Path::new(".")).map_err(of_scene)?.parameters;
+    let own = &mut scene.parameters;
+    if file.get(&["geometry"]).is_some() {
+        assumed.retain(|name| !OF_RECTANGLE.contains(name));
+        let Parameters { height, thickness, width, density, ref profile, .. } = given;
+        let profile = profile.clone();
+        *own = Parameters { height, thickness, width, density, profile, ..own.clone() };
+    }
+    let mut ties = given.ties();
+    if let (true, Some(first)) = (file.get(&["tie"]).is_some(), ties.next()) {
+        *own = Parameters { further_ties: ties.collect(), ..own.tied_by(first) };
+        own.apply_bars().map_err(refused)?;
+    }
     Ok(())
 }
 

@@ -292,7 +292,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (solver, run) = (self.solvers[lane], &self.runs[lane]);
         let wall = solver.motion.wall();
         let is_prepared = !solver.table.steppings.contains(&Stepping::General);
-        if !is_prepared || wall.tie().is_some() {
+        if !is_prepared || !wall.ties().is_empty() {
             return false;
         }
         let push = self.records[lane].rest(self.sample(lane)) * self.rows.factor[lane].abs() * solver.step;

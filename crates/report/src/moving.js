@@ -1,12 +1,12 @@
 const degrees = 180 / Math.PI;
 const within = sine => Math.asin(Math.max(-1, Math.min(1, sine)));
 // Turns the bodies of a wall to the displacement u, with its top displaced by `drift` from its foot, and
-// returns where its tie is. A strip's hinge opens on the other face: that edge of the lower body, a corner of
-// a rectangle, carries the upper one. The wall says its height, thickness, hinge, whether rotations are full,
-// its tie and, unless it is a rectangle, its shape: toes, edges of the hinge, the height of u, and of one
-// body the arms of the centroid from its toes.
+// returns the function of the height that says where ties hold it. A strip's hinge opens on the other face:
+// that edge of the lower body, a corner of a rectangle, carries the upper one. The wall says its height,
+// thickness, hinge, whether rotations are full, and, unless it is a rectangle, its shape: toes, edges of the
+// hinge, the height of u, and of one body the arms of the centroid from its toes.
 function turnWall(wall, [lower, upper], u, drift = 0) {
-  const { height: h, thickness: b, hinge: h1, full, tie, shape } = wall, side = u < 0 ? 1 : 0;
+  const { height: h, thickness: b, hinge: h1, full, shape } = wall, side = u < 0 ? 1 : 0;
   const toe = (shape?.toes ?? [b / 2, -b / 2])[side];
   // The angle of a body whose point at the height `arm` is displaced by u; it lies flat at u = arm. With full
   // rotations, s is the horizontal distance from the toe: of a strip's hinge (u - b), of the centroid of a
@@ -19,13 +19,13 @@ function turnWall(wall, [lower, upper], u, drift = 0) {
   };
   const turn = h1 === null ? angle(u, shape?.centroid ?? h / 2) : angle(u + drift * h1 / h, h1);
   lower.setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
-  if (h1 === null) { return toe - toe * Math.cos(turn) + Math.sin(turn) * (tie?.y ?? 0); }
+  if (h1 === null) { return height => toe - toe * Math.cos(turn) + Math.sin(turn) * height; }
   const h2 = h - h1, back = angle(u - drift * h2 / h, h2), edge = shape?.edges[side] ?? -toe;
   const x = toe + Math.cos(turn) * (edge - toe) + Math.sin(turn) * h1;
   const y = Math.sin(turn) * (toe - edge) + Math.cos(turn) * h1;
   upper.setAttribute("transform",
     `translate(${x - edge} ${y - h1}) rotate(${back * degrees} ${edge} ${h1})`);
-  return 0;
+  return () => 0;
 }
 function place(element, x, y) {
   element.style.left = 100 * x + "%";
@@ -57,14 +57,17 @@ function timeUnder(event, plot) {
 }
 // ---- ties, as run::page::tie describes them
 const tieStates = ["slack", "pulls", "yields", "broken"];
-const ofSides = (tie, text) => tie.sides.map(text).join(" / ");
-const statesOf = (tie, frame) => ofSides(tie, side => tieStates[side.state[frame]]);
-const longerBy = (tie, frame) => ofSides(tie, side => side.p[frame].toFixed(1));
-// Draws the ties of a frame to the wall at x, with displacements enlarged by `factor`: sagging while slack,
-// hanging down once broken. A parabola over the span l that is longer by d sags by the root of 3/8 l d.
-function drawTies({ tie, thickness }, frame, x, factor) {
+const ofSides = (ties, text) => ties.flatMap(tie => tie.sides.map(text)).join(" / ");
+const statesOf = (ties, frame) => ofSides(ties, side => tieStates[side.state[frame]]);
+const longerBy = (ties, frame) => ofSides(ties, side => side.p[frame].toFixed(1));
+const forcesOf = (ties, frame) => ties.map(tie => tie.force[frame].toFixed(1)).join(" / ");
+// Draws the ties of a frame to the wall, which `place` says where to find at a height, with displacements
+// enlarged by `factor`: sagging while slack, hanging down once broken. A parabola over the span l that is
+// longer by d sags by the root of 3/8 l d.
+function drawTies({ ties, thickness }, frame, place, factor) {
+  const sides = ties.flatMap(tie => tie.sides.map(side => ({ y: tie.y, ...side })));
   document.querySelectorAll(".tie").forEach((line, index) => {
-    const { state, free } = tie.sides[index], y = tie.y, edge = Number(line.dataset.edge);
+    const { y, state, free } = sides[index], x = place(y), edge = Number(line.dataset.edge);
     const middle = (edge + x) / 2, span = Math.abs(x - edge);
     const face = x + Math.sign(edge) * 0.55 * thickness;
     const sag = Math.sqrt(0.375 * span * free[frame] * factor);

@@ -57,7 +57,7 @@ pub fn overturned(fate: Fate, digits: usize) -> String {
 
 /// Describes where demands end; `None` for a wall that did not overturn.
 pub fn until(response: &Response) -> Option<&'static str> {
-    let is_tied = response.demands.tie.is_some();
+    let is_tied = !response.demands.ties.is_empty();
     let until = if is_tied { "up to overturning; that on the tie beyond" } else { "up to overturning" };
     response.summary.overturned.then_some(until)
 }
@@ -78,14 +78,14 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     if has_top {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
     }
-    if let Some(TieDemands { force, strength, yielding }) = &demands.tie {
-        let has_yielded =
-            |Yielding { elongation, .. }: &Yielding| elongation.positive + elongation.negative > 0.0;
-        let reaches = if yielding.as_ref().is_some_and(has_yielded) { "yields" } else { "strength reached" };
-        let reached = strength.map_or(String::new(), |at| format!(", {reaches} at {:.4} s", at.time));
-        let peak = figure(1e-3 * force.value);
-        lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));
-        lines.extend(yielding.map(|yielding| ("tie stretched".to_owned(), stretched(&yielding))));
+    for (number, tie) in demands.ties.iter().enumerate() {
+        let numbered = |what: &str| format!("tie {} {what}", number + 1);
+        let names = if demands.ties.len() > 1 {
+            ["force", "longer"].map(numbered)
+        } else {
+            ["tie force", "tie stretched"].map(str::to_owned)
+        };
+        lines.extend(names.into_iter().zip(of_tie(tie)));
     }
     let crossing = |Crossing { fraction, first }: &Crossing| match first {
         Some(Instant { time, .. }) => format!("{fraction} u_ins at {time:.4} s"),
@@ -101,8 +101,19 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     lines
 }
 
-/// The plastic elongations of ties and when they broke, of the sides where they yielded.
-fn stretched(Yielding { elongation, breaks }: &Yielding) -> String {
+/// The largest force of a tie with the time at which it reached its strength, and how far it has yielded.
+fn of_tie(tie: &TieDemands) -> impl Iterator<Item = String> {
+    let TieDemands { force, strength, yielding, .. } = tie;
+    let has_yielded = |Yielding { elongation, .. }: &Yielding| elongation.most() > 0.0;
+    let reaches = if yielding.as_ref().is_some_and(has_yielded) { "yields" } else { "strength reached" };
+    let reached = strength.map_or(String::new(), |at| format!(", {reaches} at {:.4} s", at.time));
+    let peak = figure(1e-3 * force.value);
+    let force = format!("{peak} at {:.3} s [kN]{reached}", force.time);
+    std::iter::once(force).chain(yielding.as_ref().map(stretched))
+}
+
+/// The plastic elongations of a tie and when it broke, of the sides where it yielded.
+fn stretched(&Yielding { elongation, breaks }: &Yielding) -> String {
     let sides = [("u > 0", elongation.positive, breaks[0]), ("u < 0", elongation.negative, breaks[1])];
     let side = |(name, elongation, broke): (&str, f64, Option<f64>)| {
         let length = (elongation > 0.0).then(|| format!("{} mm", figure(1000.0 * elongation)));

@@ -81,7 +81,8 @@ pub fn force_path<'a>(
         wall.backbone().iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
     let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
     let [lowest, highest] = [of(f64::min), of(f64::max)];
-    let breaks = wall.tie().and_then(Tie::fracture_displacement).map(|breaks| breaks / u_ins.positive);
+    let breaks = wall.ties().iter().filter_map(Tie::fracture_displacement).reduce(f64::max);
+    let breaks = breaks.map(|breaks| breaks / u_ins.positive);
     let reach = 1.05 * highest.max(-lowest).max(breaks.unwrap_or(1.0).min(1.0));
     let across = |range| within(&backbone, [range, [f64::NEG_INFINITY, f64::INFINITY]]).concat();
     let law = across([-reach, reach]);

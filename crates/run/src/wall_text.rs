@@ -1,7 +1,7 @@
 //! A wall as tables of a study file: what a study's folder keeps of it, and what another process gets.
 
 use files::{FileError, TomlFile};
-use rocking_wall::scene::{Document, Scene, apply_group, read_floors, to_toml};
+use rocking_wall::scene::{Document, Scene, apply_group, apply_ties, read_floors, to_toml};
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
 use crate::named_wall::NamedWall;
@@ -46,6 +46,7 @@ pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, FileError> {
     for (group, entries) in wall.groups() {
         apply_group(&mut parameters, group, entries, file)?;
     }
+    apply_ties(&mut parameters, &wall.tie, file)?;
     let floors = read_floors(&wall.storeys, wall.supports.as_ref(), file.place())?;
     Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
-    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parameters,
-    read_floors,
+    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables, apply_group,
+    apply_ties, parameters, read_floors,
 };
 use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
 use serde::Deserialize;
@@ -99,9 +99,9 @@ tables! {
         #[serde(default)]
         #[key(properties = without_model("impact"))]
         impact: Group,
-        /// Tie of a parapet.
+        /// Tie of a wall of one body, or a list of several.
         #[serde(default)]
-        tie: Group,
+        tie: TieTables,
         /// Solver and tolerance.
         #[serde(default)]
         solver: Group,
@@ -175,13 +175,14 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
         (force_law, &spec.force_law),
         (damping, &spec.damping),
         (impact, &spec.impact),
-        (tie, &spec.tie),
         (solver, &spec.solver),
     ];
+    let ties = spec.tie.iter().map(|group| (tie, group));
+    let with_ties = || groups.into_iter().chain(ties.clone());
     let given = [("scene", &spec.scene), ("table", &spec.table)];
     if let Some((kind, path)) = given.into_iter().find_map(|(kind, path)| Some((kind, path.as_ref()?))) {
         let is_other = kind == "scene" && spec.table.is_some();
-        let own = groups.iter().find(|(_, group)| !group.is_empty()).map(|(name, _)| *name);
+        let own = with_ties().find(|(_, group)| !group.is_empty()).map(|(name, _)| name);
         if let Some(name) = is_other.then_some("table").or(own) {
             let message =
                 format!("a wall is either a {kind} or has its own tables; leave out {kind} or {name}");
@@ -204,11 +205,13 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
     for (name, group) in groups {
         apply_group(&mut parameters, name, group, file)?;
     }
-    let bar =
-        spec.tie.iter().find(|(key, _)| key.get_ref() == "bar").and_then(|(_, bar)| bar.get_ref().as_table());
+    apply_ties(&mut parameters, &spec.tie, file)?;
+    let first = spec.tie.first();
+    let bar = first.and_then(|tie| tie.iter().find(|(key, _)| key.get_ref() == "bar"));
+    let bar = bar.and_then(|(_, bar)| bar.get_ref().as_table());
     let is_stated = |group: &str, name: &str| {
-        let keys = groups.iter().find(|(own, _)| *own == group).map(|(_, keys)| *keys);
-        keys.is_some_and(|keys| keys.keys().any(|key| key.get_ref() == name))
+        let mut stated = with_ties().filter(|(own, _)| *own == group).flat_map(|(_, keys)| keys.keys());
+        stated.any(|key| key.get_ref() == name)
             || group == "bar" && bar.is_some_and(|bar| bar.contains_key(name))
     };
     let source = WallSource::Inline(Box::new(parameters), stated(is_stated));

@@ -10,7 +10,7 @@ use super::super::event::tests::Sway;
 use super::super::exact::ClosedForm;
 use super::*;
 use crate::variables::{Mechanism, TieSide};
-use crate::wall::Parameters;
+use crate::wall::{Parameters, Tie, Wall};
 
 /// ω of the motion \[1/s\].
 const RATE: f64 = 20.0;
@@ -30,7 +30,7 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     let couple = wall.branches()[branch].couple;
     let reactions = wall.body().reactions(support, acceleration, couple.at(displacement));
     let from = START[0] + START[1];
-    let tie_force = wall.tie().map_or(0.0, |tie| tie.force(displacement));
+    let tie_force = |tie: &Tie| tie.force(displacement);
     let motion = [displacement, velocity, acceleration];
     let mut demands = Demands::new(wall, from, motion, reactions, tie_force, &[]);
     let segment = Segment { duration: START[1] + piece.horizon(), from: support, to: support };
@@ -38,7 +38,7 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     let followed = Followed { piece, branch, from: START[1], length: piece.horizon(), displacement };
     let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time: START[0] };
     watch.piece(&followed).unwrap();
-    watch.tie(&followed).unwrap();
+    watch.ties(&followed).unwrap();
     (demands, piece.evaluations())
 }
 
@@ -48,7 +48,7 @@ fn a_rest_has_its_extremes_at_its_ends() {
     let wall = Wall::new(&Parameters { u_start: 0.0, ..Parameters::default() }).unwrap();
     let (from, to) = (Support::rigid(-1.0), Support::rigid(3.0));
     let at = |ground: f64| wall.body().reactions(Support::rigid(ground), 0.0, 0.0);
-    let mut demands = Demands::new(&wall, START[0], [0.0; 3], at(1.0), 0.0, &[]);
+    let mut demands = Demands::new(&wall, START[0], [0.0; 3], at(1.0), |_| 0.0, &[]);
     let segment = Segment { duration: 0.4, from, to };
     Watch { demands: &mut demands, wall: &wall, segment: &segment, time: START[0] }.rest(0.1, 0.4);
     let ends = [(at(0.0).bottom, START[0] + 0.1), (at(3.0).bottom, START[0] + 0.4)];
@@ -113,7 +113,7 @@ fn the_force_of_a_tie_is_accurate_relative_to_its_terms() {
             ..Parameters::default()
         };
         let wall = Wall::new(&tied).unwrap();
-        let tie = wall.tie().unwrap();
+        let tie = wall.ties().first().unwrap();
         let reach = tie.strength_displacement().unwrap();
         let start = START[0] + START[1];
         for (share, earlier) in [(0.9, 0.05), (1.1, 0.05), (5.0, 0.05), (1.1, 0.08)] {
@@ -121,7 +121,7 @@ fn the_force_of_a_tie_is_accurate_relative_to_its_terms() {
             let piece = sway(amplitude, turned + earlier, 0.04);
             let (found, count) = watched(&wall, &piece, Support::default());
             evaluations.push(count);
-            let TieDemands { force, strength, .. } = found.tie.unwrap();
+            let TieDemands { force, strength, .. } = found.ties[0];
             let turn = f64::max(0.5 * std::f64::consts::PI / RATE - earlier, 0.0);
             let largest = amplitude * libm::sin(RATE * (turn + earlier));
             let size = tie.stiffness * tie.lever * largest;
@@ -170,7 +170,7 @@ fn a_wall_that_hovers_is_searched_in_few_intervals() {
             0.0,
             [start.displacement, start.velocity, start.acceleration],
             wall.body().reactions(Support::default(), start.acceleration, 0.0),
-            0.0,
+            |_| 0.0,
             &[],
         );
         let still = Support::default();

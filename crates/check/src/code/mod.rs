@@ -135,6 +135,9 @@ impl<'a> Subject<'a> {
     /// # Errors
     /// [`CheckError::Wall`] of a wall that is no rectangle, which the codes here do not check.
     pub(crate) fn check_shape(&self) -> Result<(), CheckError> {
+        if !self.parameters.further_ties.is_empty() {
+            return Err(CheckError::wall("a check counts one tie: leave the others out"));
+        }
         if self.parameters.is_rectangle() {
             return Ok(());
         }

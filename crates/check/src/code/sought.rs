@@ -67,7 +67,7 @@ impl Sought {
                 if let Some(bar) = &mut parameters.bar {
                     bar.diameter = value;
                 }
-                parameters.apply_bar()?;
+                parameters.apply_bars()?;
             }
         }
         Ok(parameters)

@@ -108,7 +108,7 @@ fn energy(simulation: &Simulation, tie_force: f64) -> f64 {
         if from < to { 0.5 * (branch.own.at(from) + branch.own.at(to)) * (to - from) } else { 0.0 }
     };
     let own = 0.5 * state.velocity.powi(2) + wall.branches().iter().map(part).sum::<f64>();
-    let in_tie = wall.tie().map_or(0.0, |tie| {
+    let in_tie = wall.ties().first().map_or(0.0, |tie| {
         let (strength, stored) =
             (tie.strength.unwrap_or_default(), |force: f64| force * force / tie.stiffness / 2.0);
         let lost = if tie.is_broken(1.0, &state.tie) { stored(strength) } else { 0.0 };

@@ -248,7 +248,7 @@ function show(answer) {
 }
 // Shows a frame: the wall turns as the history says, and cursors follow.
 function pose(frame) {
-  const { frames, summary, factor } = shown, wall = { ...shown.wall, tie: frames.tie };
+  const { frames, summary, factor } = shown, wall = { ...shown.wall, ties: frames.ties };
   const u = frames.u[frame], t = frames.t[frame];
   drawTies(wall, frame, turnWall(wall, [at("lower"), at("upper")], factor * u), factor);
   const ratio = u / wall.u_ins[u < 0 ? 1 : 0];
@@ -257,9 +257,9 @@ function pose(frame) {
   const fallen = summary.falls !== null && t >= summary.falls;
   at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
     : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
-  at("tie_now").textContent = frames.tie === null ? "" : `tie: ${statesOf(frames.tie, frame)}, ` +
-    `${frames.tie.force[frame].toFixed(1)} kN` +
-    (frames.tie.yields ? `, longer by ${longerBy(frames.tie, frame)} mm` : "");
+  at("tie_now").textContent = frames.ties.length === 0 ? "" : `tie: ${statesOf(frames.ties, frame)}, ` +
+    `${forcesOf(frames.ties, frame)} kN` +
+    (frames.ties.some(tie => tie.yields) ? `, longer by ${longerBy(frames.ties, frame)} mm` : "");
   moveCursors(t, [ratio, frames.f[frame]]);
 }
 function showCheck(check) {

@@ -105,6 +105,7 @@ class Parameters(TypedDict, total=False):
     - part: Parts of the masonry, in place of one rectangle.
     - opening: Openings and hollows in the parts.
     - load: Loads on the parts or the body.
+    - tie: Several ties, in place of one by tie_height, tie_stiffness, ….
     - bar_anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the
       bar [N], above 0.
     - bar_diameter: Diameter of the bar [m], above 0.
@@ -168,6 +169,7 @@ class Parameters(TypedDict, total=False):
     part: Sequence[Part]
     opening: Sequence[Opening]
     load: Sequence[Load]
+    tie: Sequence[Tie]
     bar_anchor_capacity: float
     bar_diameter: float
     bar_length: float
@@ -232,3 +234,51 @@ class Load(TypedDict, total=False):
     inside: Required[float]
     moving_mass: float
     thrust: float
+
+
+class Tie(TypedDict, total=False):
+    """A tie.
+
+    - bar: The tie as it is built, in place of tie_stiffness, tie_strength and tie_ultimate.
+    - tie_height: Height of the tie above the base, at most height [m], at least 0, at most 1000; where
+      tie_stiffness is not 0; default 0.0.
+    - tie_side: Side on which the tie holds the wall; where tie_stiffness is not 0; default "positive".
+    - tie_slack: Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; where
+      tie_stiffness is not 0; default 0.0.
+    - tie_stiffness: Stiffness of the tie between a wall of one body and its support; 0 for none [N/m], at
+      least 0, at most 1e+15; default 0.0.
+    - tie_strength: Force at which the tie yields, or a limit state of an elastic one; 0 where none is given
+      [N], at least 0, at most 1e+12; where tie_stiffness is not 0; default 0.0.
+    - tie_ultimate: Plastic elongation at which the tie breaks; it yields at tie_strength; -1: elastic [m], at
+      least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0.
+    """
+
+    bar: Bar
+    tie_height: float
+    tie_side: Literal["positive", "negative", "both"]
+    tie_slack: float
+    tie_stiffness: float
+    tie_strength: float
+    tie_ultimate: float
+
+
+class Bar(TypedDict, total=False):
+    """The tie as it is built, in place of tie_stiffness, tie_strength and tie_ultimate.
+
+    - anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the bar
+      [N], above 0.
+    - diameter: Diameter of the bar [m], above 0.
+    - length: Free length between the anchors [m], above 0.
+    - spacing: Distance between bars along the wall; by default one bar holds its width [m], above 0.
+    - ultimate_strain: Strain at which the bar tears, above 0; where none is given, the tie stays elastic.
+    - yield_stress: Stress at which the bar yields [Pa], above 0.
+    - young_modulus: Young's modulus of the bar; 210e9 Pa by default [Pa], above 0.
+    """
+
+    anchor_capacity: float
+    diameter: Required[float]
+    length: Required[float]
+    spacing: float
+    ultimate_strain: float
+    yield_stress: Required[float]
+    young_modulus: float

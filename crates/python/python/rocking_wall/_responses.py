@@ -40,11 +40,24 @@ class Threshold(TypedDict):
     u: float | None
 
 
+class TieDemands(TypedDict):
+    """Demands on one of several ties."""
+
+    tie_height: float
+    tie_force: Instant
+    tie_strength: Instant | None
+    tie_elongation: NotRequired[float]
+    tie_elongation_negative: NotRequired[float]
+    tie_break_time: NotRequired[float | None]
+    tie_break_time_negative: NotRequired[float | None]
+
+
 class Demands(TypedDict):
     """Demands of a motion on a wall, up to overturning; in SI units.
 
     A wall with a tie has the peak of its force, and when that first reached the strength given. A tie that
-    yields has its plastic elongations on u > 0 and on u < 0, and the times at which it broke.
+    yields has its plastic elongations on u > 0 and on u < 0, and the times at which it broke. A wall with
+    several ties has these of each in `ties`.
     """
 
     u: Extremes
@@ -61,6 +74,7 @@ class Demands(TypedDict):
     tie_elongation_negative: NotRequired[float]
     tie_break_time: NotRequired[float | None]
     tie_break_time_negative: NotRequired[float | None]
+    ties: NotRequired[list[TieDemands]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,6 +135,8 @@ class Response:
     """Plastic elongation of the tie on u > 0 [m]; None without one that yields."""
     tie_elongation_negative: Array | None = None
     """Plastic elongation of the tie on u < 0 [m]; None without one that yields."""
+    tie_forces: tuple[Array, ...] = ()
+    """Force of each tie of a wall with several [N]; `tie_force` is their sum, elongations are the largest."""
 
     def __repr__(self) -> str:
         fate = f"overturned at {self.overturn_time:.4g} s" if self.overturned else "standing"
@@ -133,6 +149,7 @@ class Response:
     def history(self) -> Table:
         """The history as a table; `wall simulate --csv` writes its columns with units in their names."""
         columns = {field.name: getattr(self, field.name) for field in fields(self)}
+        columns |= {f"tie_{number}_force": force for number, force in enumerate(self.tie_forces, 1)}
         return Table({name: column for name, column in columns.items() if isinstance(column, np.ndarray)})
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -63,10 +63,13 @@ class Storey:
 
 
 def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None]:
-    """Returns the parameters without the tables of a body, and these as TOML."""
+    """Returns the parameters without the tables of a body and of ties, and these as TOML."""
     keys = [key for key in ("part", "opening", "load") if key in parameters]
     body: dict[str, Any] = {key: parameters.pop(key) for key in keys}
-    return parameters, toml_lines(body) if body else None
+    tables: dict[str, Any] = {"geometry": body} if body else {}
+    if "tie" in parameters:
+        tables["tie"] = parameters.pop("tie")
+    return parameters, toml_lines(tables) if tables else None
 
 
 class Wall(Given):
@@ -501,4 +504,10 @@ width and density, such as a gable of 2.4 m:
 >>> gable = Wall(part=[{{"height": 2.4, "thickness": 0.25, "width": [6.0, 0.0]}}])
 >>> round(gable.u_ins, 12)
 0.125
+
+`tie` is a list of dictionaries of ties at several heights:
+
+>>> wall = Wall(4, 0.4, tie=[{{"tie_height": y, "tie_stiffness": 1e6}} for y in (2.0, 4.0)])
+>>> len(wall.simulate().tie_forces)
+2
 """

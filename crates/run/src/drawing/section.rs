@@ -1,7 +1,7 @@
 //! The section of a wall, seen along the wall: the outside is on the right.
 
 use report::number;
-use rocking_wall::wall::{Load, Parameters, Part, Wall};
+use rocking_wall::wall::{Load, Parameters, Part, Tie, Wall};
 
 use super::canvas::{Anchor, Canvas, FORCE, HINGE, LINE, Label, OPENING, STONE, TIE};
 use super::shape::Shape;
@@ -44,7 +44,7 @@ pub(super) fn draw(canvas: &mut Canvas, shape: &Shape, wall: &Wall, parameters: 
     section.supports(wall);
     section.parts();
     section.openings();
-    section.ties(wall, parameters);
+    section.ties(wall);
     section.loads();
     section.centroids(parameters);
     section.hinges(wall);
@@ -129,9 +129,14 @@ impl Section<'_> {
         }
     }
 
-    fn ties(&mut self, wall: &Wall, parameters: &Parameters) {
-        let Some(tie) = wall.tie() else { return };
-        let z = parameters.tie_height;
+    fn ties(&mut self, wall: &Wall) {
+        for tie in wall.ties().iter() {
+            self.tie(tie);
+        }
+    }
+
+    fn tie(&mut self, tie: &Tie) {
+        let z = tie.height;
         let (outer, inner) = self.shape.faces(z);
         let y = self.y(z);
         for sign in [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)) {

@@ -44,7 +44,8 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
     // slider and histories end together
     let end = falls.map_or(end, |time| end.min(time + AFTER_FALL));
     let drawn = response.samples.partition_point(|sample| sample.time <= end);
-    let frames: Vec<_> = frames(drawn).into_iter().map(|i| &response.samples[i]).collect();
+    let chosen: Vec<usize> = frames(drawn).into_iter().collect();
+    let frames: Vec<_> = chosen.iter().map(|i| &response.samples[*i]).collect();
     let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
     let body = wall.body();
     let (u_ins, hinge) = (body.instability, body.hinge());
@@ -61,7 +62,7 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
         "height": body.height,
         "thickness": moving.base(),
         "shape": moving.data(),
-        "tie": tie::data(wall, response, &frames),
+        "ties": tie::data(wall, response, &chosen),
         "hinge": hinge,
         "full": wall.rotations().is_some(),
         "overturned": overturned,
@@ -186,7 +187,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
             format!(
                 "{}, {} m × {} m",
                 parameters.mechanism.name().replace('_', " "),
-                body.height,
+                number(body.height, 6),
                 number(bodies::Moving::new(wall, parameters).base(), 6)
             ),
         ),
@@ -197,8 +198,8 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
         ("impact", impact(parameters, wall.restitution().positive)),
     ];
-    let tie = tie::fact(wall, parameters.weaker_part()).map(|tie| ("tie", tie));
-    rows.iter().chain(&tie).map(|(name, value)| row(name, value)).collect()
+    let ties: Vec<_> = tie::facts(wall, parameters).into_iter().map(|tie| ("tie", tie)).collect();
+    rows.iter().chain(&ties).map(|(name, value)| row(name, value)).collect()
 }
 
 /// A number with its unit, of both sides where they differ.

@@ -96,7 +96,7 @@ fn a_tie_is_drawn_slack_pulling_yielding_and_broken() {
     let states = |html: &str| -> Vec<Vec<u64>> {
         let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
         let data: serde_json::Value = serde_json::from_str(data).unwrap();
-        let sides = data["tie"]["sides"].as_array().unwrap().iter();
+        let sides = data["ties"][0]["sides"].as_array().unwrap().iter();
         let numbers = |side: &serde_json::Value| side["state"].as_array().unwrap().clone();
         sides.map(|side| numbers(side).iter().map(|state| state.as_u64().unwrap()).collect()).collect()
     };

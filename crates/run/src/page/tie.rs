@@ -1,12 +1,12 @@
-//! The tie on the page of a run: slack, pulling, yielding, broken; its force and its elongation.
+//! The ties on the page of a run: slack, pulling, yielding, broken; their forces and elongations.
 
 use report::moving::{plot, rounded};
 use report::number;
-use report::palette::{AMBER, BLUE};
+use report::palette::{AMBER, BLUE, SERIES};
 use report::plot::Plot;
-use rocking_wall::response::{Response, Sample};
-use rocking_wall::solver::Yielding;
-use rocking_wall::wall::{Tie, TiePart, Wall};
+use rocking_wall::response::{Response, Sample, TieSample};
+use rocking_wall::solver::{TieDemands, Yielding};
+use rocking_wall::wall::{Parameters, Tie, TiePart, Wall};
 use serde_json::{Value, json};
 
 use crate::figure::histories;
@@ -28,22 +28,21 @@ fn sides(tie: &Tie) -> impl Iterator<Item = f64> + use<'_> {
     [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign))
 }
 
-/// What ties have undergone, if they yield at all.
-fn yielding(response: &Response) -> Option<Yielding> {
-    response.demands.tie?.yielding
-}
-
-fn broke(response: &Response, sign: f64) -> Option<f64> {
-    let [positive, negative] = yielding(response)?.breaks;
+fn broke(demands: &TieDemands, sign: f64) -> Option<f64> {
+    let [positive, negative] = demands.yielding?.breaks;
     if sign > 0.0 { positive } else { negative }
 }
 
-fn state(tie: &Tie, sample: &Sample, sign: f64, broke: Option<f64>) -> TieShown {
-    let outputs = &sample.outputs;
-    let yields = |strength: f64| outputs.tie_force >= (1.0 - ROUNDING) * strength;
-    if broke.is_some_and(|time| time <= sample.time) {
+/// Returns whether a tie of the run may yield.
+fn may_yield(response: &Response) -> bool {
+    response.demands.ties.iter().any(|tie| tie.yielding.is_some())
+}
+
+fn state(tie: &Tie, u: f64, of: &TieSample, sign: f64, is_broken: bool) -> TieShown {
+    let yields = |strength: f64| of.force >= (1.0 - ROUNDING) * strength;
+    if is_broken {
         TieShown::Broken
-    } else if outputs.displacement * sign <= 0.0 || outputs.tie_force <= 0.0 {
+    } else if u * sign <= 0.0 || of.force <= 0.0 {
         TieShown::Slack
     } else if tie.ultimate.and(tie.strength).is_some_and(yields) {
         TieShown::Yields
@@ -52,33 +51,38 @@ fn state(tie: &Tie, sample: &Sample, sign: f64, broke: Option<f64>) -> TieShown 
     }
 }
 
-/// Returns what the script draws: for each side that is held its state and its free length, for each frame
-/// the force \[kN\] and the elongations \[mm\]. Null without a tie.
-pub fn data(wall: &Wall, response: &Response, frames: &[&Sample]) -> Value {
-    let Some(tie) = wall.tie() else { return Value::Null };
-    let side = |sign: f64| {
-        let free = |sample: &&Sample| {
-            let stretched = sample.outputs.tie_elongation.of(sign);
-            (tie.slack + stretched - tie.lever * sign * sample.outputs.displacement).max(0.0)
+/// Returns what the script draws of each tie at the samples of these numbers: for each side that is held its
+/// state and its free length, for each frame the force \[kN\] and the elongations \[mm\].
+pub fn data(wall: &Wall, response: &Response, frames: &[usize]) -> Value {
+    let ties = wall.ties().iter().zip(&response.ties).zip(&response.demands.ties);
+    ties.map(|((tie, samples), demands)| {
+        let side = |sign: f64| {
+            let broke = broke(demands, sign);
+            let state = |&frame: &usize| {
+                let Sample { time, outputs, .. } = &response.samples[frame];
+                let is_broken = broke.is_some_and(|broke| broke <= *time);
+                state(tie, outputs.displacement, &samples[frame], sign, is_broken) as u8
+            };
+            let stretched = |&frame: &usize| samples[frame].elongation.of(sign);
+            let free = |frame: &usize| {
+                let u = response.samples[*frame].outputs.displacement;
+                (tie.slack + stretched(frame) - tie.lever * sign * u).max(0.0)
+            };
+            json!({
+                "sign": sign,
+                "state": frames.iter().map(state).collect::<Vec<_>>(),
+                "free": rounded(frames.iter().map(free)),
+                "p": rounded(frames.iter().map(|frame| 1000.0 * stretched(frame))),
+            })
         };
-        let broke = broke(response, sign);
         json!({
-            "sign": sign,
-            "state": frames.iter().map(|sample| state(tie, sample, sign, broke) as u8).collect::<Vec<_>>(),
-            "free": rounded(frames.iter().map(free)),
-            "p": rounded(frames.iter().map(|sample| 1000.0 * sample.outputs.tie_elongation.of(sign))),
+            "y": tie.height,
+            "force": rounded(frames.iter().map(|frame| samples[*frame].force / 1000.0)),
+            "yields": demands.yielding.is_some(),
+            "sides": sides(tie).map(side).collect::<Vec<_>>(),
         })
-    };
-    json!({
-        "y": height(wall, tie),
-        "force": rounded(frames.iter().map(|sample| sample.outputs.tie_force / 1000.0)),
-        "yields": yielding(response).is_some(),
-        "sides": sides(tie).map(side).collect::<Vec<_>>(),
     })
-}
-
-fn height(wall: &Wall, tie: &Tie) -> f64 {
-    tie.lever * wall.body().centroid_height
+    .collect()
 }
 
 /// Ties, on the side that they pull to; the script draws them from the edge of the view box, at `edge`.
@@ -89,12 +93,16 @@ pub(super) fn lines(wall: &Wall, edge: f64, stroke: f64) -> String {
             -sign * edge
         )
     };
-    wall.tie().map_or_else(String::new, |tie| sides(tie).map(line).collect())
+    wall.ties().iter().flat_map(sides).map(line).collect()
 }
 
-/// Describes a tie in the table of the page; `None` without one.
-pub(super) fn fact(wall: &Wall, weaker: Option<TiePart>) -> Option<String> {
-    let tie = wall.tie()?;
+/// Describes the ties of a wall in the table of the page.
+pub(super) fn facts(wall: &Wall, parameters: &Parameters) -> Vec<String> {
+    let given = parameters.ties().filter(|tie| tie.stiffness > 0.0);
+    wall.ties().iter().zip(given).map(|(tie, of)| fact(tie, of.weaker_part(parameters.width))).collect()
+}
+
+fn fact(tie: &Tie, weaker: Option<TiePart>) -> String {
     let part = match weaker {
         Some(TiePart::Bar) => "its bar ",
         Some(TiePart::Anchor) => "its anchor ",
@@ -109,16 +117,23 @@ pub(super) fn fact(wall: &Wall, weaker: Option<TiePart>) -> Option<String> {
     };
     let yields = tie.strength.zip(tie.ultimate).map_or(String::new(), yields);
     let stiffness = number(1e-6 * tie.stiffness, 4);
-    Some(format!("{stiffness} kN/mm at {} m{yields}", number(height(wall, tie), 6)))
+    format!("{stiffness} kN/mm at {} m{yields}", number(tie.height, 6))
 }
 
 /// Says what becomes of ties that yield; empty for others.
 pub fn said(response: &Response) -> String {
-    let Some(Yielding { elongation, breaks }) = yielding(response) else { return String::new() };
-    let largest = 1000.0 * elongation.positive.max(elongation.negative);
-    match breaks.into_iter().flatten().reduce(f64::min) {
+    let yielding = || response.demands.ties.iter().filter_map(|tie| tie.yielding);
+    if !may_yield(response) {
+        return String::new();
+    }
+    let longest = yielding().map(|Yielding { elongation, .. }| elongation.most()).fold(0.0, f64::max);
+    let which = if response.ties.len() > 1 { "One of its ties" } else { "Its tie" };
+    match yielding().flat_map(|of| of.breaks).flatten().reduce(f64::min) {
         Some(time) => format!(" A tie breaks at {time:.1} s."),
-        None if largest > 0.0 => format!(" Its tie yields and gets {} mm longer.", number(largest, 2)),
+        None if longest > 0.0 => {
+            format!(" {which} yields and gets {} mm longer.", number(1000.0 * longest, 2))
+        }
+        None if response.ties.len() > 1 => " None of its ties yields.".to_owned(),
         None => " Its tie does not yield.".to_owned(),
     }
 }
@@ -126,38 +141,69 @@ pub fn said(response: &Response) -> String {
 /// A plot over the time, with its name and its caption.
 pub type Named = (&'static str, String, Plot);
 
-/// Force and, of ties that may yield, plastic elongation over the time up to `end` \[s\].
+/// Forces and, of ties that may yield, plastic elongations over the time up to `end` \[s\].
 pub fn plots(wall: &Wall, response: &Response, end: f64) -> Vec<Named> {
-    let Some(tie) = wall.tie() else { return Vec::new() };
-    let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
-        let shown = response.samples.iter().take_while(|sample| sample.time <= end);
-        shown.map(|sample| (sample.time, pick(sample))).collect()
+    if response.ties.is_empty() {
+        return Vec::new();
+    }
+    let shown = response.samples.partition_point(|sample| sample.time <= end);
+    let column = |samples: &[TieSample], pick: &dyn Fn(&TieSample) -> f64| -> Vec<(f64, f64)> {
+        let both = response.samples.iter().zip(samples).take(shown);
+        both.map(|(sample, of)| (sample.time, pick(of))).collect()
     };
-    let force = column(&|sample| sample.outputs.tie_force / 1000.0);
-    let force = histories(&[(&force, BLUE)], [0.0, end], "N (kN)", &[]);
-    let mut plots = vec![("tie_force", "Force of the tie".to_owned(), force)];
-    if yielding(response).is_some() {
-        let elongations: Vec<_> = sides(tie)
-            .map(|sign| (column(&|sample| 1000.0 * sample.outputs.tie_elongation.of(sign)), sign))
+    let color = |index: usize| SERIES[index % SERIES.len()].0;
+    let drawn = |columns: &[Vec<(f64, f64)>], color: &dyn Fn(usize) -> &'static str, label: &str| {
+        let lines: Vec<_> = columns.iter().enumerate().map(|(at, points)| (&points[..], color(at))).collect();
+        histories(&lines, [0.0, end], label, &[])
+    };
+    let forces: Vec<_> =
+        response.ties.iter().map(|samples| column(samples, &|of| of.force / 1000.0)).collect();
+    let heights: Vec<_> = wall.ties().iter().map(|tie| format!("{} m", number(tie.height, 6))).collect();
+    let are_several = response.ties.len() > 1;
+    let of = if are_several {
+        format!("Forces of the ties at {}", heights.join(", "))
+    } else {
+        "Force of the tie".to_owned()
+    };
+    let mut plots = vec![("tie_force", of, drawn(&forces, &color, "N (kN)"))];
+    if !may_yield(response) {
+        return plots;
+    }
+    if are_several {
+        let longest: Vec<_> = response
+            .ties
+            .iter()
+            .map(|samples| column(samples, &|of| 1000.0 * of.elongation.most()))
             .collect();
-        let color = |sign: f64| if sign > 0.0 { BLUE } else { AMBER };
-        let lines: Vec<_> = elongations.iter().map(|(points, sign)| (&points[..], color(*sign))).collect();
-        let which = if lines.len() > 1 { ": u > 0 (blue), u < 0 (amber)" } else { "" };
-        let plot = histories(&lines, [0.0, end], "p (mm)", &[]);
-        plots.push(("tie_elongation", format!("Plastic elongation of the tie{which}"), plot));
+        let caption = "Plastic elongation of each tie, the larger side".to_owned();
+        plots.push(("tie_elongation", caption, drawn(&longest, &color, "p (mm)")));
+    } else {
+        let signs: Vec<_> = wall.ties().iter().flat_map(sides).collect();
+        let of_sides: Vec<_> = signs
+            .iter()
+            .map(|sign| column(&response.ties[0], &|of| 1000.0 * of.elongation.of(*sign)))
+            .collect();
+        let which = if signs.len() > 1 { ": u > 0 (blue), u < 0 (amber)" } else { "" };
+        let color = |index: usize| if signs[index] > 0.0 { BLUE } else { AMBER };
+        let caption = format!("Plastic elongation of the tie{which}");
+        plots.push(("tie_elongation", caption, drawn(&of_sides, &color, "p (mm)")));
     }
     plots
 }
 
-/// Force and elongation over the time, with marks where a tie first yields and where it breaks.
+/// Forces and elongations over the time, with marks where ties first yield and where they break.
 pub(super) fn figures(wall: &Wall, response: &Response, end: f64) -> String {
-    let Some(tie) = wall.tie() else { return String::new() };
-    let yields = yielding(response).is_some();
-    let first = response.demands.tie.and_then(|tie| tie.strength).map(|first| first.time);
-    let breaks = sides(tie).filter_map(|sign| broke(response, sign)).map(|time| (time, "breaks"));
-    // a brittle tie breaks where it would yield
-    let first = first.filter(|_| yields && tie.ultimate != Some(0.0)).map(|time| (time, "yields"));
-    let marks: Vec<_> = first.into_iter().chain(breaks).filter(|(time, _)| *time <= end).collect();
+    let ties = wall.ties().iter().zip(&response.demands.ties);
+    let marks: Vec<_> = ties
+        .flat_map(|(tie, demands)| {
+            let breaks = sides(tie).filter_map(|sign| broke(demands, sign)).map(|time| (time, "breaks"));
+            // a brittle tie breaks where it would yield
+            let yields = tie.ultimate.is_some_and(|ultimate| ultimate > 0.0);
+            let first = demands.strength.filter(|_| yields).map(|first| (first.time, "yields"));
+            first.into_iter().chain(breaks)
+        })
+        .filter(|(time, _)| *time <= end)
+        .collect();
     let of = |id| if id == "tie_force" { &marks[..] } else { &[] };
     plots(wall, response, end)
         .iter()

@@ -6,10 +6,12 @@ const readout = [["t (s)", frame => data.t[frame].toFixed(2)],
   [strip ? "rotation (%)" : "top (mm)", frame => data.second[frame].toFixed(1)],
   ["u / u_ins", frame => ratio(frame).toFixed(3)],
   [`${strip ? "a, bottom" : "a, base"} (m/s²)`, frame => data.a[frame].toFixed(2)]];
-if (data.tie !== null) {
-  readout.push(["tie (kN)", frame => data.tie.force[frame].toFixed(1)]);
-  readout.push(["tie", frame => statesOf(data.tie, frame)]);
-  if (data.tie.yields) { readout.push(["tie longer by (mm)", frame => longerBy(data.tie, frame)]); }
+if (data.ties.length > 0) {
+  readout.push(["tie (kN)", frame => forcesOf(data.ties, frame)]);
+  readout.push(["tie", frame => statesOf(data.ties, frame)]);
+  if (data.ties.some(tie => tie.yields)) {
+    readout.push(["tie longer by (mm)", frame => longerBy(data.ties, frame)]);
+  }
 }
 function show(frame) {
   const t = data.t[frame];

@@ -54,9 +54,9 @@ impl Run {
 /// Demand of a run on ties that may yield, of the two sides the larger one, up to overturning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TieDemand {
-    /// Largest force \[N\].
+    /// Largest force of a tie \[N\].
     pub force: f64,
-    /// Plastic elongation at the end \[m\]; above 0 where a tie has yielded.
+    /// Largest plastic elongation of a tie at the end \[m\]; above 0 where one has yielded.
     pub elongation: f64,
     /// A tie has broken.
     pub broken: bool,
@@ -66,13 +66,15 @@ impl TieDemand {
     /// Returns the demand of a run from upright, of its state at the end. All of it follows from the peaks: N
     /// and p grow with the largest |u|.
     pub(super) fn of(wall: &Wall, state: &State) -> Option<Self> {
-        let tie = wall.tie().filter(|tie| tie.ultimate.is_some())?;
-        let (strength, yields, breaks) =
-            (tie.strength?, tie.strength_displacement()?, tie.fracture_displacement()?);
+        let yielding = || wall.ties().iter().filter(|tie| tie.ultimate.is_some());
+        yielding().next()?;
         let mut demand = Self { force: 0.0, elongation: 0.0, broken: false };
-        for sign in [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)) {
+        for (tie, sign) in yielding().flat_map(|tie| [(tie, 1.0), (tie, -1.0)]) {
+            let limits = [tie.strength_displacement(), tie.fracture_displacement()];
+            let ([Some(yields), Some(breaks)], true) = (limits, tie.holds(sign)) else { continue };
             let reach = state.peaks.of(sign).min(wall.body().instability.of(sign));
-            let force = if reach < yields { tie.force(sign * reach) } else { strength };
+            let force =
+                if reach < yields { tie.force(sign * reach) } else { tie.strength.unwrap_or_default() };
             demand.force = demand.force.max(force);
             demand.elongation = demand.elongation.max(tie.elongation(reach));
             demand.broken |= reach >= breaks;

@@ -218,7 +218,7 @@ impl Study {
 
     /// Returns whether a wall has ties that may yield.
     pub fn has_yielding_tie(&self, wall: usize) -> bool {
-        self.wall(wall, 0).tie().is_some_and(|tie| tie.ultimate.is_some())
+        self.wall(wall, 0).ties().iter().any(|tie| tie.ultimate.is_some())
     }
 
     /// Makes the motion of a wall and model. It is not kept: the motions of all walls would take more memory

@@ -200,7 +200,7 @@ impl TieStudy {
         let values = values(&scene, varied, given)?;
         let walls = values.iter().map(|&value| Ok(Wall::new(&with(&scene, varied, value)?.parameters)?));
         let walls = walls.collect::<Result<Vec<_>, TieError>>()?;
-        let yields = walls.iter().filter_map(Wall::tie).any(|tie| tie.ultimate.is_some());
+        let yields = walls.iter().flat_map(|wall| wall.ties().iter()).any(|tie| tie.ultimate.is_some());
         let shaken = |record: GroundMotion| {
             let mut shaken = scene.clone();
             shaken.shake(Excitation::new(record, None), DEFAULT_TAIL, Vec::new());
@@ -213,7 +213,7 @@ impl TieStudy {
             }
             scenes.push(scene);
         }
-        let tied = walls.iter().find(|wall| wall.tie().is_some()).unwrap_or(&walls[0]);
+        let tied = walls.iter().find(|wall| !wall.ties().is_empty()).unwrap_or(&walls[0]);
         let polarities = Polarities::of(both_polarities, &scenes[0].parameters, tied);
         if polarities == Polarities::Both {
             for index in 0..scenes.len() {
@@ -285,7 +285,7 @@ fn values(scene: &Scene, varied: &Varied, given: &[f64]) -> Result<Vec<f64>, Tie
     let mut values = given.to_vec();
     if values.is_empty() && *varied == STIFFNESS {
         let wall = Wall::new(&Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() })?;
-        let lever = wall.tie().map_or(1.0, |tie| tie.lever);
+        let lever = wall.ties().first().map_or(1.0, |tie| tie.lever);
         let unit = wall.body().geometric_stiffness / (lever * lever);
         values.push(0.0);
         values.extend((-8..=12).map(|exponent| unit * 10.0_f64.powf(f64::from(exponent) / 4.0)));
@@ -305,7 +305,7 @@ fn outcome(scene: &Scene) -> Result<Outcome, TieError> {
         TieSide::Both => 0.0,
     };
     let Response { summary, demands, residual, .. } = Response::of(scene)?;
-    let tie = demands.tie;
+    let tie = demands.ties.first();
     let Yielding { elongation, breaks } = tie.and_then(|tie| tie.yielding).unwrap_or_default();
     Ok(Outcome {
         force: tie.map_or(0.0, |TieDemands { force, .. }| force.value),

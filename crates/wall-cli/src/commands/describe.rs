@@ -76,7 +76,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let words = words.into_iter().chain(weaker.map(|words| ("tie", words.to_owned())));
     if arguments.json {
         let words = words.map(|(name, value)| (name.to_owned(), value.into()));
-        let facts = facts.iter().map(|fact| (fact.name.to_owned(), fact.value.into()));
+        let facts = facts.iter().map(|fact| (fact.name.to_string(), fact.value.into()));
         let mut object: serde_json::Map<_, _> = words.chain(facts).collect();
         let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
         object.insert("backbone".into(), serde_json::to_value(backbone)?);

@@ -181,7 +181,7 @@ impl Statement {
         let bar = self.table.tie.as_ref().and_then(|tie| tie.bar);
         if let (Some(bar), None) = (bar, &parameters.bar) {
             parameters.bar = Some(bar);
-            parameters.apply_bar()?;
+            parameters.apply_bars()?;
         }
         Ok(parameters)
     }
