@@ -8,8 +8,8 @@ use crate::codes::read;
 use crate::error::CheckError;
 use crate::file::CheckFile;
 
-/// Checks the scene of `baseline`, by its own table `[check]` or, where it has none, by this code; `None` where
-/// no baseline is named.
+/// Checks the scene of `baseline`, by its own table `[check]` or, where it has none, by this code; `None`
+/// where no baseline is named.
 ///
 /// # Errors
 /// [`SceneError`] of a file that cannot be read, or of a wall that cannot be checked.
