@@ -135,11 +135,11 @@ pub enum ParameterError {
     NoFall { side: &'static str, end: f64 },
     /// A centroid that is not between the toes, in full rotations.
     #[error(
-        "kinematics = trigonometric: for {side} the centroid of the masonry is {distance} m beyond the toe, \
-         and u does not describe its fall; move the parts so that it is between the toes, or set \
-         kinematics = linear"
+        "kinematics = trigonometric: for {side} the arm of the masonry's centroid from the toe is {arm} m \
+         and must be at least {least} m, since u does not describe the fall of a wall that leans beyond its \
+         toe; move the parts so that the centroid is between the toes, or set kinematics = linear"
     )]
-    BeyondToe { side: &'static str, distance: f64 },
+    BeyondToe { side: &'static str, arm: f64, least: f64 },
     /// A wall that is refused and has numbers that walls rarely have: they may be the cause.
     #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Improbable { doubts: Vec<Warning>, error: Box<ParameterError> },

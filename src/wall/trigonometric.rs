@@ -89,6 +89,10 @@ pub struct FullRotations {
     negative: Turn,
 }
 
+/// Least arm of the centroid over its height. As the body lies down, D² − s² falls to the square of the arm;
+/// a smaller arm leaves only rounding of it.
+const LEAST_ARM: f64 = 1e-6;
+
 impl FullRotations {
     /// # Errors
     /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`],
@@ -260,8 +264,9 @@ impl Turn {
         let (o, at) = (parameters.overburden, parameters.overburden_on(profile).of(sign));
         points.push(Point { mass: 0.0, weight: o, thrust: 0.0, x: at, z: h });
         let (x, z) = (arm(centroid.x), body.centroid_height);
-        if x <= 0.0 {
-            return Err(ParameterError::BeyondToe { side: side_name(sign), distance: -x });
+        let least = LEAST_ARM * z;
+        if x < least {
+            return Err(ParameterError::BeyondToe { side: side_name(sign), arm: x, least });
         }
         let squared = x * x + z * z;
         let inertia = total(&points, &|p| p.mass * (p.z * p.z + arm(p.x).powi(2)));

@@ -51,11 +51,18 @@ pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String,
     let (u_ins, hinge) = (body.instability, body.hinge());
     // the top of a parapet, or the rotation of a strip's lower body in %
     let [second, scale] = hinge.map_or([body.height / body.centroid_height, 1000.0], |h1| [1.0 / h1, 100.0]);
+    let above = |u: f64| match (wall.rotations(), hinge) {
+        // the place above the centroid
+        (Some(full), None) => {
+            1000.0 * (u + (body.height - body.centroid_height) * libm::sin(full.rotation(u)))
+        }
+        _ => scale * second * u,
+    };
     let moving = bodies::Moving::new(wall, &scene.parameters);
     let data = serde_json::json!({
         "t": column(|sample| sample.time),
         "u": column(|sample| sample.outputs.displacement),
-        "second": rounded(frames.iter().map(|sample| scale * second * sample.outputs.displacement)),
+        "second": rounded(frames.iter().map(|sample| above(sample.outputs.displacement))),
         "a": column(|sample| sample.support.bottom),
         "f": column(|sample| sample.outputs.restoring_force),
         "u_ins": [u_ins.positive, u_ins.negative],
