@@ -11,10 +11,12 @@ use super::demand::{Demands, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
+mod carried;
 mod search;
 #[cfg(test)]
 mod tests;
 
+use carried::Carried;
 pub use search::ACCURACY;
 use search::{ExtremeSearch, Quantity};
 
@@ -38,14 +40,6 @@ pub(super) struct Followed<'a, P> {
     pub(super) length: f64,
     /// u at its end; where that is a corner, the corner's own displacement \[m\].
     pub(super) displacement: f64,
-}
-
-/// The acceleration that the reactions of a wall carry ([`Wall::carried`]): at both ends of a motion, and the
-/// bound on its second derivative \[m/s², m/s⁴\].
-#[derive(Clone, Copy)]
-struct Carried {
-    ends: [f64; 2],
-    most: f64,
 }
 
 impl Watch<'_> {
@@ -124,31 +118,6 @@ impl Watch<'_> {
             && reaction_top.include_ends(reactions.map(|ends| ends.top), above(by_a.top, by_u.top), times)
     }
 
-    /// Returns what the reactions carry over a piece.
-    fn carried<P: Piece>(&self, branch: &Branch, search: &ExtremeSearch<'_, P>) -> Carried {
-        let ends = search.ends.map(|motion| self.wall.carried(branch.side(), motion));
-        let [acceleration, jerk, snap] = search.bounds;
-        let most = if self.wall.rotations().is_none() {
-            snap
-        } else {
-            let [by_a, by_jerk, by_snap, more] = self.carried_curvature(branch, search);
-            by_a * acceleration + by_jerk * jerk + by_snap * snap + more
-        };
-        Carried { ends, most }
-    }
-
-    /// Bounds the second derivative of the acceleration that reactions carry over a piece: shares of the
-    /// bounds on |ü|, on the jerk and on the second derivative of ü, and a number.
-    fn carried_curvature<P: Piece>(&self, branch: &Branch, search: &ExtremeSearch<'_, P>) -> [f64; 4] {
-        let Some(rotations) = self.wall.rotations() else { return [0.0, 0.0, 1.0, 0.0] };
-        let ([start, end], length, most) = (search.ends, search.length, search.bounds[0]);
-        let sag = 0.125 * length * length * most;
-        let (u, v) = ([start.displacement, end.displacement], [start.velocity, end.velocity]);
-        let range = [u[0].min(u[1]) - sag, u[0].max(u[1]) + sag];
-        let speed = v[0].abs().max(v[1].abs()) + 0.5 * length * most;
-        rotations.carried_curvature(branch.side(), range, [speed, most])
-    }
-
     /// Returns whether a displacement reaches a limit state that was never reached before.
     #[inline]
     fn reaches(&self, displacement: f64) -> bool {
@@ -188,7 +157,7 @@ impl Watch<'_> {
         let (from, length) = (search.from, search.length);
         let supports = [from, from + length].map(|offset| self.segment.support(offset));
         let branch = &self.wall.branches()[followed.branch];
-        let carried = self.carried(branch, &search);
+        let carried = Carried::new(self.wall, branch, search.ends, search.length, search.bounds);
         if !self.include_extremes(
             branch.couple,
             search.ends,
@@ -242,7 +211,7 @@ impl Watch<'_> {
     ) -> Result<(), SearchExhausted> {
         let (wall, body, segment, couple) = (self.wall, self.wall.body(), self.segment, branch.couple);
         let [by_a, by_u] = self.slopes(couple);
-        let carried = self.carried_curvature(branch, search);
+        let carried = carried::curvature(wall, branch, search.ends, search.length, search.bounds[0]);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];

@@ -93,16 +93,14 @@ pub struct FullRotations {
 /// a smaller arm leaves only rounding of it.
 const LEAST_ARM: f64 = 1e-6;
 
+// what is called from many places of small rotations, too, is cold: the library of an FMU is to be small
 impl FullRotations {
     /// # Errors
     /// [`ParameterError::Conflict`] with what the model does not know, [`ParameterError::NoFall`],
     /// [`ParameterError::BeyondToe`].
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         check(parameters, body)?;
-        let own = |sign: f64| match &parameters.profile {
-            Some(profile) => Turn::of_parts(parameters, profile, body, sign),
-            None => Turn::of_rectangle(parameters, body, sign),
-        };
+        let own = |sign: f64| Turn::new(parameters, body, sign);
         let turn = |sign: f64| {
             let turn = own(sign).and_then(|turn| turn.falls(sign));
             // as a body has the numbers of its free side where transverse walls hold the other
@@ -155,6 +153,7 @@ impl FullRotations {
 
     /// Change of ü \[m/s²\] along a change of u, of u̇ and of the forcing p, on the side of `sign`, from a
     /// motion under p.
+    #[cold]
     pub(crate) fn acceleration_change(
         &self,
         sign: f64,
@@ -167,6 +166,7 @@ impl FullRotations {
     }
 
     /// Change of f along a change of u, on the side of `sign` \[m/s²\].
+    #[cold]
     pub(crate) fn restoring_change(&self, sign: f64, displacement: f64, change: f64) -> f64 {
         self.side(sign).restoring_change(sign * displacement, change)
     }
@@ -178,11 +178,13 @@ impl FullRotations {
     }
 
     /// Returns the time derivative of q u̇ on the side of `sign` \[m/s²\].
+    #[cold]
     pub(crate) fn carried(&self, sign: f64, motion: KinematicState) -> f64 {
         sign * self.side(sign).carried(seen(sign, motion))
     }
 
     /// Change of that along a change of u, of u̇ and of ü \[m/s²\].
+    #[cold]
     pub(crate) fn carried_change(&self, sign: f64, motion: KinematicState, change: [f64; 3]) -> f64 {
         let change = change.map(|change| sign * change);
         sign * self.side(sign).carried_change(seen(sign, motion), change)
@@ -191,6 +193,7 @@ impl FullRotations {
     /// Bounds the second derivative of what [`carried`](Self::carried) gives between two displacements on the
     /// side of `sign`, from bounds on |u̇| and |ü|: shares of bounds on |ü|, on the jerk and on the second
     /// derivative of ü, and a number \[m/s⁴\].
+    #[cold]
     pub(crate) fn carried_curvature(&self, sign: f64, range: [f64; 2], most: [f64; 2]) -> [f64; 4] {
         self.side(sign).carried_curvature(range.map(|u| sign * u), most)
     }
@@ -216,6 +219,16 @@ impl Body {
 
 impl Turn {
     /// # Errors
+    /// [`ParameterError::BeyondToe`].
+    #[inline(never)]
+    fn new(parameters: &Parameters, body: &Body, sign: f64) -> Result<Self, ParameterError> {
+        match &parameters.profile {
+            Some(profile) => Self::of_parts(parameters, profile, body, sign),
+            None => Ok(Self::of_rectangle(parameters, body, sign)),
+        }
+    }
+
+    /// # Errors
     /// [`ParameterError::NoFall`] where the wall lies flat before it becomes unstable.
     fn falls(self, sign: f64) -> Result<Self, ParameterError> {
         let (u_ins, end) = (self.equilibrium(), self.landing);
@@ -226,13 +239,12 @@ impl Turn {
     }
 
     /// Returns the turn of a rectangle, or of a strip of uniform section.
-    #[allow(clippy::unnecessary_wraps, reason = "as for parts")]
-    fn of_rectangle(parameters: &Parameters, body: &Body, sign: f64) -> Result<Self, ParameterError> {
+    fn of_rectangle(parameters: &Parameters, body: &Body, sign: f64) -> Self {
         let (b, h, h1) = (parameters.thickness, body.height, body.hinge_height);
         let (lever, bodies, h2) = if body.is_strip() { (1.0, 2, h - h1) } else { (2.0, 1, h) };
         let masses = if bodies == 1 { [1.0, 0.0] } else { [h1 / h, h2 / h] };
         let c = parameters.eccentricity_of_sides().of(sign);
-        Ok(Self {
+        Self {
             lever,
             offset: b,
             bodies,
@@ -241,7 +253,7 @@ impl Turn {
             forces: forces(b, [h1, h2], masses, body, c),
             drag: 0.0,
             landing: (h1.min(h2) + b) / lever,
-        })
+        }
     }
 
     /// Returns the turn of a body of parts about the toe of a side.
@@ -255,15 +267,14 @@ impl Turn {
         body: &Body,
         sign: f64,
     ) -> Result<Self, ParameterError> {
-        let ([outer, inner], h, centroid) =
-            (profile.toes(), profile.height(), profile.centroid([0.0, profile.height()]));
+        let ([outer, inner], h) = (profile.toes(), profile.height());
         let arm = |x: f64| if sign > 0.0 { x - outer } else { inner - x };
         let mut points = profile.masonry([0.0, h], parameters.gravity);
         let own = points.len();
         points.extend(profile.load_points(parameters.gravity));
         let (o, at) = (parameters.overburden, parameters.overburden_on(profile).of(sign));
         points.push(Point { mass: 0.0, weight: o, thrust: 0.0, x: at, z: h });
-        let (x, z) = (arm(centroid.x), body.centroid_height);
+        let (x, z) = (total(&points[..own], &|p| p.mass * arm(p.x)) / body.mass, body.centroid_height);
         let least = LEAST_ARM * z;
         if x < least {
             return Err(ParameterError::BeyondToe { side: side_name(sign), arm: x, least });

@@ -4,7 +4,7 @@ use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking};
 use rocking_wall::wall::{
-    Body, Hollow, Load, Opening, ParameterError, Parameters, Part, Profile, Sides, Support, Wall,
+    Body, Hollow, Kinematics, Load, Opening, ParameterError, Parameters, Part, Profile, Sides, Support, Wall,
 };
 
 /// A prism of 1 m width on the ground.
@@ -282,6 +282,10 @@ fn what_is_of_slender_rectangles_is_warned_of() {
             let told: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
             let told = told.join("\n");
             assert_eq!(told.contains("the slenderness angle of this body is 0.359 rad"), is_squat, "{told}");
+            assert_eq!(told.contains("; kinematics = trigonometric has full ones, for force"), is_squat);
+            let full = Parameters { kinematics: Kinematics::Trigonometric, ..parameters.clone() };
+            let full = Wall::new(&full).unwrap();
+            assert!(!full.warnings().iter().any(|told| told.to_string().contains("small rotations")));
             let by_impulses = "the restitution of this body is by impulses, times the ratio measured";
             assert_eq!(told.contains(by_impulses), is_of_rectangles, "{told}");
         }
