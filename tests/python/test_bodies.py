@@ -4,8 +4,9 @@ import csv
 import json
 import subprocess
 
+import numpy as np
 import pytest
-from fmpy import simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 
 from conftest import ROOT
 
@@ -38,6 +39,58 @@ def test_a_packaged_facade_moves_as_in_the_program(request, base, wall, tmp_path
     # the times of the importer are sums of steps
     assert result["u"][:count] == pytest.approx(u[:count], rel=1e-9, abs=1e-11)
     assert result["reaction_bottom"][:count] == pytest.approx(reaction[:count], rel=1e-7, abs=1e-2)
+
+
+TIES = """
+[[tie]]
+tie_height = 6.4
+tie_stiffness = 5e6
+tie_strength = 2e3
+tie_ultimate = 0.005
+
+[[tie]]
+tie_height = 9.6
+tie_stiffness = 2e6
+tie_side = "both"
+"""
+
+
+@pytest.mark.parametrize("base", ["fmu", "fmu3"])
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_a_facade_with_two_ties_moves_as_in_the_program(request, base, kind, wall, tmp_path):
+    """The unit has the sum of the forces, and no parameters of one tie."""
+    scene, path = tmp_path / "tied.toml", tmp_path / "tied.fmu"
+    text = (BODIES / "facade.toml").read_text().split("[motion]")[0]
+    scene.write_text(text + "[start]\nu_start = 0.05\n" + TIES)
+    command = [wall, "package", scene, "-o", path, "--base", request.getfixturevalue(base)]
+    subprocess.run(command, check=True, capture_output=True)
+    names = {variable.name for variable in read_model_description(str(path)).modelVariables}
+    assert {"tie_force", "tie_elongation", "tie_broken"} <= names
+    assert not {"tie_height", "tie_stiffness", "tie_strength"} & names
+    csv_path = tmp_path / "tied.csv"
+    command = [wall, "simulate", scene, "--csv", csv_path, "--json"]
+    demands = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["demands"]
+    lower, upper = demands["ties"]
+    assert lower["tie_break_time"] is not None and upper["tie_force"]["value"] > 0
+    with csv_path.open() as file:
+        rows = list(csv.DictReader(file))
+    result = simulate_fmu(
+        str(path),
+        fmi_type=kind,
+        relative_tolerance=1e-10,
+        output_interval=float(rows[1]["time_s"]),
+        stop_time=5.0,
+        output=["u", "tie_force", "tie_break_time"],
+    )
+    # Model Exchange has rows of events, too, and the importer's solver a tolerance of its own
+    allowed = 1e-9 if kind == "CoSimulation" else 1e-5
+    rows = [row for row in rows if float(row["time_s"]) <= 4.99]
+    last = np.searchsorted(result["time"], [float(row["time_s"]) + 1e-9 for row in rows]) - 1
+    u, force = ([float(row[name]) for row in rows] for name in ("u_m", "tie_force_n"))
+    assert result["u"][last] == pytest.approx(u, abs=allowed)
+    assert result["tie_break_time"][-1] == pytest.approx(lower["tie_break_time"], abs=100 * allowed)
+    if kind == "CoSimulation":
+        assert result["tie_force"][last] == pytest.approx(force, abs=2e7 * allowed)
 
 
 @pytest.mark.parametrize("base", ["fmu", "fmu3"])
