@@ -110,7 +110,7 @@ pub fn apply_ties(
             None => FileError::whole(file.place().name(), message),
         }
     };
-    parameters.further_ties.clear();
+    let mut further = Vec::new();
     for (number, table) in ties.iter().enumerate() {
         let mut alone = Parameters { width: parameters.width, ..Parameters::default() };
         let of_tie = if number == 0 { &mut *parameters } else { &mut alone };
@@ -120,9 +120,10 @@ pub fn apply_ties(
             return Err(refused(number, format!("tie {} of {} {message}", number + 1, ties.len())));
         }
         if number > 0 {
-            parameters.further_ties.extend(alone.ties().next());
+            further.extend(alone.ties().next());
         }
     }
+    parameters.further_ties = further.into();
     Ok(())
 }
 

@@ -102,7 +102,7 @@ impl UnitScene {
 
 /// The ties after the first, with the numbers that their bars have given them.
 #[cold]
-fn transfer_ties(ties: &mut Vec<TieNumbers>, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+fn transfer_ties(ties: &mut Arc<[TieNumbers]>, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
     let of_tie = |tie: &TieNumbers| {
         let TieNumbers { height, stiffness, slack, strength, ultimate, side, bar: _ } = *tie;
         [height, stiffness, slack, strength, ultimate, f64::from(side.value())]

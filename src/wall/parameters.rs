@@ -82,7 +82,7 @@ pub struct Parameters {
     /// carry it.
     pub bar: Option<Bar>,
     /// The ties after the first, which the parameters `tie_…` are. Only scenes carry them.
-    pub further_ties: Vec<TieNumbers>,
+    pub further_ties: Arc<[TieNumbers]>,
     /// a₃ of each side in place of `a3`. No file carries it: a check sets it for hinges that are set back.
     pub a3_of_sides: Option<Sides>,
 }
@@ -95,7 +95,7 @@ impl Default for Parameters {
             kinematics: Kinematics::Linear,
             multilinear: None,
             bar: None,
-            further_ties: Vec::new(),
+            further_ties: Arc::default(),
             a3_of_sides: None
         })
     }
@@ -167,7 +167,7 @@ impl Parameters {
             tie_ultimate: tie.ultimate,
             tie_side: tie.side,
             bar: tie.bar,
-            further_ties: Vec::new(),
+            further_ties: Arc::default(),
             ..self.clone()
         }
     }
@@ -183,7 +183,7 @@ impl Parameters {
         self.tie_stiffness = first.stiffness;
         self.tie_strength = first.strength;
         self.tie_ultimate = first.ultimate;
-        self.further_ties = ties;
+        self.further_ties = ties.into();
         Ok(())
     }
 }

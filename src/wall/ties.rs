@@ -5,6 +5,7 @@
 //! yielded to there, or has broken.
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use super::error::ParameterError;
 use super::force_law::{Line, RestoringForce};
@@ -15,7 +16,7 @@ use super::tie::{Hold, Tie, TieAction, TieMemory};
 
 /// The ties of a wall, in the order in which they are given.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ties(Vec<Tie>);
+pub struct Ties(Arc<[Tie]>);
 
 impl Deref for Ties {
     type Target = [Tie];
@@ -39,7 +40,7 @@ impl Ties {
             }
             ties.extend(Tie::new(&numbers, parameters, body)?);
         }
-        Ok(Self(ties))
+        Ok(Self(ties.into()))
     }
 
     /// Returns the ties that hold the side of `sign`.

@@ -5,6 +5,8 @@
 //! unloads or breaks inside a step it errs by up to the step, so it converges to the exact motion with the
 //! first power of its step.
 
+use std::sync::Arc;
+
 use proptest::prelude::*;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{ForceLaw, Impact, TieSide};
@@ -63,7 +65,7 @@ const SIGNS: [f64; 2] = [1.0, -1.0];
 
 impl Mapping {
     fn new(parameters: &Parameters) -> Self {
-        let untied = Parameters { tie_stiffness: 0.0, further_ties: Vec::new(), ..parameters.clone() };
+        let untied = Parameters { tie_stiffness: 0.0, further_ties: Arc::default(), ..parameters.clone() };
         let alone = Wall::new(&untied).unwrap();
         let springs = parameters.ties().flat_map(|of| {
             let lever = 2.0 * of.height / parameters.height;

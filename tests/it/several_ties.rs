@@ -1,5 +1,7 @@
 //! Several ties of one wall, each with its height, its side and its law.
 
+use std::sync::Arc;
+
 use fmu_export::{Interface, Model as _};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -71,7 +73,7 @@ fn a_tie_can_be_halved() {
     mostly(COMPARED, (yielding::yielding(), motions()), |(whole, motion)| {
         let tie = whole.ties().next().unwrap();
         let half = TieNumbers { stiffness: 0.5 * tie.stiffness, strength: 0.5 * tie.strength, ..tie };
-        let halves = Parameters { further_ties: vec![half], ..whole.tied_by(half) };
+        let halves = Parameters { further_ties: [half].into(), ..whole.tied_by(half) };
         let run = Run::new(whole, &motion);
         let Some(allowed) = allowed(&run, &motion, 1) else { return Ok([0, motion.len()]) };
         let other = Run::new(halves, &motion).history(0.0, 1);
@@ -93,7 +95,7 @@ fn two_ties() -> Parameters {
         side: TieSide::Both,
         bar: None,
     };
-    Parameters { further_ties: vec![upper], u_dot_start: 0.6, ..first }
+    Parameters { further_ties: [upper].into(), u_dot_start: 0.6, ..first }
 }
 
 /// Each tie breaks where its own elongation says, loses what it has stored, and has its own demands.
@@ -118,7 +120,7 @@ fn each_tie_breaks_by_itself() {
     }
     // the tie of the other side never pulls; 388.8 J at the start, less what was stored and the plastic work
     let alone =
-        Wall::new(&Parameters { tie_stiffness: 0.0, further_ties: Vec::new(), ..parameters }).unwrap();
+        Wall::new(&Parameters { tie_stiffness: 0.0, further_ties: Arc::default(), ..parameters }).unwrap();
     let state = simulation.progress().state;
     let left = 2160.0 * alone.energy(state.displacement, state.velocity);
     let spent = 3e3_f64.powi(2) / 4e5 + 3e3 * 0.05 + 1e3_f64.powi(2) / 2e5 + 1e3 * 0.01;
@@ -188,6 +190,7 @@ fn several_ties_that_cannot_be_are_refused() {
         assert!(error.contains("is that of one tie, and the wall has several"), "{error}");
     }
     let above = TieNumbers { height: 3.5, ..two_ties().further_ties[0] };
-    let error = Wall::new(&Parameters { further_ties: vec![above], ..two_ties() }).unwrap_err().to_string();
+    let error =
+        Wall::new(&Parameters { further_ties: [above].into(), ..two_ties() }).unwrap_err().to_string();
     assert!(error.starts_with("tie_height = 3.5 m must be above 0 and at most height = 3 m"), "{error}");
 }

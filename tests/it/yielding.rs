@@ -1,6 +1,7 @@
 //! Ties that yield and break: an example worked by hand, energy, and what holds for every such tie.
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use proptest::prelude::*;
 use rocking_wall::simulation::Simulation;
@@ -141,7 +142,7 @@ fn energy(simulation: &Simulation, alone: &Wall) -> f64 {
 fn balances(parameters: &Parameters, motion: &[f64]) -> Result<([usize; 2], [usize; 2]), TestCaseError> {
     let parameters =
         Parameters { damping_model: DampingModel::None, impact: Impact::None, ..parameters.clone() };
-    let untied = Parameters { tie_stiffness: 0.0, further_ties: Vec::new(), ..parameters.clone() };
+    let untied = Parameters { tie_stiffness: 0.0, further_ties: Arc::default(), ..parameters.clone() };
     let alone = Wall::new(&untied).unwrap();
     let (body, mut simulation) = (alone.body(), start(&parameters));
     let step = 0.3 / alone.rocking_rate();
