@@ -48,7 +48,7 @@ impl Motion {
         if let Some(report) = self.pass_quietly(state, duration, forcing, with_couple, memo, watch.as_mut()) {
             return Ok(report);
         }
-        self.run(state, duration, forcing, with_couple, memo, watch)
+        self.run(state, duration, forcing, with_couple, memo, watch.as_mut())
     }
 
     /// Moves `state` through a time \[s\] in which the forcing p goes from one value to another \[m/s²\].
@@ -149,7 +149,7 @@ impl Motion {
         forcing: [f64; 2],
         with_couple: bool,
         memo: &mut Memo,
-        mut watch: Option<Watch<'_>>,
+        mut watch: Option<&mut Watch<'_>>,
     ) -> Result<Report, SolverError> {
         let (mut now, mut time, mut report) = (*state, 0.0, Report::default());
         loop {
@@ -159,8 +159,8 @@ impl Motion {
             }
             let mut run = Run::new(motion, now, duration, forcing, with_couple, propagators);
             (run.time, run.report) = (time, report);
-            run.watch = watch.as_mut().map(|watch| watch.of(&motion.wall));
-            run.finish()?;
+            let mut on_wall = watch.as_deref_mut().map(|watch| watch.of(&motion.wall));
+            run.finish(on_wall.as_mut())?;
             if run.state.tie == *motion.wall.tie_memory() {
                 *state = run.state;
                 return Ok(run.report);
@@ -278,7 +278,7 @@ mod tests {
                 let segment = &Segment { duration: step, from, to };
                 let forcing = [wall.body().forcing(from), wall.body().forcing(to)];
                 let (mut searched, mut of_search) = (state, demands.clone());
-                let watch = Watch { demands: &mut of_search, wall, segment, time };
+                let watch = &mut Watch { demands: &mut of_search, wall, segment, time };
                 let memos = &mut Memo::default();
                 let expected = motion.run(&mut searched, step, forcing, true, memos, Some(watch));
                 let watch = &mut Watch { demands: &mut demands, wall, segment, time };

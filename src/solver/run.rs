@@ -27,7 +27,6 @@ pub(super) struct Run<'a> {
     rate: f64,
     with_couple: bool,
     propagators: &'a mut Propagators,
-    pub(super) watch: Option<Watch<'a>>,
     pub(super) report: Report,
 }
 
@@ -52,24 +51,25 @@ impl<'a> Run<'a> {
             rate,
             with_couple,
             propagators,
-            watch: None,
             report: Report::default(),
         }
     }
 
     /// Moves to the end of the segment, or to where a tie becomes another than that of the motion.
+    // `watch` is an argument of all that needs it, not a field: an FMU watches nothing, and its library is
+    // then found to need no search for demands
     #[inline(never)]
-    pub(super) fn finish(&mut self) -> Result<(), SolverError> {
+    pub(super) fn finish(&mut self, mut watch: Option<&mut Watch<'_>>) -> Result<(), SolverError> {
         while self.report.work.pieces < self.motion.most_pieces() {
             if self.time >= self.duration || self.state.tie != *self.motion.wall.tie_memory() {
                 return self.check();
             }
             match self.state.phase {
                 Phase::Landed => self.time = self.duration,
-                Phase::Resting => self.rest(),
+                Phase::Resting => self.rest(watch.as_deref_mut()),
                 Phase::Moving => {
                     self.report.work.pieces += 1;
-                    self.move_on()?;
+                    self.move_on(watch.as_deref_mut())?;
                 }
             }
         }
@@ -83,7 +83,7 @@ impl<'a> Run<'a> {
     }
 
     /// Rests until the forcing leaves the band.
-    fn rest(&mut self) {
+    fn rest(&mut self, watch: Option<&mut Watch<'_>>) {
         let [lowest, highest] = self.motion.rest_band;
         let now = self.forcing_now();
         // The time at which the forcing reaches an edge of the band, plus a margin for the rounding of the
@@ -99,7 +99,7 @@ impl<'a> Run<'a> {
             leaving = self.time + until(lowest);
         }
         let until = leaving.max(self.time).min(self.duration);
-        if let Some(watch) = &mut self.watch
+        if let Some(watch) = watch
             && !self.state.overturned
         {
             watch.rest(self.time, until);
@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
     }
 
     /// Computes the next piece of motion from the current state, and moves the wall along it.
-    fn move_on(&mut self) -> Result<(), SolverError> {
+    fn move_on(&mut self, watch: Option<&mut Watch<'_>>) -> Result<(), SolverError> {
         let motion = self.motion;
         let State { displacement, velocity, branch: index, .. } = self.state;
         let branch = &motion.wall.branches()[index];
@@ -130,25 +130,26 @@ impl<'a> Run<'a> {
         let remaining = self.duration - self.time;
         if motion.takes_closed_form(index) {
             let piece = self.closed_form(index, start, remaining);
-            return self.follow_piece(&piece);
+            return self.follow_piece(&piece, watch);
         }
         if let Method::Newmark { step } = motion.method {
             // equal steps, none longer than `step`
             let steps = (remaining / step - 1e-9).ceil().max(1.0);
             let step = remaining / steps;
-            return self.follow_piece(&newmark_step(branch, start, self.rate * step, step));
+            return self.follow_piece(&newmark_step(branch, start, self.rate * step, step), watch);
         }
         if let Some(rotations) = motion.wall.rotations() {
             let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
-            return self.follow_piece(&Series::new(rotation, branch.side(), remaining, motion.tolerances));
+            let piece = Series::new(rotation, branch.side(), remaining, motion.tolerances);
+            return self.follow_piece(&piece, watch);
         }
         if let Some(secant) = &motion.secants[index] {
             let (now, forcing) = ([displacement, velocity], [forcing, self.rate]);
             let piece = Series::secant(secant, branch, now, forcing, remaining, motion.tolerances);
-            return self.follow_piece(&piece);
+            return self.follow_piece(&piece, watch);
         }
         let viscous = Viscous::new(branch, start, [forcing, self.rate]);
-        self.follow_piece(&Series::new(viscous, 1.0, remaining, motion.tolerances))
+        self.follow_piece(&Series::new(viscous, 1.0, remaining, motion.tolerances), watch)
     }
 
     fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm<'a> {
@@ -170,7 +171,11 @@ impl<'a> Run<'a> {
     }
 
     /// Moves the wall along a piece, to its end or to the first corner.
-    fn follow_piece<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
+    fn follow_piece<P: Piece>(
+        &mut self,
+        piece: &P,
+        mut watch: Option<&mut Watch<'_>>,
+    ) -> Result<(), SolverError> {
         let bounds = self.bounds();
         let mut peaks = self.state.peaks;
         let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
@@ -196,7 +201,7 @@ impl<'a> Run<'a> {
             Ending::Turn { time, displacement, velocity } => (time, displacement, velocity, None),
         };
         let is_turn = matches!(ending, Ending::Turn { .. });
-        if let Some(watch) = &mut self.watch {
+        if let Some(watch) = watch.as_deref_mut() {
             let State { branch, overturned, departed, .. } = self.state;
             let followed = Followed { piece, branch, from: self.time, length, displacement };
             let (motion, tied) = (!overturned, !departed && !watch.demands.ties.is_empty());
@@ -228,6 +233,11 @@ impl<'a> Run<'a> {
                 self.unload(reach);
             }
         }
+        if let Some(watch) = watch
+            && self.state.tie != *self.motion.wall.tie_memory()
+        {
+            watch.fracture(&self.state.tie, self.time);
+        }
         self.check()
     }
 
@@ -240,9 +250,6 @@ impl<'a> Run<'a> {
 
     fn enter_fracture(&mut self, displacement: f64) {
         self.report.fractures[usize::from(displacement < 0.0)].get_or_insert(self.time);
-        if let Some(watch) = &mut self.watch {
-            watch.fracture(&self.state.tie, self.time);
-        }
     }
 
     /// Returns the lower and upper corner that end a piece: the ends of the branch, or for Newmark the

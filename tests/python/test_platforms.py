@@ -19,7 +19,7 @@ from unit import Unit
 from windows import RecordingUnit, Wine, digits, windows_path
 
 # bytes of the FMU for a processor, small enough for a mail or a repository
-LARGEST = 470_000
+LARGEST = 450_000
 PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
 DRIVER = "ROCKING_WALL_DRIVER"
 
