@@ -86,7 +86,7 @@ tables! {
     /// A load at a height.
     #[derive(Debug)]
     pub struct LoadTable {
-        /// Force downwards \[N\].
+        /// Force downwards \[N\]; 0 for a mass that moves along without resting on the wall.
         #[key(minimum = 0, maximum = 1e12)]
         pub force: f64,
         /// Height above the base \[m\].
@@ -96,12 +96,18 @@ tables! {
         /// from the outer hinge.
         #[key(minimum = -100, maximum = 100)]
         pub inside: f64,
-        /// Share of force/g that moves along with the wall \[-\].
+        /// Share of force/g that moves along with the wall \[-\]; a check needs it.
         #[key(minimum = 0, maximum = 1, default = 0)]
         pub moving_mass: Option<f64>,
+        /// Mass that moves along with the wall without resting on it \[kg\], with force = 0.
+        #[key(minimum = 0, maximum = 1e12, default = 0)]
+        pub mass: Option<f64>,
         /// Thrust, positive outwards \[N\].
         #[key(minimum = -1e12, maximum = 1e12, default = 0)]
         pub thrust: Option<f64>,
+        /// Whether the thrust certainly lasts until collapse: a check counts it on the side that it helps.
+        #[key(default = false)]
+        pub thrust_lasts: Option<bool>,
     }
 
     /// A body that is given by its integrals, in place of parts.
@@ -310,9 +316,10 @@ impl OpeningTable {
 
 impl LoadTable {
     fn load(&self) -> Load {
-        let Self { force, height, inside, .. } = *self;
-        let [moving_mass, thrust] = [self.moving_mass, self.thrust].map(|given| given.unwrap_or(0.0));
-        Load { force, height, inside, moving_mass, thrust }
+        let Self { force, height, inside, moving_mass, .. } = *self;
+        let [mass, thrust] = [self.mass, self.thrust].map(|given| given.unwrap_or(0.0));
+        let thrust_lasts = self.thrust_lasts.unwrap_or(false);
+        Load { moving_mass, mass, thrust, thrust_lasts, ..Load::resting(force, height, inside) }
     }
 }
 
@@ -331,7 +338,7 @@ fn set_integrals(parameters: &mut Parameters, body: &BodyTable, loads: &[Load]) 
     let p = parameters;
     let sum = |of: &dyn Fn(&Load) -> f64| loads.iter().map(of).sum::<f64>();
     let mean = |sum: f64, of: f64| if of == 0.0 { 0.0 } else { sum / of };
-    let mass = |load: &Load| load.moving_mass * load.force / p.gravity;
+    let mass = |load: &Load| load.moving(p.gravity);
     let (force, moving, thrust) = (sum(&|l| l.force), sum(&mass), sum(&|l| l.thrust));
     let moment = sum(&|l| l.thrust * l.height);
     let thrust_height = mean(moment, thrust);
@@ -352,6 +359,7 @@ fn set_integrals(parameters: &mut Parameters, body: &BodyTable, loads: &[Load]) 
     (p.load_force, p.load_height, p.load_arm) = (force, load_height, load_arm);
     (p.load_mass, p.load_mass_height, p.load_inertia) = (moving, load_mass_height, load_inertia);
     (p.thrust, p.thrust_height) = (thrust, thrust_height);
+    p.loads = Some(loads.into());
     Ok(())
 }
 
@@ -372,10 +380,13 @@ pub(super) fn profile_text(profile: &Profile) -> String {
         format!("{{ base = {base:?}, height = {height:?}, width = {width:?}{hollow} }}")
     });
     let loads = profile.loads().iter().map(|load| {
-        let Load { force, height, inside, moving_mass, thrust } = load;
+        let Load { force, height, inside, moving_mass, mass, thrust, thrust_lasts } = load;
+        let share = moving_mass.map_or(String::new(), |share| format!(", moving_mass = {share:?}"));
+        let mass = if *mass == 0.0 { String::new() } else { format!(", mass = {mass:?}") };
+        let lasts = if *thrust_lasts { ", thrust_lasts = true" } else { "" };
         format!(
-            "{{ force = {force:?}, height = {height:?}, inside = {inside:?}, \
-             moving_mass = {moving_mass:?}, thrust = {thrust:?} }}"
+            "{{ force = {force:?}, height = {height:?}, inside = {inside:?}{share}{mass}, \
+             thrust = {thrust:?}{lasts} }}"
         )
     });
     let lists = [(PART, parts.collect::<Vec<_>>()), (OPENING, openings.collect()), (LOAD, loads.collect())];

@@ -127,6 +127,30 @@ impl Floors {
         Ok(Self { storeys, ..self.clone() })
     }
 
+    /// Returns the same storeys below a wall that stands some floors above the stated one.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where no floor is stated, and above the highest.
+    pub fn raised(&self, by: usize) -> Result<Self, SceneError> {
+        let refused = |message: String| Err(SceneError::Value { message });
+        let highest = self.storeys.storeys().len();
+        match self.bottom {
+            _ if by == 0 => Ok(self.clone()),
+            None => refused(
+                "[supports] bottom is missing: state the floor at the first level, 0 for the ground; each \
+                 further level is a floor higher"
+                    .to_owned(),
+            ),
+            Some(bottom) if bottom + by > highest => refused(format!(
+                "level {} is at floor {} of {highest}: [supports] bottom = {bottom} is the floor at the \
+                 first level, and each further level is a floor higher",
+                by + 1,
+                bottom + by
+            )),
+            Some(bottom) => Ok(Self { bottom: Some(bottom + by), ..self.clone() }),
+        }
+    }
+
     /// Returns the damping ratios that the storeys state.
     pub fn stated_damping(&self) -> impl Iterator<Item = f64> {
         self.tables.iter().filter_map(|table| table.damping_ratio)

@@ -135,8 +135,8 @@ fn transfer_profile(parameters: &mut Parameters, codec: &mut StateCodec<'_>) -> 
         [base, height, width, thickness, outer]
     });
     let loads = loads.iter().flat_map(|load| {
-        let Load { force, height, inside, moving_mass, thrust } = *load;
-        [force, height, inside, moving_mass, thrust]
+        let Load { force, height, inside, moving_mass, mass, thrust, .. } = *load;
+        [force, height, inside, moving_mass.unwrap_or(0.0), mass, thrust]
     });
     let mut numbers: [Vec<f64>; 3] = [parts.collect(), openings.collect(), loads.collect()];
     for numbers in &mut numbers {
@@ -160,12 +160,11 @@ fn transfer_profile(parameters: &mut Parameters, codec: &mut StateCodec<'_>) -> 
         width,
         hollow: (thickness != 0.0).then_some(Hollow { thickness, outer }),
     });
-    let loads = loads.as_chunks().0.iter().map(|&[force, height, inside, moving_mass, thrust]| Load {
-        force,
-        height,
-        inside,
-        moving_mass,
+    let loads = loads.as_chunks().0.iter().map(|&[force, height, inside, moving_mass, mass, thrust]| Load {
+        moving_mass: Some(moving_mass),
+        mass,
         thrust,
+        ..Load::resting(force, height, inside)
     });
     let profile = Profile::of_checked(parts.collect(), openings.collect(), loads.collect());
     parameters.profile = Some(Arc::new(profile));

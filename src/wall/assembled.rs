@@ -331,7 +331,7 @@ fn impulses(
 
 impl Profile {
     /// Returns a height, or that of an end of a part that is the same but for rounding \[m\].
-    fn snapped(&self, z: f64) -> f64 {
+    pub(super) fn snapped(&self, z: f64) -> f64 {
         let ends = self.parts().iter().flat_map(|part| [part.base, part.top()]);
         let same = SAME * self.height();
         ends.into_iter().find(|end| (end - z).abs() <= same).unwrap_or(z)

@@ -19,7 +19,8 @@
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
 //! | `bar`, `tie_numbers`, `parameters`, `usage` | what is given, and which of it has an effect |
 //! | `points` | masses and loads of parts as points |
-//! | `mechanism`, `assembled`, `force_law`, `damping`, `turn`, `trigonometric` | what is made of it |
+//! | `mechanism`, `assembled`, `level` | bodies, of rectangles and of parts; those above a level |
+//! | `force_law`, `damping`, `turn`, `trigonometric` | what is made of it |
 //! | `tie`, `ties` | a tie, and those of a wall |
 //! | `impact`, `statics`, `warnings` | impacts; the wall at rest; what is doubtful |
 //! | `branch`, `equation`, `layout`, `tied` | the wall, its branches, and ties on them |
@@ -38,6 +39,7 @@ mod force_law;
 mod given;
 mod impact;
 mod layout;
+mod level;
 mod mechanism;
 mod parameters;
 mod part;

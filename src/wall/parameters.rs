@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::bar::{Bar, TiePart};
 use super::error::ParameterError;
 use super::given::COMPUTED;
+use super::part::Load;
 use super::profile::Profile;
 use super::ratio::Ratio;
 use super::sides::Sides;
@@ -73,6 +74,9 @@ pub struct Parameters {
     pub thrust_height: f64,
     /// A wall of parts, in place of the rectangle: [`Parameters::set_profile`]. Only scenes carry it.
     pub profile: Option<Arc<Profile>>,
+    /// The loads of a body that is given by its integrals, as they are stated; the parameters `load_…` and
+    /// `thrust…` have their sums. Only scenes carry it.
+    pub loads: Option<Arc<[Load]>>,
     /// Small or full rotations. Only scenes carry it, and FMUs of a scene.
     pub kinematics: Kinematics,
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
@@ -92,6 +96,7 @@ impl Default for Parameters {
     fn default() -> Self {
         start_values!(Self {
             profile: None,
+            loads: None,
             kinematics: Kinematics::Linear,
             multilinear: None,
             bar: None,

@@ -53,10 +53,27 @@ pub struct Load {
     pub height: f64,
     /// Place x \[m\].
     pub inside: f64,
-    /// Share of its mass that moves along with the wall, 0 to 1 \[-\].
-    pub moving_mass: f64,
+    /// Share of force/g that moves along with the wall, 0 to 1 \[-\]; `None` where nobody states it, and none
+    /// moves.
+    pub moving_mass: Option<f64>,
+    /// Mass that moves along with the wall without resting on it \[kg\].
+    pub mass: f64,
     /// Thrust, positive outwards \[N\].
     pub thrust: f64,
+    /// Whether the thrust certainly lasts until collapse: a check counts it where it helps.
+    pub thrust_lasts: bool,
+}
+
+impl Load {
+    /// A force without mass and thrust at a place.
+    pub fn resting(force: f64, height: f64, inside: f64) -> Self {
+        Self { force, height, inside, moving_mass: None, mass: 0.0, thrust: 0.0, thrust_lasts: false }
+    }
+
+    /// The mass that moves along with the wall under a gravity \[m/s²\].
+    pub fn moving(&self, gravity: f64) -> f64 {
+        self.moving_mass.unwrap_or(0.0) * self.force / gravity + self.mass
+    }
 }
 
 /// An item of a profile, by its place in its list from 0 on.

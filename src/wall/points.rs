@@ -69,7 +69,7 @@ impl Profile {
     /// Returns the loads under a gravity \[m/s²\].
     pub(super) fn load_points(&self, gravity: f64) -> impl Iterator<Item = Point> {
         self.loads().iter().map(move |load| Point {
-            mass: load.moving_mass * load.force / gravity,
+            mass: load.moving(gravity),
             weight: load.force,
             thrust: load.thrust,
             x: load.inside,

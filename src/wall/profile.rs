@@ -33,6 +33,8 @@ pub struct Profile {
     parts: Vec<Part>,
     openings: Vec<Opening>,
     loads: Vec<Load>,
+    /// The edges on which it bears, where what it stands on is narrower than its foot \[m\].
+    bearing: Option<[f64; 2]>,
 }
 
 impl Profile {
@@ -53,7 +55,18 @@ impl Profile {
 
     /// Takes what has been checked: an FMU's library does without the checks and their words.
     pub(crate) fn of_checked(parts: Vec<Part>, openings: Vec<Opening>, loads: Vec<Load>) -> Self {
-        Self { parts, openings, loads }
+        Self { parts, openings, loads, bearing: None }
+    }
+
+    /// The same wall on what is narrower than its foot, between two edges \[m\].
+    pub(super) fn bearing_on(self, edges: [f64; 2]) -> Self {
+        Self { bearing: Some(edges), ..self }
+    }
+
+    /// The same parts and openings with other loads.
+    #[must_use]
+    pub fn with_loads(&self, loads: Vec<Load>) -> Self {
+        Self { loads, ..self.clone() }
     }
 
     /// Its parts, the lowest first.
@@ -78,6 +91,9 @@ impl Profile {
 
     /// Places x of its outer and inner toe \[m\].
     pub fn toes(&self) -> [f64; 2] {
+        if let Some(edges) = self.bearing {
+            return edges;
+        }
         let touching = self.parts.iter().filter(|part| part.base <= SAME * self.height());
         let [outer, inner] = faces(touching.map(|part| part.section(part.base)));
         [outer, inner]
@@ -96,7 +112,8 @@ impl Profile {
             .parts
             .iter()
             .all(|part| [part.thickness, part.width, part.outer].into_iter().all(is_constant));
-        prism && self.parts.len() == 1 && self.openings.is_empty() && self.loads.is_empty()
+        let alone = self.openings.is_empty() && self.loads.is_empty() && self.bearing.is_none();
+        prism && self.parts.len() == 1 && alone
     }
 
     /// Its height, the distance of its toes, and the width and density of its lowest part: what stands for it
@@ -256,14 +273,20 @@ impl Profile {
         let reach = inner - outer;
         for (index, load) in self.loads.iter().enumerate() {
             let refused = |reason| Err(Item::Load(index).refused(reason));
-            let Load { force, height, inside, moving_mass, thrust } = *load;
+            let Load { force, height, inside, moving_mass, mass, thrust, .. } = *load;
             if !(force >= 0.0 && force.is_finite() && thrust.is_finite()) {
                 return refused(format!(
                     "force = {force} N must be 0 or more, downwards, and thrust = {thrust} N a number"
                 ));
             }
-            if !(0.0..=1.0).contains(&moving_mass) {
-                return refused(format!("moving_mass = {moving_mass} is the share of force/g from 0 to 1"));
+            if let Some(share) = moving_mass.filter(|share| !(0.0..=1.0).contains(share)) {
+                return refused(format!("moving_mass = {share} is the share of force/g from 0 to 1"));
+            }
+            if !(mass >= 0.0 && mass.is_finite() && (mass == 0.0 || force == 0.0)) {
+                return refused(format!(
+                    "mass = {mass} kg moves along without resting on the wall, force = {force} N rests on \
+                     it: give them as two loads, the mass 0 or more"
+                ));
             }
             if !(height > 0.0 && height <= top + same) {
                 return refused(format!(

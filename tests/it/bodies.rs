@@ -69,7 +69,11 @@ fn bodies_have_the_constants_of_an_independent_program() {
     let stone = Part { height: 1.5, thickness: [0.5; 2], density: 2200.0, ..PRISM };
     let brick = Part { base: 1.5, thickness: [0.25; 2], density: 1700.0, ..stone };
     let facade = Part { height: 9.6, thickness: [0.6; 2], ..PRISM };
-    let floor = |force, height, inside, thrust| Load { force, height, inside, moving_mass: 1.0, thrust };
+    let floor = |force, height, inside, thrust| Load {
+        moving_mass: Some(1.0),
+        thrust,
+        ..Load::resting(force, height, inside)
+    };
     let floors = [floor(12e3, 3.2, 0.5, 0.0), floor(12e3, 6.4, 0.5, 500.0), floor(8e3, 9.6, 0.4, 1e3)];
     let shaft = Part { height: 1.5, thickness: [0.6; 2], width: [0.6; 2], ..PRISM };
     let cap = Part {
@@ -209,7 +213,11 @@ fn two_parts_make_a_rectangle() {
 /// The body of `[geometry.body]` with its loads as sums equals that of its parts.
 #[test]
 fn integrals_give_the_body_of_parts() {
-    let load = |force, height, inside, thrust| Load { force, height, inside, moving_mass: 0.5, thrust };
+    let load = |force, height, inside, thrust| Load {
+        moving_mass: Some(0.5),
+        thrust,
+        ..Load::resting(force, height, inside)
+    };
     let loads = [load(9e3, 1.0, 0.2, 300.0), load(4e3, 2.5, 0.1, -100.0)];
     let parts = Parameters { restitution: 0.9, ..of_parts(&[PRISM], &[], &loads) };
     let expected = body(&parts);
@@ -248,13 +256,13 @@ fn integrals_give_the_body_of_parts() {
 }
 
 pub(crate) fn mass_of(load: &Load) -> f64 {
-    load.moving_mass * load.force / 9.81
+    load.moving(9.81)
 }
 
 /// A thrust that overturns is refused by name, unless transverse walls hold that side.
 #[test]
 fn a_thrust_needs_a_side_that_bears_it() {
-    let load = Load { force: 5e3, height: 3.0, inside: 0.125, moving_mass: 0.0, thrust: 1e3 };
+    let load = Load { thrust: 1e3, ..Load::resting(5e3, 3.0, 0.125) };
     let parameters = of_parts(&[PRISM], &[], &[load]);
     let Err(error) = Wall::new(&parameters) else { panic!("there is a wall") };
     assert!(matches!(error, ParameterError::Overturns { side: "u > 0", .. }), "{error}");
@@ -295,7 +303,7 @@ fn what_is_of_slender_rectangles_is_warned_of() {
 /// The base bears the inertia of the masonry and of what moves along, less the thrusts, also at rest.
 #[test]
 fn the_base_bears_masses_and_thrusts() {
-    let load = Load { force: 9.81e3, height: 2.0, inside: 0.2, moving_mass: 0.4, thrust: 300.0 };
+    let load = Load { moving_mass: Some(0.4), thrust: 300.0, ..Load::resting(9.81e3, 2.0, 0.2) };
     let parameters = of_parts(&[PRISM], &[], &[load]);
     let support = Support::rigid(-0.3);
     let mut simulation = Simulation::new(&parameters, None, 0.0, support).unwrap();

@@ -118,7 +118,7 @@ impl Reference {
 }
 
 fn floor(force: f64, height: f64, inside: f64, thrust: f64) -> Load {
-    Load { force, height, inside, moving_mass: 1.0, thrust }
+    Load { moving_mass: Some(1.0), thrust, ..Load::resting(force, height, inside) }
 }
 
 /// Bodies with their reference: gable, chimney, battered wall, and a façade whose floors move along and push.

@@ -121,7 +121,7 @@ fn slender_bodies_have_small_rotations() {
     let error = |thickness: f64| {
         let gable = Part { height: 2.4, width: [6.0, 0.0], thickness: [thickness; 2], ..PRISM };
         let (force, inside) = (2e4 * thickness, 0.2 * thickness);
-        let load = Load { force, height: 1.5, inside, moving_mass: 0.7, thrust: 0.0 };
+        let load = Load { moving_mass: Some(0.7), ..Load::resting(force, 1.5, inside) };
         let full = of_parts(&[gable], &[], &[load]);
         let full = Parameters { kinematics: Kinematics::Trigonometric, ..full };
         let small = Parameters { kinematics: Kinematics::Linear, ..full.clone() };
@@ -224,7 +224,7 @@ fn derivatives_are_those_of_the_outputs() {
 /// Transverse walls hold the side to which a thrust would overturn the body; the other has its own equation.
 #[test]
 fn a_body_that_transverse_walls_hold_rocks_to_its_own_side() {
-    let load = Load { force: 5e3, height: 3.0, inside: 0.125, moving_mass: 1.0, thrust: 1e3 };
+    let load = Load { moving_mass: Some(1.0), thrust: 1e3, ..Load::resting(5e3, 3.0, 0.125) };
     let [lower, upper] = [(0.0, 2.0), (2.0, 1.0)].map(|(base, height)| Part { base, height, ..PRISM });
     let of = |thrust: f64, rocking: Rocking| Parameters {
         kinematics: Kinematics::Trigonometric,
@@ -254,7 +254,7 @@ fn a_body_that_transverse_walls_hold_rocks_to_its_own_side() {
 #[test]
 fn a_centroid_beyond_its_toe_is_refused() {
     let leaning = Part { outer: [0.0, -0.6], ..PRISM };
-    let load = Load { force: 2e4, height: 1.5, inside: 0.25, moving_mass: 0.0, thrust: 0.0 };
+    let load = Load::resting(2e4, 1.5, 0.25);
     let small = Parameters { restitution: 0.9, ..of_parts(&[leaning], &[], &[load]) };
     Wall::new(&small).unwrap();
     let full = Parameters { kinematics: Kinematics::Trigonometric, ..small };

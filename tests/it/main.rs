@@ -34,6 +34,7 @@ mod extreme_parameters;
 mod floor_motion;
 mod full_bodies;
 mod full_equation;
+mod levels;
 mod model_exchange;
 mod newton_euler;
 mod numerics;

@@ -97,11 +97,9 @@ pub(crate) fn loads() -> impl Strategy<Value = Vec<[f64; 5]>> {
 /// Loads at shares of a height.
 pub(crate) fn at_shares(loads: &[[f64; 5]], height: f64) -> Vec<Load> {
     let load = |&[force, share, inside, moving_mass, thrust]: &[f64; 5]| Load {
-        force,
-        height: share * height,
-        inside,
-        moving_mass,
+        moving_mass: Some(moving_mass),
         thrust,
+        ..Load::resting(force, share * height, inside)
     };
     loads.iter().map(load).collect()
 }

@@ -54,6 +54,18 @@ impl CheckError {
         }
     }
 
+    /// Says above which level the check is impossible \[m\].
+    pub(crate) fn at_level(self, level: f64) -> Self {
+        let at = |message: String| format!("above the level {level} m: {message}");
+        match self {
+            Self::Value { keys, message } => Self::Value { keys, message: at(message) },
+            Self::Wall { message } => Self::Wall { message: at(message) },
+            Self::Parameters(error) => Self::Wall { message: at(error.to_string()) },
+            Self::Scene(error) => Self::Wall { message: at(error.to_string()) },
+            error => error,
+        }
+    }
+
     /// Returns the keys from the table `[check]` to the value that the error is about, such as `SLV`, `ag`,
     /// be it there or missing; `None` where it is about no value of the table.
     pub fn keys(&self) -> Option<&[String]> {

@@ -14,6 +14,8 @@ pub struct Row {
     pub title: Sentence,
     /// The side.
     pub side: Sides,
+    /// Height of the level above which the wall turns, where levels are stated \[m\].
+    pub level: Option<f64>,
     /// Capacity over demand \[-\].
     pub zeta: f64,
     /// The same before a rule of the code replaces it by a larger one \[-\].
@@ -42,6 +44,7 @@ impl Row {
             check,
             title,
             side,
+            level: None,
             zeta,
             ratio: zeta,
             passed,

@@ -36,6 +36,9 @@ impl Verdict<'_> {
             only(has_ground, say!("bears a_g [g]", "a_g\nsopportata\n[g]")),
             only(has_ground, say!("site a_g [g]", "a_g\ndel sito\n[g]")),
         ];
+        let has_levels = self.rows.iter().any(|row| row.level.is_some());
+        let level = if has_levels { "level" } else { "" };
+        let levels = only(has_levels, say!("above [m]", "sopra\n[m]"));
         let remark = only(has_remarks, say!("remark", "osservazione"));
         // programs know checks and sides by their English names
         let in_file = |name: &str, told: &Sentence| match language {
@@ -46,6 +49,7 @@ impl Verdict<'_> {
             .column(Column::text("check", ""), |row| in_file(row.check, &row.title))
             .text("", head(say!("check", "verifica")), |row| row.title.of(language).to_owned())
             .column(Column::text("side", ""), |row| in_file(row.side.name(), &side(row.side)))
+            .number(level, levels, four, |row| row.level)
             .text("", head(say!("side", "verso")), |row| side(row.side).of(language).to_owned())
             .number(self.code.symbol, head(self.code.ratio()), four, |row| row.zeta)
             .value("passed", |row| row.passed)

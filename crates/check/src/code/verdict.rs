@@ -12,7 +12,7 @@ use crate::words::entry::Entry;
 use crate::words::ledger::Ledger;
 use crate::words::markup::side_head;
 use crate::words::names::Sides;
-use crate::words::{Language, Sentence, Written, fixed, governing, say};
+use crate::words::{Language, Sentence, Written, above, fixed, governing, say};
 
 /// The outcome of a check, as every code has it.
 pub struct Verdict<'a> {
@@ -24,6 +24,8 @@ pub struct Verdict<'a> {
     pub governs: &'static str,
     /// The side that governs.
     pub side: Sides,
+    /// Height of the level above which the wall turns, where levels are stated \[m\].
+    pub level: Option<f64>,
     /// Capacity over demand of what governs \[-\].
     pub zeta: f64,
     /// The ratio from which on a check passes \[-\].
@@ -105,7 +107,7 @@ pub trait Details {
         let language = origin.report.language;
         let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
         let ledgers = self.ledgers();
-        let head = |side| if ledgers.len() > 1 { side_head(side, language) } else { String::new() };
+        let head = |side| if ledgers.len() > 1 { side_head(side, None, language) } else { String::new() };
         let numbers = ledgers.iter().map(|(side, ledger)| head(*side) + &ledger.markup("", language));
         let over = self.figure(language)?.html(language) + &numbers.collect::<String>();
         Ok(vec![
@@ -147,7 +149,7 @@ impl Verdict<'_> {
         let title = self.rows.iter().find(|row| row.check == self.governs).map(|row| row.title.clone());
         let (governs, symbol) = (title.unwrap_or_else(|| Sentence::same(self.governs)), self.code.ratio());
         let zeta = Written(format!("{:.3}", self.zeta));
-        let (of, target) = (governing(self.side), self.against());
+        let (of, target) = (above(governing(self.side), self.level), self.against());
         if self.passed {
             say! {
                 "PASSED{target}{raised}: {governs} governs with {symbol} = {zeta} ({of})",

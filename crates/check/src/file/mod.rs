@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, Fault, FileError, TomlFile, overlay, read_text};
 use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::wall::OF_RECTANGLE;
 use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
 use run::walls::{NamedWall, assumed, read_walls};
 use serde::Deserialize;
@@ -217,7 +218,22 @@ impl<'a> CheckFile<'a> {
     pub fn assumed(&self, set: &[String]) -> Vec<&'static str> {
         let is_set =
             |name: &str| set.iter().any(|set| set.split('=').next().is_some_and(|key| key.trim() == name));
-        assumed(|group, name| self.states(&[group, name]) || is_set(name))
+        assumed(|group, name| self.states(&[group, name]) || self.body_states(name) || is_set(name))
+    }
+
+    /// Returns whether the body of the scene states a parameter of a rectangle: its shape, and its density
+    /// where every part states it.
+    fn body_states(&self, name: &str) -> bool {
+        if !OF_RECTANGLE.contains(&name) {
+            return false;
+        }
+        match self.file.get(&["geometry", "part"]).map(Spanned::get_ref) {
+            Some(DeValue::Array(parts)) if name == "density" => {
+                parts.iter().all(|part| part.get_ref().get(name).is_some())
+            }
+            Some(_) => true,
+            None => self.states(&["geometry", "body"]),
+        }
     }
 
     fn check(&self) -> Option<&Spanned<DeValue<'a>>> {

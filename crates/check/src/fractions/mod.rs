@@ -240,6 +240,7 @@ impl Code for Statement {
             passed: worst.displacement_ratio >= 1.0,
             governs: "displacement",
             side: checked.of(&worst),
+            level: None,
             zeta: worst.displacement_ratio,
             target: 1.0,
             raise: None,

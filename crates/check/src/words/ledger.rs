@@ -28,6 +28,7 @@ impl Unit {
     pub const MILLIMETRES: Self = Self { name: "mm", factor: 1e3 };
     pub const SQUARE_MILLIMETRES: Self = Self { name: "mm²", factor: 1e6 };
     pub const KILONEWTONS: Self = Self { name: "kN", factor: 1e-3 };
+    pub const KILONEWTON_METRES: Self = Self { name: "kN m", factor: 1e-3 };
     pub const KILONEWTONS_PER_METRE: Self = Self { name: "kN/m", factor: 1e-3 };
     pub const SPECIFIC_WEIGHT: Self = Self { name: "kN/m³", factor: 1e-3 };
     pub const MEGAPASCALS: Self = Self { name: "MPa", factor: 1e-6 };

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ::report::escaped;
 
 use super::names::Sides;
-use super::{Language, Sentence, say, side};
+use super::{Language, Sentence, above, say, side};
 
 /// A list of texts.
 pub(crate) fn list(texts: &[Sentence], language: Language) -> String {
@@ -13,10 +13,13 @@ pub(crate) fn list(texts: &[Sentence], language: Language) -> String {
     if texts.is_empty() { String::new() } else { format!("<ul>\n{}</ul>\n", items.collect::<String>()) }
 }
 
-/// The headline of a side.
-pub(crate) fn side_head(of: Sides, language: Language) -> String {
-    let name = side(of);
-    format!("<h3>{}</h3>\n", say!("Side {name}", "Verso {name}", name).markup(language))
+/// The headline of a side, above a level where levels are stated \[m\].
+pub(crate) fn side_head(of: Sides, level: Option<f64>, language: Language) -> String {
+    let name = match of {
+        Sides::Alike => say!("Both sides", "Entrambi i versi"),
+        Sides::One(_) => say!("Side {name}", "Verso {name}", name = side(of)),
+    };
+    format!("<h3>{}</h3>\n", above(name, level).markup(language))
 }
 
 /// What the user writes stands as it is in every language.

@@ -328,6 +328,14 @@ pub(crate) fn side(of: Sides) -> Sentence {
     }
 }
 
+/// The same of the body above a level, where levels are stated \[m\].
+pub(crate) fn above(of: Sentence, level: Option<f64>) -> Sentence {
+    match level {
+        None => of,
+        Some(level) => say!("{of}, above {level} m", "{of}, sopra {level} m", of, level),
+    }
+}
+
 /// The side that governs, of sides that may be alike.
 pub(crate) fn governing(of: Sides) -> Sentence {
     match of {

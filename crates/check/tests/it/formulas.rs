@@ -135,7 +135,7 @@ fn value(formula: &str) -> Option<Interval> {
 }
 
 /// Asserts that the formulas of a page give their numbers; returns how many have numbers put in.
-fn assert_gives(page: &str) -> usize {
+pub(crate) fn assert_gives(page: &str) -> usize {
     let mut count = 0;
     for row in page.split("<tr>").filter(|row| row.contains(" = <b>")) {
         let (_, row) = row.split_once("</td><td>").unwrap();

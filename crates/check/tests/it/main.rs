@@ -6,6 +6,7 @@
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;
 mod circolare;
+mod circolare_bodies;
 mod circolare_cases;
 mod circolare_dynamic;
 mod circolare_edges;

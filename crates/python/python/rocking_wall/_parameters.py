@@ -221,19 +221,27 @@ class Opening(TypedDict, total=False):
 class Load(TypedDict, total=False):
     """A load at a height.
 
-    - force: Force downwards [N], at least 0, at most 1e+12.
+    - force: Force downwards [N]; 0 for a mass that moves along without resting on the wall, at least 0, at
+      most 1e+12.
     - height: Height above the base [m], above 0, at most 1000.
     - inside: Distance inwards from the outer face of the lowest part at its foot [m]. With [geometry.body]:
       from the outer hinge, at least -100, at most 100.
-    - moving_mass: Share of force/g that moves along with the wall [-], at least 0, at most 1; default 0.
+    - mass: Mass that moves along with the wall without resting on it [kg], with force = 0, at least 0, at
+      most 1e+12; default 0.
+    - moving_mass: Share of force/g that moves along with the wall [-]; a check needs it, at least 0, at most
+      1; default 0.
     - thrust: Thrust, positive outwards [N], at least -1e+12, at most 1e+12; default 0.
+    - thrust_lasts: Whether the thrust certainly lasts until collapse: a check counts it on the side that it
+      helps; default False.
     """
 
     force: Required[float]
     height: Required[float]
     inside: Required[float]
+    mass: float
     moving_mass: float
     thrust: float
+    thrust_lasts: bool
 
 
 class Tie(TypedDict, total=False):

@@ -28,6 +28,8 @@ class Check(TypedDict, total=False):
       "not_below_ground".
     - hinge: Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or
       as given; by default at the least α0 where the scene has no hinge_ratio.
+    - hinge_levels: Heights above the base at which a façade may open [m]: the body above each is checked;
+      default [0.0].
     - hinge_range: Range of hinge_ratio in which the hinge is searched (-); default [0.1, 0.9].
     - knowledge_level: Level of knowledge instead of FC.
     - masonry_gamma: γ that divides it (-), at least 1; default 1.
@@ -42,6 +44,8 @@ class Check(TypedDict, total=False):
     - record_scale: What records become in the dynamic check: their peaks a_g S, as they are, or scaled to the
       spectrum of the ground; default "ag".
     - records: Records of the dynamic check, and of limit states without F0 and TC.
+    - resultants: Resultants of the weights: one on each body, or one of its own weight and each moving load;
+      default "body".
     - rocking: Sides to which the wall rocks in the static checks, in place of rocking of [impact].
     - site: The site on a grid of the hazard, for limit states without ag.
     - soil: Soil of NTC 3.2.2.
@@ -66,6 +70,7 @@ class Check(TypedDict, total=False):
     confidence_factor: float
     height_demand: Literal["not_below_ground", "printed"]
     hinge: Literal["least_alpha0", "worst", "given"]
+    hinge_levels: Sequence[float]
     hinge_range: Sequence[float]
     knowledge_level: Literal["LC1", "LC2", "LC3"]
     masonry_gamma: float
@@ -78,6 +83,7 @@ class Check(TypedDict, total=False):
     record_range: Sequence[float]
     record_scale: Literal["ag", "none", "spectrum"]
     records: Records
+    resultants: Literal["body", "each"]
     rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
     site: Site
     soil: Literal["A", "B", "C", "D", "E"]
@@ -118,14 +124,14 @@ class LimitState(TypedDict, total=False):
 class Building(TypedDict, total=False):
     """The building at the wall's height: storeys, period and height_ratio, or modes.
 
-    - height_ratio: z/H: height of the wall over that of the building (-); 0 is the ground, at least 0, at
-      most 1.
+    - height_ratio: z/H: height of the wall over that of the building (-), 0 on the ground; with several
+      hinge_levels one for each.
     - modes: Modes at the wall's place, the first first.
     - period: First period T₁ [s], above 0.
     - storeys: Number of storeys n, at least 1.
     """
 
-    height_ratio: float
+    height_ratio: float | Sequence[float]
     modes: Sequence[Mode]
     period: float
     storeys: int

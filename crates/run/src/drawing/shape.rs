@@ -61,7 +61,7 @@ impl Shape {
             let (outer, inner) = shape.faces(shape.height);
             let inside = 0.5 * (outer + inner) - parameters.overburden_eccentricity;
             let height = shape.height;
-            shape.overburden = Some(Load { force, height, inside, moving_mass: 0.0, thrust: 0.0 });
+            shape.overburden = Some(Load::resting(force, height, inside));
         }
         shape
     }
@@ -103,12 +103,12 @@ impl Shape {
         let inner = if arm_inner == COMPUTED { arm } else { arm_inner };
         let toes = [0.0, arm + inner];
         let weight = (force > 0.0).then(|| {
-            let moving_mass = parameters.load_mass * gravity / force;
-            Load { force, height: parameters.load_height, inside: load_arm, moving_mass, thrust: 0.0 }
+            let moving_mass = Some(parameters.load_mass * gravity / force);
+            Load { moving_mass, ..Load::resting(force, parameters.load_height, load_arm) }
         });
         let thrust = (parameters.thrust != 0.0).then(|| {
             let (height, thrust) = (parameters.thrust_height, parameters.thrust);
-            Load { force: 0.0, height, inside: arm, moving_mass: 0.0, thrust }
+            Load { thrust, ..Load::resting(0.0, height, arm) }
         });
         let centroid = Centroid { mass: wall.body().mass, x: arm, z: wall.body().centroid_height };
         Self {

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::spectrum::{self, At};
 use super::{ActivationCheck, DisplacementCheck};
 use crate::circolare::curve::Curve;
-use crate::circolare::curve::ledger::{OfSide, gives};
+use crate::circolare::curve::ledger::{Names, OfSide, gives};
 use crate::circolare::statement::states::StateStatement;
 use crate::ntc::demand::{Demand, LONGEST_PERIOD};
 use crate::words::ledger::{Ledger, Quantity, Unit};
@@ -127,7 +127,8 @@ impl ActivationCheck {
         let demand = if q == 1.0 { "S_a" } else { "S_a/q" };
         let (own, target) = (curve.own_symbol(), of.side.statement.target);
         let factor = if target == 1.0 { "" } else { "ζ_t " };
-        let equation = format!("N = max[0; ({factor}FC {demand} − {own}) (W + 2 r O) e*/(g 2 y/h)]");
+        let Names { pushed, lever, .. } = curve.names();
+        let equation = format!("N = max[0; ({factor}FC {demand} − {own}) {pushed} e*/(g {lever})]");
         let words = say! {
             "Required force for ζ_E = {target}, {check}",
             "Tiro richiesto per ζ_E = {target}, {check}", target, check
@@ -226,18 +227,20 @@ impl DisplacementCheck {
 
     /// The formula behind `a(d)` of the line of the wall with the force of its tie; empty where a law of
     /// another form has the curve.
-    fn on_curve(&self, of: OfSide<'_>, curve: &Curve, ledger: &mut Ledger) -> &'static str {
+    fn on_curve(&self, of: OfSide<'_>, curve: &Curve, ledger: &mut Ledger) -> String {
         let factor = of.statement.confidence_factor;
         let own = curve.a0 * (1.0 - self.d / curve.d0);
         ledger.know(&[("a_0", curve.a0), ("d_0", 1e3 * curve.d0)]);
         if gives(own / factor, self.a) {
-            return " = a_0 (1 − d/d_0)/FC";
+            return " = a_0 (1 − d/d_0)/FC".to_owned();
         }
         let force = self.tie.map_or(0.0, |tie| tie.force);
-        let lever = 2.0 * of.parameters.tie_height / of.parameters.height;
+        let Names { pushed, lever, .. } = curve.names();
         ledger.know(&[("N", 1e-3 * force)]);
-        let is_tied = gives((own + curve.of_force(lever * force)) / factor, self.a);
-        if is_tied { " = [a_0 (1 − d/d_0) + (2 y/h) N g/((W + 2 r O) e*)]/FC" } else { "" }
+        let pull = curve.tie().map_or(0.0, |tie| tie.lever * force);
+        let is_tied = gives((own + curve.of_force(pull)) / factor, self.a);
+        let formula = || format!(" = [a_0 (1 − d/d_0) + ({lever}) N g/({pushed} e*)]/FC");
+        is_tied.then(formula).unwrap_or_default()
     }
 
     /// Adds the demand of displacement: both terms where there are two.

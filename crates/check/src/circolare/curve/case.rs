@@ -1,10 +1,12 @@
 //! A wall as the static checks take it.
 
+use std::borrow::Cow;
+
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::{ForceLaw, Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
 
-use super::sizes;
+use super::{level, sizes};
 use crate::circolare::statement::Statement;
 use crate::circolare::statement::states::{Source, StateStatement};
 use crate::circolare::statement::table::{Activation, Hinge, Rocks};
@@ -21,7 +23,9 @@ pub(crate) struct Case<'a> {
     pub(crate) statement: &'a Statement,
     /// Its parameters, with the sides, the bar and the rupture of the tie that the check states.
     pub(crate) parameters: Parameters,
-    pub(crate) floors: Option<&'a Floors>,
+    /// The place of the level in `hinge_levels` above which the wall turns.
+    pub(crate) level: usize,
+    pub(crate) floors: Option<Cow<'a, Floors>>,
     pub(crate) activation: Activation,
     /// r O \[N\].
     pub(crate) moved: f64,
@@ -38,38 +42,60 @@ pub(crate) struct Case<'a> {
 impl<'a> Case<'a> {
     /// # Errors
     /// [`CheckError`] of statements that are missing or do not fit the wall.
-    pub(crate) fn new(statement: &'a Statement, subject: Subject<'a>) -> Result<Self, CheckError> {
-        subject.check_shape()?;
-        let mut parameters = statement.with_bar(subject.parameters)?;
+    pub(crate) fn new(
+        statement: &'a Statement,
+        subject: Subject<'a>,
+        level: usize,
+    ) -> Result<Self, CheckError> {
+        let parameters = statement.with_bar(subject.parameters)?;
         sizes::check(&parameters)?;
+        let mut parameters = level::above(&parameters, statement.hinge_levels[level])?;
         parameters.rocking = statement.table.rocking.map_or(parameters.rocking, Rocks::rocking);
         // in the check a tie without a plastic elongation is brittle
         if parameters.tie_strength > 0.0 && parameters.tie_ultimate < 0.0 {
             parameters.tie_ultimate = 0.0;
         }
+        level::check_body(&parameters)?;
         let activation = activation(&parameters, statement)?;
         stated(&parameters, activation, subject.assumed)?;
         set_back_once(&parameters, statement)?;
         let moved = moved_overburden(&parameters, statement)?;
         let is_strip = parameters.mechanism == Mechanism::VerticalSpanning;
         let rule = is_strip.then(|| statement.hinge_of(subject.assumed)).transpose()?;
-        let floors = subject.floors;
+        let floors = match subject.floors {
+            Some(floors) if level > 0 => Some(Cow::Owned(floors.raised(level)?)),
+            floors => floors.map(Cow::Borrowed),
+        };
         let young_modulus = statement.table.young_modulus;
-        let body = Statics::new(&Parameters { hinge_ratio: 0.5, ..parameters.clone() })?;
+        // the bodies of a rectangle are alike on both sides with any hinge
+        let is_given = rule == Some(Hinge::Given) && !parameters.is_rectangle();
+        let hinge_ratio = if is_given { parameters.hinge_ratio } else { 0.5 };
+        let body = Statics::new(&Parameters { hinge_ratio, ..parameters.clone() })?;
         let body = body.body();
         let one_tied = parameters.tie_stiffness > 0.0 && parameters.tie_side != TieSide::Both;
         let alike = body.strength.positive == body.strength.negative
             && parameters.rocking == Rocking::TwoSided
-            && !one_tied;
+            && !one_tied
+            && [1.0, -1.0].iter().all(|sign| level::left_out(&parameters, *sign) == 0.0);
         let shared = None;
-        let mut case =
-            Self { statement, parameters, floors, activation, moved, young_modulus, rule, alike, shared };
+        let mut case = Self {
+            statement,
+            parameters,
+            level,
+            floors,
+            activation,
+            moved,
+            young_modulus,
+            rule,
+            alike,
+            shared,
+        };
         let by_hinge = |given: &StateStatement| match &given.source {
-            Source::Code(_) => given.modes.is_empty(),
+            Source::Code(_) => given.modes_at(level).is_none(),
             Source::Points(..) => false,
             Source::Records => true,
         };
-        if !(is_strip && floors.is_some() && statement.states.iter().flatten().any(by_hinge)) {
+        if !(is_strip && case.floors.is_some() && statement.states.iter().flatten().any(by_hinge)) {
             case.shared = Some(case.demands_at(body)?);
         }
         Ok(case)
@@ -98,20 +124,20 @@ impl<'a> Case<'a> {
 
     /// The demands at the place of the wall with this body.
     pub(crate) fn demands_at(&self, body: &Body) -> Result<Demands, CheckError> {
+        let floors = self.floors.as_deref();
         let mut demands = [const { None }; 3];
         for given in self.statement.states.iter().flatten() {
             let demand = match &given.source {
                 Source::Code(ground) => {
-                    let modes = if given.modes.is_empty() && !self.statement.is_on_ground() {
-                        modes_of_storeys(self.floors, given.building_period, body)?
-                    } else {
-                        given.modes.clone()
+                    let modes = match given.modes_at(self.level) {
+                        None => modes_of_storeys(floors, given.building_period, body)?,
+                        Some(modes) => modes.to_vec(),
                     };
                     let bounded = self.statement.bounds_heights();
                     given.floor(*ground, modes, bounded)?.map_or(Demand::Ground(*ground), Demand::Floor)
                 }
                 Source::Points(points, damping) => Demand::Points(points.clone(), *damping),
-                Source::Records => Demand::Records(self.statement.records.felt(self.floors, body)?),
+                Source::Records => Demand::Records(self.statement.records.felt(floors, body)?),
             };
             demands[given.state as usize] = Some(demand);
         }
@@ -157,6 +183,12 @@ fn activation(parameters: &Parameters, statement: &Statement) -> Result<Activati
         // transverse walls hold it
         None if parameters.rocking != Rocking::TwoSided && !has_plateau(parameters) => Ok(Activation::Rigid),
         Some(Activation::Law) if !is_rigid => Ok(Activation::Law),
+        Some(Activation::Beam) if !level::is_uniform(parameters) => {
+            let message = "before_activation = \"beam\" has T0 of a uniform beam [C8.7.1.7]: of one part \
+                           without openings, and of loads whose mass does not move; state \"rigid\" or \
+                           \"law\"";
+            Err(CheckError::value(&["before_activation"], message))
+        }
         Some(given @ (Activation::Rigid | Activation::Beam)) if !has_plateau(parameters) => Ok(given),
         _ => {
             let message = "before_activation is missing, or does not go with the law of the wall: state \

@@ -1,5 +1,7 @@
 //! What is said of the numbers of a curve.
 
+mod body;
+
 use std::f64::consts::TAU;
 
 use rocking_wall::variables::{EccentricityMode, Mechanism};
@@ -12,6 +14,8 @@ use crate::circolare::statement::table::Activation;
 use crate::words::ledger::{Ledger, Quantity, Unit};
 use crate::words::names::Side;
 use crate::words::say;
+
+pub(in crate::circolare) use body::Names;
 
 /// Share by which a formula may differ from the number that it explains: rounding only \[-\].
 const ROUNDING: f64 = 1e-9;
@@ -44,6 +48,7 @@ impl OfSide<'_> {
         let (w, o, h1) = (1e-3 * body.weight, 1e-3 * body.overburden, body.hinge_height);
         let pushed = 1e-3 * curve.pushed_weight;
         let above = w * (1.0 - h1 / body.height) + o;
+        let with_e_star = pushed * curve.e_star;
         let mut ledger = Ledger::default();
         ledger.know(&[
             ("ρ", parameters.density),
@@ -60,9 +65,9 @@ impl OfSide<'_> {
             ("(W + O)", w + o),
             ("(W_2 + O)", above),
             ("(W + 2 r O)", pushed),
-            ("((W + 2 r O) e*)", pushed),
-            ("[(W + 2 r O) e*]", pushed),
-            ("(W + 2 r O) e*", pushed),
+            ("((W + 2 r O) e*)", with_e_star),
+            ("[(W + 2 r O) e*]", with_e_star),
+            ("(W + 2 r O) e*", with_e_star),
             ("(d/u)", curve.d_per_u),
             ("u_0", 1e3 * curve.d0 / curve.d_per_u),
             ("k_0", 1e-3 * curve.acting_force * curve.d_per_u / curve.d0),
@@ -78,6 +83,7 @@ impl OfSide<'_> {
             ("e_p", 1e3 * parameters.tie_ultimate),
             ("y", parameters.tie_height),
         ]);
+        curve.know_contact(*self, &mut ledger);
         ledger
     }
 }
@@ -85,12 +91,30 @@ impl OfSide<'_> {
 impl Curve {
     /// Adds the numbers of one side, from the force to the curve.
     pub(in crate::circolare) fn add_to(&self, of: OfSide<'_>, ledger: &mut Ledger) {
-        let (body, parameters) = (self.body(), of.parameters);
         ledger.begin("", "curve");
         if let Some(at) = self.hinge {
             let words = say!("Place of the hinge", "Posizione della cerniera");
             ledger.add(Quantity::new("hinge_ratio", "h_1/h", Unit::NONE, at, words).unlisted());
         }
+        if self.is_plain() {
+            self.add_rectangle(of, ledger);
+        } else {
+            self.add_sums(of, ledger);
+        }
+        self.add_zero(ledger);
+        let words = if self.tie().is_some() {
+            say!("Zero of the curve of the wall without a tie", "Annullamento della curva senza catena")
+        } else {
+            say!("Zero of the curve", "Annullamento della curva")
+        };
+        let zero = Quantity::new("d0", "d_0 = (d/u) u_0", Unit::MILLIMETRES, self.d0, words);
+        ledger.add(zero.at("C8.7.1.2.1.6"));
+        self.add_elastic_branch(of, ledger);
+    }
+
+    /// Adds the numbers of a rectangle, from its weight to d/u.
+    fn add_rectangle(&self, of: OfSide<'_>, ledger: &mut Ledger) {
+        let (body, parameters) = (self.body(), of.parameters);
         let (unit, value) = (Unit::SPECIFIC_WEIGHT, parameters.density * parameters.gravity);
         let words = say!("Specific weight", "Peso specifico");
         ledger.add(Quantity::new("", "γ = ρ g {10⁻³}", unit, value, words));
@@ -117,15 +141,6 @@ impl Curve {
             "Rapporto tra spostamento spettrale e spostamento u"
         };
         ledger.add(Quantity::new("d_per_u", ratio, Unit::NONE, self.d_per_u, words).at("[C8.7.1.4]"));
-        self.add_zero(ledger);
-        let words = if self.tie().is_some() {
-            say!("Zero of the curve of the wall without a tie", "Annullamento della curva senza catena")
-        } else {
-            say!("Zero of the curve", "Annullamento della curva")
-        };
-        let zero = Quantity::new("d0", "d_0 = (d/u) u_0", Unit::MILLIMETRES, self.d0, words);
-        ledger.add(zero.at("C8.7.1.2.1.6"));
-        self.add_elastic_branch(of, ledger);
     }
 
     /// Adds F0 of Eq. (1) with the hinges at the edges, where the side has them, and `F_act`.
@@ -176,7 +191,9 @@ impl Curve {
     fn add_zero(&self, ledger: &mut Ledger) {
         let body = self.body();
         let (w, o) = (body.weight, body.overburden);
-        let (k, formula) = if body.mechanism == Mechanism::Parapet {
+        let (k, formula) = if !self.is_plain() {
+            (body.geometric_stiffness, if body.is_strip() { "k_0" } else { "k_0 = K_θ/z_G²" })
+        } else if body.mechanism == Mechanism::Parapet {
             (2.0 * (w + 2.0 * o) / body.height, "k_0 = 2 (W + 2 O)/h")
         } else {
             let [h1, h2] = [body.hinge_height, body.height - body.hinge_height];

@@ -16,6 +16,8 @@
 pub(crate) mod case;
 pub(crate) mod hinge;
 pub(super) mod ledger;
+pub(crate) mod level;
+mod pushed;
 pub(crate) mod set_back;
 mod sizes;
 pub(crate) mod tie;
@@ -28,6 +30,7 @@ use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
 use super::statement::table::Activation;
 use crate::error::CheckError;
 use case::{Case, has_plateau};
+use pushed::Pushed;
 use set_back::SetBack;
 
 /// κ of [C8.7.1.7], for a cantilever and for vertical bending \[-\].
@@ -58,6 +61,8 @@ pub struct Curve {
     pub set_back: SetBack,
     /// F0'/F0 of hinges that are set back \[-\].
     pub a3: f64,
+    /// The weights that are pushed.
+    pushed: Pushed,
     /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
     pub pushed_weight: f64,
     /// `F_act`, the force at u = 0 of the line from `a_0` to `d_0` \[N\].
@@ -109,7 +114,7 @@ impl Curve {
         hinge: Option<f64>,
         tied: bool,
     ) -> Result<Self, CheckError> {
-        let mut parameters = case.parameters.clone();
+        let mut parameters = level::on_side(&case.parameters, sign);
         if let Some(hinge) = hinge {
             parameters.hinge_ratio = hinge;
         }
@@ -123,14 +128,8 @@ impl Curve {
         }
         let body = statics.body();
         let gravity = body.weight / body.mass;
-        let moved = case.moved;
-        let (pushed_weight, d_per_u) = match body.mechanism {
-            Mechanism::Parapet | Mechanism::RigidBody => {
-                let pushed = body.weight + 2.0 * moved;
-                (pushed, pushed / (body.weight + moved))
-            }
-            Mechanism::VerticalSpanning => (body.weight, 0.5),
-        };
+        let pushed = Pushed::new(body, &parameters, case.moved, case.statement.table.resultants);
+        let Pushed { work: pushed_weight, e_star, d_per_u, .. } = pushed;
         let zero = statics.force_end().of(sign);
         if !(zero > 0.0 && zero.is_finite()) {
             let message = "the restoring force never falls to zero, so d_0 does not exist";
@@ -142,7 +141,7 @@ impl Curve {
         } else {
             statics.softening_force(sign, 0.0).min(body.strength.of(sign))
         };
-        let mass = (body.weight + moved) / gravity;
+        let mass = e_star * (pushed.weight / gravity);
         let alpha0 = acting_force / pushed_weight;
         let mut curve = Self {
             statics,
@@ -156,17 +155,18 @@ impl Curve {
             hinge,
             set_back,
             a3,
+            pushed,
             pushed_weight,
             acting_force,
             alpha0,
-            e_star: 1.0,
+            e_star,
             mass,
-            a0: alpha0 * gravity,
+            a0: alpha0 * gravity / e_star,
             d0: d_per_u * zero,
             d_per_u,
             t0: 0.0,
             dy: 0.0,
-            ay: alpha0 * gravity,
+            ay: alpha0 * gravity / e_star,
         };
         curve.set_elastic_branch(&parameters, case.young_modulus);
         Ok(curve)
@@ -194,7 +194,7 @@ impl Curve {
 
     /// The acceleration of a force at the place of F, without FC: g F/(s1 e*) \[m/s²\].
     pub(super) fn of_force(&self, force: f64) -> f64 {
-        self.gravity * force / self.pushed_weight
+        self.gravity * force / (self.pushed_weight * self.e_star)
     }
 
     /// T0 of the wall beside a tie that is tight from the start \[s\].

@@ -47,11 +47,29 @@ impl Statement {
         })
     }
 
+    /// Checks the body above each level; the one with the least `ζ_E` has the others beside it.
     fn check_wall<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
-        let case = Case::new(self, subject)?;
+        let level = |index| {
+            self.check_body(subject, index).map_err(|error| match self.hinge_levels.len() {
+                1 => error,
+                _ => error.at_level(self.hinge_levels[index]),
+            })
+        };
+        let mut levels = (0..self.hinge_levels.len()).map(level).collect::<Result<Vec<_>, _>>()?;
+        let zeta = |index: &usize| levels[*index].outcome.governs.zeta;
+        let least = (0..levels.len()).min_by(|a, b| zeta(a).total_cmp(&zeta(b))).unwrap_or(0);
+        let passed = levels.iter().all(|level| level.outcome.passed);
+        let mut governing = levels.remove(least);
+        governing.outcome.passed = passed;
+        governing.beside = levels;
+        Ok(governing)
+    }
+
+    fn check_body<'a>(&'a self, subject: Subject<'a>, level: usize) -> Result<Checked<'a>, CheckError> {
+        let case = Case::new(self, subject, level)?;
         let sides = SideVerdicts::new(&case)?;
         let dynamic = dynamic::check(subject.parameters, &case, &sides)?;
-        let governs = governing(self, &sides, dynamic.as_ref())?;
+        let governs = governing(&case, &sides, dynamic.as_ref())?;
         let passed = governs.zeta >= self.target
             && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
         // the wall as it is drawn: with the hinge of the side that governs
@@ -60,11 +78,12 @@ impl Statement {
         parameters.hinge_ratio = hinge.unwrap_or(parameters.hinge_ratio);
         let wall = drawn(&parameters)?;
         let demands = case.demands_at(wall.body())?;
-        let (alike, rule, floors) = (case.alike, case.rule, subject.floors);
-        let target = self.target;
+        let (alike, rule, floors) = (case.alike, case.rule, case.floors.clone());
+        let (target, beside) = (self.target, Vec::new());
         let outcome =
             Outcome { code: NAME, passed, target, governs, alike, sides, dynamic, warnings: Vec::new() };
-        let mut checked = Checked { statement: self, parameters, floors, wall, rule, demands, outcome };
+        let mut checked =
+            Checked { statement: self, parameters, level, floors, wall, rule, demands, outcome, beside };
         checked.outcome.warnings = warnings::all(&case, &checked, subject.parameters);
         Ok(checked)
     }
@@ -72,17 +91,19 @@ impl Statement {
 
 /// Returns the smallest `ζ_E` of the checks that decide.
 fn governing(
-    statement: &Statement,
+    case: &Case<'_>,
     sides: &SideVerdicts,
     dynamic: Option<&DynamicCheck>,
 ) -> Result<Governs, CheckError> {
+    let statement = case.statement;
+    let level = statement.stated_level(case.level);
     let is_dynamic = statement.table.method == Method::Dynamic;
     let mut all = Vec::new();
     for (side, verdict) in sides.iter() {
         for (limit_state, zeta) in Deciding::ALL.into_iter().zip(verdict.checks.zetas()) {
             let by_runs = is_dynamic && limit_state != Deciding::Sld;
             if statement.decides(limit_state) && !by_runs && zeta.is_finite() {
-                all.push(Governs { side, limit_state, zeta });
+                all.push(Governs { side, limit_state, level, zeta });
             }
         }
     }
@@ -94,6 +115,7 @@ fn governing(
         let by_runs = dynamic.states().map(|(state, found)| Governs {
             side: found.judged.side,
             limit_state: if state == LimitState::Slc { Deciding::Slc } else { Deciding::Slv },
+            level,
             zeta: found.zeta,
         });
         all.extend(by_runs);

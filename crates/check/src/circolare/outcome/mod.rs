@@ -1,9 +1,12 @@
 //! The outcome of a check.
 
 pub(crate) mod check;
+mod loads;
 mod ranges;
 mod turns;
 pub(crate) mod warnings;
+
+use std::borrow::Cow;
 
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Parameters, Wall};
@@ -23,7 +26,9 @@ pub struct Checked<'a> {
     pub(super) statement: &'a Statement,
     /// Its parameters as the check takes them, with the hinge of the side that governs.
     pub(super) parameters: Parameters,
-    pub(super) floors: Option<&'a Floors>,
+    /// The place of the level in `hinge_levels` above which it turns.
+    pub(super) level: usize,
+    pub(super) floors: Option<Cow<'a, Floors>>,
     pub(super) wall: Wall,
     /// Where the hinge of a strip is.
     pub(super) rule: Option<Hinge>,
@@ -31,9 +36,28 @@ pub struct Checked<'a> {
     pub(super) demands: Demands,
     /// The outcome.
     pub outcome: Outcome,
+    /// The bodies above the other levels, the lowest first.
+    pub beside: Vec<Self>,
 }
 
 impl Checked<'_> {
+    /// The bodies above all levels, the lowest first.
+    pub(super) fn levels(&self) -> Vec<&Self> {
+        let mut levels: Vec<&Self> = [self].into_iter().chain(&self.beside).collect();
+        levels.sort_by_key(|checked| checked.level);
+        levels
+    }
+
+    /// z/H of the table `[check.building]` \[-\].
+    pub(super) fn height_ratio(&self) -> Option<f64> {
+        self.statement.table.building.as_ref()?.height_ratio.as_ref()?.at(self.level)
+    }
+
+    /// The level above which the wall turns, where levels are stated \[m\].
+    pub(super) fn stated_level(&self) -> Option<f64> {
+        self.statement.stated_level(self.level)
+    }
+
     /// The sides that differ.
     pub(super) fn sides(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
         self.outcome.sides.iter().take(if self.outcome.alike { 1 } else { 2 })
@@ -87,6 +111,9 @@ pub struct Governs {
     pub side: Side,
     /// The limit state, and `SLV_q` for the linear check.
     pub limit_state: Deciding,
+    /// Height above the base of the level above which the wall turns, where levels are stated \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<f64>,
     /// `ζ_E` \[-\].
     #[serde(rename = "zeta_E")]
     pub zeta: f64,

@@ -6,7 +6,7 @@ use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::{Checked, ranges, turns};
+use super::{Checked, loads, ranges, turns};
 use crate::circolare::checks::DisplacementCheck;
 use crate::circolare::checks::sides::{LeastAlpha0, SideVerdict, SideVerdicts};
 use crate::circolare::curve::Curve;
@@ -23,12 +23,14 @@ const LOWER: f64 = 0.01;
 
 /// All warnings of a check in their order, each once; `scene` is the wall of the runs.
 pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) -> Vec<Sentence> {
-    let Checked { statement, parameters, floors, wall, demands, outcome, .. } = checked;
+    let Checked { statement, parameters, wall, demands, outcome, .. } = checked;
+    let floors = checked.floors.as_deref();
     let (sides, governs) = (&outcome.sides, outcome.governs.side);
     // sides that are alike are named once
     let differing = || sides.iter().take(if case.alike { 1 } else { 2 });
-    let ordered: [Vec<Sentence>; 11] = [
-        of_statement(statement, parameters, *floors, wall),
+    let ordered: [Vec<Sentence>; 12] = [
+        of_statement(statement, parameters, floors, wall),
+        loads::warnings(case, outcome.dynamic.is_some()),
         ranges::of_statement(statement),
         of_demands(statement, demands),
         differing().flat_map(|(side, verdict)| of_hinges(case, side, verdict)).collect(),

@@ -10,7 +10,7 @@ use crate::words::formulas::formula;
 use crate::words::ledger::Ledger;
 use crate::words::markup::table;
 use crate::words::names::{Deciding, Sides};
-use crate::words::{Language, Sentence, Written, joined, say, shown, side as told_side};
+use crate::words::{Language, Sentence, Written, above, joined, say, shown, side as told_side};
 
 pub(super) fn section(
     case: &Checked<'_>,
@@ -18,9 +18,9 @@ pub(super) fn section(
     language: Language,
 ) -> Result<String, CheckError> {
     let mut text = by_side(case, sides, language, |one| {
-        one.ledger.markup("curve", language) + &at_hinges(case, one, language)
+        one.ledger.markup("curve", language) + &at_hinges(one, language)
     });
-    for SideLedger { of, verdict, .. } in sides {
+    for SideLedger { level: case, of, verdict, .. } in sides {
         if verdict.checks.slv.is_some() || verdict.checks.slc.is_some() {
             text += &figure(case, *of, verdict, language)?.html(language);
             if let Some(d) = cut(verdict) {
@@ -42,7 +42,7 @@ pub(in crate::circolare) fn figure(
         "Capacity curve over the demand, {side}. A wall passes by displacement where its circle lies right \
          of the triangle of the same colour.",
         "Curva di capacità e domanda, {side}. La verifica in spostamento è soddisfatta se il cerchio è a \
-         destra del triangolo dello stesso colore.", side = told_side(of)
+         destra del triangolo dello stesso colore.", side = above(told_side(of), case.stated_level())
     }];
     for (state, check) in side.by_displacement() {
         // the curve is that of the hinge that governs
@@ -82,21 +82,21 @@ fn detail(
     let caption = say! {
         "The beginning of the curve, {side}, up to `d` = {d} mm: where the tie pulls and gives way.",
         "L'inizio della curva, {side}, fino a `d` = {d} mm: dove la catena tira e cede.",
-        side = told_side(of), d = Written(shown(1e3 * cut))
+        side = above(told_side(of), case.stated_level()), d = Written(shown(1e3 * cut))
     };
     let plot = over_demand(side, case.statement, &case.demands, Some(cut), language)?;
     Ok(Figure { caption: caption.markup(language), plot })
 }
 
 /// The numbers of a side at the hinges of all checks, by the formulas of the one that governs.
-fn at_hinges(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> String {
+fn at_hinges(one: &SideLedger<'_>, language: Language) -> String {
     let side = one.verdict;
     if side.others.is_empty() {
         return String::new();
     }
     let hinges = Deciding::ALL.into_iter().filter_map(|check| Some((check, side.checks.hinge(check)?)));
     let at = |(check, hinge)| {
-        let (of, curve) = (case.of(one.side), side.at(Some(hinge)));
+        let (of, curve) = (one.level.of(one.side), side.at(Some(hinge)));
         let mut ledger = of.ledger(curve);
         curve.add_to(of, &mut ledger);
         (check, ledger)

@@ -4,6 +4,7 @@ pub(super) mod capacity;
 pub(crate) mod figure;
 mod hinges;
 mod inputs;
+mod levels;
 mod notes;
 pub(super) mod overview;
 pub(super) mod readings;
@@ -27,21 +28,33 @@ use crate::words::{Language, Sentence, say};
 
 /// A side that differs, with its numbers.
 struct SideLedger<'a> {
+    /// The body above the level whose side it is.
+    level: &'a Checked<'a>,
     of: Sides,
     side: Side,
     verdict: &'a SideVerdict,
     ledger: Ledger,
 }
 
-/// The sides that differ.
-fn ledgers<'a>(case: &'a Checked<'_>) -> Vec<SideLedger<'a>> {
-    let of = |(side, verdict)| SideLedger {
-        of: case.which(side),
-        side,
-        verdict,
-        ledger: case.ledger(side, verdict),
+impl SideLedger<'_> {
+    /// The name of the side and of the level, as a heading.
+    fn head(&self, language: Language) -> String {
+        side_head(self.of, self.level.stated_level(), language)
+    }
+}
+
+/// The sides that differ, of each level.
+fn ledgers<'a>(case: &'a Checked<'a>) -> Vec<SideLedger<'a>> {
+    let of_level = |level: &'a Checked<'a>| {
+        level.sides().map(move |(side, verdict)| SideLedger {
+            level,
+            of: level.which(side),
+            side,
+            verdict,
+            ledger: level.ledger(side, verdict),
+        })
     };
-    case.sides().map(of).collect()
+    case.levels().into_iter().flat_map(of_level).collect()
 }
 
 /// What is to be said of each side, under its name where they differ; nothing of one is left out.
@@ -54,8 +67,8 @@ fn by_side(
     let mut text = String::new();
     for one in sides {
         let own = say(one);
-        if !own.is_empty() && !case.outcome.alike {
-            text += &side_head(one.of, language);
+        if !own.is_empty() && !case.is_one() {
+            text += &one.head(language);
         }
         text += &own;
     }
@@ -112,7 +125,7 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
         for one in &sides {
             let lines = one.ledger.markup(check.name(), language);
             if !lines.is_empty() {
-                let head = if case.outcome.alike { String::new() } else { side_head(one.of, language) };
+                let head = if case.is_one() { String::new() } else { one.head(language) };
                 text.extend(["<div class=\"together\">", &head, &lines, "</div>\n"]);
             }
         }

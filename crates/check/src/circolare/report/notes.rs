@@ -10,7 +10,7 @@ use crate::circolare::runs::DynamicState;
 use crate::circolare::runs::dynamic::DynamicCheck;
 use crate::circolare::statement::table::Hinge;
 use crate::words::names::LimitState;
-use crate::words::{Sentence, Written, apart, at_most, fixed, joined, passed, say, side as told_side};
+use crate::words::{Sentence, Written, apart, at_most, fixed, joined, passed, say};
 
 /// The least `ζ_E` of a retrofit (adeguamento), NTC 8.4.3 c) and e) \[-\].
 const LEAST_OF_RETROFITS: f64 = 0.80;
@@ -34,9 +34,9 @@ impl Checked<'_> {
                  L'esito è riferito a ζ_E ≥ {against}", against = self.against()
             },
             say! {
-                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; one resultant per body (C8.7.1.1), e* = 1.",
-                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; una risultante per ogni corpo (C8.7.1.1), e* = \
-                 1.", factor
+                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; {resultants}",
+                "Circolare 7/2019, C8.7.1.2.1; FC = {factor}; {resultants}",
+                factor, resultants = self.resultants()
             },
             say! {
                 "{deciding}; the other checks are for information.",
@@ -44,8 +44,15 @@ impl Checked<'_> {
             },
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
+        notes.extend(self.levels().into_iter().flat_map(Self::notes_of_level));
+        notes
+    }
+
+    /// What is to be said of a body and its demands.
+    fn notes_of_level(&self) -> Vec<Sentence> {
+        let mut notes = Vec::new();
         for (side, verdict) in self.sides() {
-            let name = told_side(self.which(side));
+            let name = self.told(side);
             let own = self.of_side(verdict);
             notes.extend(own.into_iter().map(|note| say!("{name}: {note}", "{name}: {note}", name, note)));
         }
@@ -53,12 +60,12 @@ impl Checked<'_> {
             let Some(floor) = demand.floor() else { continue };
             if floor.peak_acceleration() > floor.printed_peak() {
                 let [ground, printed] = apart([floor.peak_acceleration(), floor.printed_peak()], 4);
-                notes.push(say! {
+                notes.push(self.of_level(say! {
                     "{state}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = \
                      {printed} m/s² [C7.2.8].",
                     "{state}: in quota è determinante a_g S = {ground} m/s² del terreno, superiore ad a_Z = \
                      {printed} m/s² [C7.2.8].", state = given.state, ground, printed
-                });
+                }));
             }
         }
         notes.extend(self.parameters.weaker_part().map(|part| match part {

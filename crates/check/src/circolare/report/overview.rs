@@ -14,7 +14,7 @@ pub(in crate::circolare) fn of(case: &Checked<'_>, language: Language) -> Vec<(S
     let mut cells = overview(&case.wall, &case.parameters, language);
     let mut cell = |head: String, text: String| cells.push((head, text));
     cell(formula("r"), stated(table.overburden_mass));
-    cell(formula("z/H"), stated(table.building.as_ref().and_then(|building| building.height_ratio)));
+    cell(formula("z/H"), stated(case.height_ratio()));
     let is_held = matches!(table.before_activation, None | Some(Activation::Rigid));
     let held = if is_held { say!("held", "vincolata") } else { say!("free", "libera") };
     cell(say!("before rocking", "prima dell'attivazione").markup(language), held.markup(language));

@@ -1,7 +1,7 @@
 //! The outcome as the verdict that every code has: rows, notes and the numbers of its sides.
 
 use rocking_wall::wall::{Parameters, Wall};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::circolare::checks::DisplacementCheck;
 use crate::circolare::checks::sides::SideVerdict;
@@ -29,12 +29,13 @@ impl<'a> Checked<'a> {
             passed: self.outcome.passed,
             governs: governs.limit_state.name(),
             side: self.which(governs.side),
+            level: governs.level,
             zeta: governs.zeta,
             target: self.statement.target,
             raise: self.raise(),
-            rows: self.rows(),
+            rows: self.levels().into_iter().flat_map(Self::rows).collect(),
             notes: self.notes(),
-            warnings: self.outcome.warnings.clone(),
+            warnings: self.warnings(),
             before: None,
             details: Box::new(self),
         }
@@ -93,20 +94,22 @@ impl<'a> Checked<'a> {
                 ..Row::new(check, title, self.which(judged.side), found.zeta, ends)
             });
         }
-        rows
+        let level = self.stated_level();
+        rows.into_iter().map(|row| Row { level, ..row }).collect()
     }
 
     /// What the raise by SLD replaces: the least ratio by displacement by which a wall that passes would
     /// fail; of a wall that fails, that of the check that governs.
     fn raise(&self) -> Option<Raise> {
-        let Outcome { governs, passed, sides, .. } = &self.outcome;
+        let Outcome { governs, passed, .. } = &self.outcome;
         if self.statement.table.method != Method::Nonlinear {
             return None;
         }
         let mut raised = Vec::new();
-        for (side, verdict) in sides.iter() {
+        for (level, side, verdict) in self.levels().into_iter().flat_map(Self::sides_at) {
             for (state, check) in verdict.by_displacement() {
-                let is_told = *passed || (side, state) == (governs.side, governs.limit_state.state());
+                let governing = (governs.level, governs.side, governs.limit_state.state());
+                let is_told = *passed || (level, side, state) == governing;
                 if is_told && check.raised && check.ratio < self.statement.target {
                     raised.push((check.ratio, state));
                 }
@@ -174,11 +177,7 @@ impl Details for Checked<'_> {
     }
 
     fn json(&self, _: &Verdict<'_>) -> Value {
-        let mut json = json!(self.outcome);
-        for (side, verdict) in self.outcome.sides.iter() {
-            json["sides"][side.key()] = self.ledger(side, verdict).json().into();
-        }
-        json
+        self.all_numbers()
     }
 
     fn ledgers(&self) -> Vec<(Sides, Ledger)> {

@@ -137,12 +137,8 @@ fn ground_of(case: &Checked<'_>, language: Language) -> String {
 fn place(case: &Checked<'_>) -> Option<Sentence> {
     let mut said = Vec::new();
     let building = case.statement.building();
-    if let Some(BuildingTable {
-        storeys: Some(storeys),
-        period: Some(period),
-        height_ratio: Some(ratio),
-        ..
-    }) = building
+    if let (Some(BuildingTable { storeys: Some(storeys), period: Some(period), .. }), Some(ratio)) =
+        (building, case.height_ratio())
     {
         said.push(say! {
             "Building of {storeys} storeys with T_1 = {period} s, linear shape of its first mode, wall at \
@@ -151,14 +147,14 @@ fn place(case: &Checked<'_>) -> Option<Sentence> {
             "Edificio di {storeys} piani con T_1 = {period} s, prima forma modale lineare, parete a `z/H` = \
              {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([check] building, [C7.2.10]); `a = 0,8` e `b = 1,1` \
              nella [C7.2.6]",
-            storeys = storeys.to_string(), period = Written(shown(*period)), ratio = Written(shown(*ratio))
+            storeys = storeys.to_string(), period = Written(shown(*period)), ratio = Written(shown(ratio))
         });
     } else if building.is_some() {
         said.push(say! {
             "Modes of the building as given in [check.building]",
             "Modi dell'edificio come forniti in [check.building]"
         });
-    } else if let Some(floors) = case.floors.filter(|_| !case.statement.is_on_ground()) {
+    } else if let Some(floors) = case.floors.as_ref().filter(|_| !case.statement.is_on_ground()) {
         let of = storeys(floors);
         said.push(say!("The motion of the ground is {of}", "Il moto del suolo è {of}", of));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {

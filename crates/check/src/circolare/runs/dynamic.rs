@@ -17,6 +17,7 @@ use super::{DynamicState, Runs, Thresholds, is_end};
 use crate::circolare::checks::sides::SideVerdicts;
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::case::Case;
+use crate::circolare::curve::level;
 use crate::circolare::statement::table::{Method, Polarities};
 use crate::error::CheckError;
 use crate::ntc::demand::MEAN_COUNTS_FROM;
@@ -95,7 +96,7 @@ impl DynamicCheck {
             let factors = found.runs.iter().map(|run| run.factor);
             let compatibility = found.compatibility.iter();
             warnings.extend(compatibility.flat_map(|own| own.warnings(state.key(), factors.clone())));
-            let stated = case.floors.into_iter().flat_map(Floors::stated_damping);
+            let stated = case.floors.as_deref().into_iter().flat_map(Floors::stated_damping);
             let xi = statement.state(state).and_then(|given| given.building_damping);
             if let Some((xi, stated)) = xi.zip(stated.into_iter().find(|stated| Some(*stated) != xi)) {
                 warnings.push(say! {
@@ -117,7 +118,8 @@ fn divided(
     case: &Case<'_>,
     sides: &SideVerdicts,
 ) -> Result<(Parameters, Option<f64>), CheckError> {
-    let mut parameters = case.statement.with_bar(parameters)?;
+    let whole = case.statement.with_bar(parameters)?;
+    let mut parameters = level::above(&whole, case.statement.hinge_levels[case.level])?;
     let least = |state: LimitState| {
         let found = sides.iter().filter_map(|(_, side)| side.displacement(state));
         found.min_by(|a, b| a.zeta.total_cmp(&b.zeta)).map(|check| check.hinge)
@@ -132,6 +134,7 @@ fn divided(
         parameters.a3_of_sides = Some(Sides { positive: a3(1.0)?, negative: a3(-1.0)? });
     }
     let factor = case.statement.confidence_factor;
+    level::divide_loads(&mut parameters, factor);
     parameters.gravity /= factor;
     parameters.overburden /= factor;
     parameters.tie_stiffness /= factor;
@@ -157,7 +160,7 @@ pub(crate) fn check(
     case: &Case<'_>,
     sides: &SideVerdicts,
 ) -> Result<Option<DynamicCheck>, CheckError> {
-    let (statement, floors) = (case.statement, case.floors);
+    let (statement, floors) = (case.statement, case.floors.as_deref());
     let records = &statement.records;
     if records.named.is_empty() {
         return Ok(None);

@@ -30,7 +30,7 @@ pub(crate) fn level(statement: &Statement, subject: Subject<'_>, name: &str) -> 
         ));
     }
     has_storeys(statement, subject.floors)?;
-    let case = Case::new(statement, subject)?;
+    let case = Case::new(statement, subject, 0)?;
     let mut longest = 0.0_f64;
     // only a scale by the spectrum asks how far it counts
     if statement.table.record_scale == RecordScale::Spectrum {
@@ -75,7 +75,8 @@ pub(crate) fn scaled(
             format!("record_scale = {name:?} needs S of F0 and TC; give them, or record_scale = \"none\"");
         return Err(CheckError::value(&["record_scale"], message));
     };
-    let first = case.floors.map(|floors| given.building_period.unwrap_or(floors.storeys().periods()[0]));
+    let first =
+        case.floors.as_ref().map(|floors| given.building_period.unwrap_or(floors.storeys().periods()[0]));
     let range = statement.table.record_range;
     let range = range
         .unwrap_or([SHORTEST, [2.0, 2.0 * first.unwrap_or(0.0), longest].into_iter().fold(0.0, f64::max)]);

@@ -1,5 +1,7 @@
 //! The table `[check]`, validated.
 
+mod height;
+pub(crate) mod resultants;
 pub(crate) mod site;
 pub(crate) mod states;
 pub(crate) mod table;
@@ -59,6 +61,8 @@ pub struct Statement {
     pub records: Records,
     /// κ `f_d` of the masonry, for which hinges are set back \[Pa\].
     pub(super) masonry: Option<f64>,
+    /// Heights above the base at which the wall may open \[m\].
+    pub(super) hinge_levels: Vec<f64>,
     /// Range in which the hinge of a strip is searched, of h \[-\].
     pub(super) hinge_range: [f64; 2],
     /// What is to be said of the numbers from a grid.
@@ -143,8 +147,10 @@ impl Statement {
         let behaviour_factor = table.behaviour_factor.unwrap_or(2.0);
         let target = table.target.unwrap_or(1.0);
         let (records, displacements) = (Records::default(), Displacements::OF_CODE);
+        let hinge_levels = hinge_levels(&table)?;
         Ok(Self {
             table,
+            hinge_levels,
             confidence_factor,
             behaviour_factor,
             target,
@@ -155,6 +161,11 @@ impl Statement {
             hinge_range,
             site_notes: Vec::new(),
         })
+    }
+
+    /// The height of a level, by its place in `hinge_levels`; `None` where none are stated \[m\].
+    pub(super) fn stated_level(&self, level: usize) -> Option<f64> {
+        self.table.hinge_levels.as_ref().map(|levels| levels[level])
     }
 
     /// Returns where the hinge of a strip is; `assumed` names the parameters that nobody stated.
@@ -292,7 +303,9 @@ impl Statement {
             }
             let (name, period) = match given.building_period {
                 Some(period) => ("building_period", Some(period)),
-                None => ("period of the building", given.modes.first().map(|mode| mode.period)),
+                None => {
+                    ("period of the building", given.modes.iter().flatten().next().map(|mode| mode.period))
+                }
             };
             found.extend(period.and_then(|period| Usual::period(name).warning(period)));
         }
@@ -304,6 +317,22 @@ impl Statement {
     pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
         self.states[state as usize].as_ref()
     }
+}
+
+/// Returns the heights at which the wall may open; the base unless others are stated \[m\].
+fn hinge_levels(table: &CheckTable) -> Result<Vec<f64>, CheckError> {
+    let levels = table.hinge_levels.clone().unwrap_or(vec![0.0]);
+    if levels[0] < 0.0 || levels.windows(2).any(|pair| pair[0] >= pair[1]) {
+        let message =
+            format!("hinge_levels = {levels:?} m are heights above the base: they rise from 0 or above");
+        return Err(CheckError::value(&["hinge_levels"], message));
+    }
+    if levels.len() > 1 && table.slc.as_ref().is_some_and(|slc| slc.displacement.is_some()) {
+        let message = "SLC.displacement is the u of one body; with several hinge_levels leave it out, or \
+                       check one level alone";
+        return Err(CheckError::value(&["SLC", "displacement"], message));
+    }
+    Ok(levels)
 }
 
 /// Returns κ `f_d` = κ `f_m`/(γ FC), C8.7.1.2.1 d) and C8.7.1 \[Pa\].

@@ -4,6 +4,7 @@ use crate::error::CheckError;
 use crate::file::site::check_points;
 use crate::words::names::LimitState;
 
+use super::height::HeightRatio;
 use super::table::{BuildingTable, CheckTable, LimitStateTable, RecordScale};
 use crate::ntc::floor::{FloorSpectrum, Mode};
 use crate::ntc::ground::{G, GroundSpectrum, Hazard, Topography};
@@ -25,8 +26,9 @@ pub struct StateStatement {
     pub building_damping: Option<f64>,
     /// T₁ of the building in this limit state \[s\].
     pub building_period: Option<f64>,
-    /// Modes of the table `[check.building]`, with the period of this limit state; none on the ground.
-    pub modes: Vec<Mode>,
+    /// Modes of the table `[check.building]` with the period of this limit state, of each level at which the
+    /// wall may open; none at the ground, and no level without the table.
+    pub modes: Vec<Vec<Mode>>,
     /// u of a local instability \[m\].
     pub displacement: Option<f64>,
 }
@@ -64,9 +66,12 @@ pub(crate) fn limit_state(
         return Err(refused("displacement", message.into()));
     }
     let source = source(state, ag, given, table)?;
-    let mut modes = table.building.as_ref().map(modes).transpose()?.unwrap_or_default();
-    if let (Some(first), Some(period)) = (modes.first().copied(), given.building_period) {
-        for mode in &mut modes {
+    let levels = table.hinge_levels.as_ref().map_or(1, Vec::len);
+    let of_building = table.building.as_ref().map(|building| modes(building, levels));
+    let mut modes = of_building.transpose()?.unwrap_or_default();
+    let first = modes.iter().flatten().next().copied();
+    if let (Some(first), Some(period)) = (first, given.building_period) {
+        for mode in modes.iter_mut().flatten() {
             mode.period *= period / first.period;
         }
     }
@@ -127,13 +132,33 @@ fn source(
     }
 }
 
-fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
-    match (building.storeys, building.period, building.height_ratio, &building.modes) {
-        _ if building.is_ground() => Ok(Vec::new()),
+/// Returns the modes at each of some levels.
+fn modes(building: &BuildingTable, levels: usize) -> Result<Vec<Vec<Mode>>, CheckError> {
+    match (building.storeys, building.period, &building.height_ratio, &building.modes) {
+        _ if building.is_ground() => Ok(vec![Vec::new(); levels]),
         (Some(storeys), Some(period), Some(height_ratio), None) => {
-            Ok(vec![Mode::of_storeys(storeys, period, height_ratio)])
+            let ratios = match height_ratio {
+                HeightRatio::One(ratio) if levels == 1 || *ratio == 0.0 => vec![*ratio; levels],
+                HeightRatio::Each(ratios) if ratios.len() == levels => ratios.clone(),
+                HeightRatio::One(_) | HeightRatio::Each(_) => {
+                    let given = if let HeightRatio::Each(ratios) = height_ratio { ratios.len() } else { 1 };
+                    let message = format!(
+                        "building: height_ratio has {given} of the {levels} z/H of hinge_levels; give a list \
+                         with one for each, such as [0.0, 0.35], or the number 0 of a building on the ground"
+                    );
+                    return Err(CheckError::value(&["building", "height_ratio"], message));
+                }
+            };
+            // with z/H = 0 the wall is on the ground
+            let at = |ratio| (ratio > 0.0).then(|| Mode::of_storeys(storeys, period, ratio));
+            Ok(ratios.into_iter().map(|ratio| at(ratio).into_iter().collect()).collect())
         }
-        (None, None, None, Some(modes)) if !modes.is_empty() => Ok(modes.clone()),
+        (None, None, None, Some(_)) if levels > 1 => {
+            let message = "building: modes are those of one place; with several hinge_levels give storeys, \
+                           period and a list height_ratio";
+            Err(CheckError::value(&["building", "modes"], message))
+        }
+        (None, None, None, Some(modes)) if !modes.is_empty() => Ok(vec![modes.clone()]),
         _ => {
             let message = "building: give storeys, period and height_ratio, or modes = [{ period, \
                            participation }]";
@@ -143,6 +168,11 @@ fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
 }
 
 impl StateStatement {
+    /// The modes of the table `[check.building]` at a level; `None` without that table.
+    pub(crate) fn modes_at(&self, level: usize) -> Option<&[Mode]> {
+        self.modes.get(level).map(Vec::as_slice)
+    }
+
     /// Makes the spectrum of the code at the place of the wall, with these modes of the building; of the
     /// ground where there is none. `bounded` says that accelerations are not below that of the ground.
     ///

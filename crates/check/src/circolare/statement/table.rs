@@ -7,6 +7,8 @@ use run::records::RecordsTable;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::height::HeightRatio;
+use super::resultants::Resultants;
 use crate::ntc::floor::Mode;
 use crate::ntc::grid::GridUnit;
 use crate::ntc::ground::{Category, Soil, Topography};
@@ -43,6 +45,13 @@ tables! {
         /// Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or as
         /// given; by default at the least α0 where the scene has no `hinge_ratio`.
         pub hinge: Option<Hinge>,
+        /// Heights above the base at which a façade may open \[m\]: the body above each is checked.
+        #[key(minItems = 1, default = vec![0.0])]
+        pub hinge_levels: Option<Vec<f64>>,
+        /// Resultants of the weights: one on each body, or one of its own weight and each moving load.
+        #[serde(default)]
+        #[key(default = "body")]
+        pub resultants: Resultants,
         /// Range of `hinge_ratio` in which the hinge is searched (-).
         #[key(default = HINGE_RANGE.to_vec())]
         pub hinge_range: Option<[f64; 2]>,
@@ -192,9 +201,9 @@ tables! {
         /// First period T₁ \[s\].
         #[key(exclusiveMinimum = 0)]
         pub period: Option<f64>,
-        /// z/H: height of the wall over that of the building (-); 0 is the ground.
-        #[key(minimum = 0, maximum = 1)]
-        pub height_ratio: Option<f64>,
+        /// z/H: height of the wall over that of the building (-), 0 on the ground; with several
+        /// `hinge_levels` one for each.
+        pub height_ratio: Option<HeightRatio>,
         /// Modes at the wall's place, the first first.
         #[key(minItems = 1)]
         pub modes: Option<Vec<Mode>>,
@@ -204,7 +213,8 @@ tables! {
 impl BuildingTable {
     /// Whether it states a wall on the ground: at z/H = 0 of a building of storeys.
     pub(crate) fn is_ground(&self) -> bool {
-        self.storeys.is_some() && self.height_ratio == Some(0.0) && self.modes.is_none()
+        let is_ground = self.height_ratio.as_ref().is_some_and(HeightRatio::is_ground);
+        self.storeys.is_some() && is_ground && self.modes.is_none()
     }
 }
 
@@ -215,6 +225,7 @@ choices!(
     Method,
     RecordScale,
     Hinge,
+    Resultants,
     Rocks,
     HeightDemand,
     AtActivation,

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::Tie;
 use serde_json::json;
 
 use super::{LeastAlpha0, SideVerdict, TieNumbers};
 use crate::circolare::checks::LARGEST_LOSS;
 use crate::circolare::checks::ledger::OfCheck;
 use crate::circolare::curve::TieBreak;
-use crate::circolare::curve::ledger::OfSide;
+use crate::circolare::curve::ledger::{Names, OfSide};
 use crate::circolare::statement::table::STRESS_BLOCK;
 use crate::ntc::demand::Demands;
 use crate::words::ledger::{Ledger, Quantity, Unit};
@@ -24,7 +24,7 @@ impl SideVerdict {
         self.least_alpha0.iter().for_each(|found| found.add_to(&mut ledger));
         self.add_set_back(of, &mut ledger);
         self.curve.add_to(of, &mut ledger);
-        self.add_activation(of, &mut ledger);
+        self.add_activation(&mut ledger);
         self.tie.iter().for_each(|tie| tie.add_to(self, of, &mut ledger));
         let is_tied = self.activation.force > 0.0;
         for (given, demand) in of.statement.demanded(demands) {
@@ -90,11 +90,14 @@ impl SideVerdict {
             }
         };
         let words = say!("Set-back of the hinge at the base", "Arretramento della cerniera alla base");
-        add("base", "t_b = (W + O)/(2 κ f_d l)", set_back.base, words);
+        let is_plain = self.curve.is_plain();
+        let of_base = if is_plain { "t_b = (W + O)/(2 κ f_d l)" } else { "t_b = N_b/(2 κ f_d l)" };
+        add("base", of_base, set_back.base, words);
         let words = say!("Set-back of the intermediate hinge", "Arretramento della cerniera intermedia");
-        add("middle", "t_m = (W_2 + O)/(2 κ f_d l)", set_back.middle, words);
+        let of_middle = if is_plain { "t_m = (W_2 + O)/(2 κ f_d l)" } else { "t_m" };
+        add("middle", of_middle, set_back.middle, words);
         let words = say!("Set-back of the hinge at the top", "Arretramento della cerniera in sommità");
-        add("top", "t_t = O/(2 κ f_d l)", set_back.top, words);
+        add("top", if is_plain { "t_t = O/(2 κ f_d l)" } else { "t_t" }, set_back.top, words);
         if is_set_back {
             ledger.begin("", "set-back");
             let share = set_back.base.max(set_back.middle) / of.parameters.thickness;
@@ -104,24 +107,24 @@ impl SideVerdict {
     }
 
     /// Adds the wall at its activation; with the tie at its strength where that counts.
-    fn add_activation(&self, of: OfSide<'_>, ledger: &mut Ledger) {
-        let Parameters { tie_height, height, gravity, tie_stiffness, .. } = *of.parameters;
+    fn add_activation(&self, ledger: &mut Ledger) {
         let (at, curve) = (self.activation, &self.curve);
-        let lever = 2.0 * tie_height / height;
-        let stiffness = lever * lever * tie_stiffness * gravity / (curve.pushed_weight * curve.d_per_u);
-        let tied = "(2 y/h)² K g/((W + 2 r O) e* d/u)";
+        let slope = curve.tie().map_or(0.0, Tie::slope);
+        let stiffness = curve.of_force(slope) / curve.d_per_u;
+        let Names { pushed, lever, .. } = curve.names();
+        let tied = &*format!("({lever})² K g/({pushed} e* d/u)");
         ledger.begin("activation", "tie");
         let words = say! {
             "Multiplier of activation with the tie at its strength, without FC",
             "Moltiplicatore di attivazione con la catena alla resistenza, senza FC"
         };
-        let equation = "α0 = [F_act + (2 y/h) N_y]/(W + 2 r O)";
+        let equation = format!("α0 = [F_act + ({lever}) N_y]/{pushed}");
         let multiplier = Quantity::new("alpha0", equation, Unit::NONE, at.alpha0, words).at("[C8.7.1.1]");
         let words = say! {
             "Acceleration of activation with the tie at its strength, without FC",
             "Accelerazione di attivazione con la catena alla resistenza, senza FC"
         };
-        let equation = format!("a = {} + (2 y/h) N_y g/[(W + 2 r O) e*]", curve.own_symbol());
+        let equation = format!("a = {} + ({lever}) N_y g/[{pushed} e*]", curve.own_symbol());
         let acceleration = Quantity::new("a", equation, Unit::ACCELERATION, at.acceleration, words);
         let words = say!("Force of the tie at the activation", "Tiro della catena all'attivazione");
         let force = Quantity::new("tie_force", "N", Unit::KILONEWTONS, at.force, words).unlisted();
@@ -170,14 +173,17 @@ impl TieNumbers {
     /// Adds where the tie pulls, yields and breaks, and what its rupture takes.
     fn add_to(&self, side: &SideVerdict, of: OfSide<'_>, ledger: &mut Ledger) {
         let mm = Unit::MILLIMETRES;
+        let Names { per_elongation, .. } = side.curve.names();
         ledger.begin("tie", "tie");
         let words = say!("The tie begins to pull at", "La catena inizia a tirare a");
-        let engaged = Quantity::new("u_engaged", "u_g = g_0 h/(2 y)", mm, self.engaged, words);
+        let engaged =
+            Quantity::new("u_engaged", format!("u_g = g_0 {per_elongation}"), mm, self.engaged, words);
         ledger.add(if self.engaged > 0.0 { engaged } else { engaged.unlisted() });
         let words = say!("The tie reaches its strength at", "La catena raggiunge la resistenza a");
-        ledger.add(Quantity::new("u_yield", "u_y = (N_y/K {10³} + g_0) h/(2 y)", mm, self.yields, words));
+        let equation = format!("u_y = (N_y/K {{10³}} + g_0) {per_elongation}");
+        ledger.add(Quantity::new("u_yield", equation, mm, self.yields, words));
         let words = say!("The tie breaks at", "La catena si rompe a");
-        let equation = "u_r = (N_y/K {10³} + g_0 + e_p) h/(2 y)";
+        let equation = format!("u_r = (N_y/K {{10³}} + g_0 + e_p) {per_elongation}");
         ledger.add(Quantity::new("u_break", equation, mm, self.breaks, words));
         let strength = side.curve.tie().and_then(|tie| tie.strength);
         let of_anchor = strength.zip(side.curve.anchors).map(|(force, anchors)| force / anchors);
