@@ -215,3 +215,49 @@ impl Turn {
 fn bend(t: f64, rate: f64) -> f64 {
     3.0 * t * rate * rate / (1.0 + t * t)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BODY: Turn = Turn {
+        lever: 1.0,
+        offset: 0.3,
+        bodies: 1,
+        diagonals: [1.09; 2],
+        masses: [1.02, 0.0],
+        forces: [0.1, 9.0, 0.0],
+        drag: 0.2,
+        landing: 1.3,
+    };
+
+    /// A motion by the derivatives of u at the time 0, from u itself on.
+    fn at(derivatives: [f64; 5], time: f64) -> KinematicState {
+        let of = |first: usize| {
+            let terms = derivatives[first..].iter().rev().zip((1..=5 - first).rev());
+            // Horner's scheme for Σ dₙ tⁿ/n!
+            terms.fold(0.0, |sum, (derivative, n)| derivative + sum * time / n as f64)
+        };
+        KinematicState { displacement: of(0), velocity: of(1), acceleration: of(2) }
+    }
+
+    /// Where u and its derivatives are positive beyond the upright centroid, nothing cancels in the second
+    /// derivative of what reactions carry, and the bound is its value.
+    #[test]
+    fn the_bound_on_what_reactions_carry_is_sharp() {
+        let derivatives = [0.7, 0.5, 0.8, 1.5, 4.0];
+        let [u, v, a, jerk, snap] = derivatives;
+        let [by_a, by_jerk, by_snap, more] = BODY.carried_curvature([u, u], [v, a]);
+        let bound = by_a * a + by_jerk * jerk + by_snap * snap + more;
+        let carried = |time: f64| BODY.carried(at(derivatives, time));
+        let step = 1e-3;
+        let second = (carried(step) - 2.0 * carried(0.0) + carried(-step)) / (step * step);
+        // of the fourth order in the step, and rounding of 1e-16/1e-6
+        assert!((second / bound - 1.0).abs() < 1e-4, "{second} for {bound}");
+        // with other signs it is less, and without moving loads it is that of ü
+        let other = [0.7, -0.5, 0.8, 1.5, 4.0];
+        let carried = |time: f64| BODY.carried(at(other, time));
+        assert!((carried(step) - 2.0 * carried(0.0) + carried(-step)).abs() / (step * step) < bound);
+        assert_eq!(Turn { drag: 0.0, ..BODY }.carried_curvature([u, u], [v, a]), [0.0, 0.0, 1.0, 0.0]);
+    }
+}
