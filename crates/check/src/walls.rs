@@ -16,7 +16,7 @@ use crate::codes::{CODES, read};
 use crate::error::CheckError;
 use crate::file::CheckFile;
 use crate::words::entry::Entry;
-use crate::words::formulas::markup;
+use crate::words::markup::table_as_cards;
 use crate::words::names::Sides;
 use crate::words::{Language, Sentence, joined, said, say, side};
 
@@ -183,7 +183,7 @@ impl WallVerdicts<'_> {
             Ok(verdict) if verdict.passed => "",
             _ => "fails",
         };
-        self.table_in(language).html_by(class, markup)
+        table_as_cards(&self.table_in(language), class, "")
     }
 
     /// The verdicts by the names of the walls.

@@ -33,7 +33,18 @@ pub(crate) fn report(prepared: &Prepared, language: Language) -> Result<Value, F
         let code = read(&file)?;
         let verdict = code.check(Subject::new(&prepared.scene.parameters))?;
         let (title, report) = (&prepared.scene.title, &ReportTable { language, ..ReportTable::default() });
-        page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records: code.records(), report })
+        page(
+            &verdict,
+            &Origin {
+                title,
+                wall: None,
+                file: &file,
+                set: &[],
+                records: code.records(),
+                report,
+                program: concat!("playground ", env!("CARGO_PKG_VERSION")),
+            },
+        )
     };
     page().map(Value::from).map_err(|error: CheckError| fault_of(NO_FIELD, error.to_string()))
 }

@@ -63,7 +63,18 @@ pub(crate) fn check_report(
         let verdict = code.check(Subject::from(wall))?;
         let title = title.as_deref().unwrap_or(&wall.scene.title);
         let (records, report) = (code.records(), &report);
-        page(&verdict, &Origin { title, wall: None, file: &file, set: &[], records, report })
+        page(
+            &verdict,
+            &Origin {
+                title,
+                wall: None,
+                file: &file,
+                set: &[],
+                records,
+                report,
+                program: concat!("rocking_wall ", env!("PACKAGE_VERSION")),
+            },
+        )
     })?;
     made.map_err(of_check)
 }

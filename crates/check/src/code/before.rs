@@ -4,7 +4,7 @@ use report::table::{Column, Digits, Table};
 use serde_json::{Value, json};
 
 use super::row::Row;
-use crate::words::formulas::markup;
+use crate::words::markup::table_as_cards;
 use crate::words::{Language, Sentence, passed, say};
 
 /// The state before an intervention.
@@ -69,7 +69,7 @@ impl Before {
     /// Both states as markup.
     pub(crate) fn markup(&self, after: &[Row], language: Language) -> String {
         let [said, headline] = [self.said(), self.headline.clone()].map(|said| said.markup(language));
-        let table = self.table(after, language).html_by(|_| "", markup);
+        let table = table_as_cards(&self.table(after, language), |_| "", "");
         format!("<p>{said}: {headline}</p>\n<div class=\"checks\">{table}</div>")
     }
 

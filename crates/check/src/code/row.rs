@@ -2,8 +2,8 @@
 
 use report::number;
 
-use crate::words::Sentence;
 use crate::words::names::Sides;
+use crate::words::{Sentence, shown};
 
 /// A check of one side.
 #[derive(Clone, Debug)]
@@ -77,6 +77,13 @@ impl Ends {
     /// The SI unit.
     pub(super) fn unit(self) -> &'static str {
         if matches!(self, Self::Displacements(_)) { "m" } else { "m/s2" }
+    }
+
+    /// One of both as a report has it.
+    pub(super) fn in_full(self, end: f64) -> String {
+        let (factor, unit) =
+            if matches!(self, Self::Displacements(_)) { (1e3, "mm") } else { (1.0, "m/s²") };
+        format!("{} {unit}", shown(factor * end))
     }
 
     /// One of both for people.

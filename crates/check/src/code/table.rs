@@ -5,8 +5,8 @@ use std::fmt::Write;
 use report::table::{Cell, Column, Digits, Table};
 
 use super::verdict::Verdict;
-use crate::words::formulas::markup;
 use crate::words::ledger::numbers;
+use crate::words::markup::table_as_cards;
 use crate::words::{Language, Sentence, passed, said, say, side};
 
 impl Verdict<'_> {
@@ -80,11 +80,39 @@ impl Verdict<'_> {
         self.table().html_with(|index| self.class(index))
     }
 
-    /// The rows as markup of a report, with formulas.
+    /// The rows as markup of a report, with formulas; remarks stand below, each once.
     pub(crate) fn markup(&self, language: Language) -> String {
-        self.table_in(language).html_by(|index| self.class(index), markup)
+        let mut remarks: Vec<&Sentence> = Vec::new();
+        let mut table = self.table_in(language);
+        let [result, capacity, demand] =
+            [say!("result", "esito"), say!("capacity", "capacità"), say!("demand", "domanda")]
+                .map(|head| head_of(&table, head.of(language)));
+        for (row, cells) in self.rows.iter().zip(&mut table.rows) {
+            // capacities and demands with as many digits as the numbers below
+            for (place, end) in [capacity, demand].into_iter().zip(row.ends.values()) {
+                cells[place] = language.decimal(&row.ends.in_full(end)).into();
+            }
+            if row.remark.is_empty() {
+                continue;
+            }
+            let place = remarks.iter().position(|own| **own == row.remark).unwrap_or_else(|| {
+                remarks.push(&row.remark);
+                remarks.len() - 1
+            });
+            let passed = passed(row.passed);
+            cells[result] = format!("{} ({})", passed.of(language), place + 1).into();
+        }
+        let remark = say!("remark", "osservazione");
+        let mut text = table_as_cards(&table, |index| self.class(index), remark.of(language));
+        let title = say!("Remark", "Osservazione").markup(language);
+        for (index, said) in remarks.iter().enumerate() {
+            let _ =
+                writeln!(text, "<p class=\"foot\">({}) {title}: {}.</p>", index + 1, said.markup(language));
+        }
+        text
     }
 
+    /// The class of a row in pages.
     fn class(&self, index: usize) -> &'static str {
         match (self.rows[index].decides, self.rows[index].passed) {
             (true, true) => "decides",
@@ -113,4 +141,9 @@ impl Verdict<'_> {
         }
         text
     }
+}
+
+/// The place of the last column with a heading.
+fn head_of(table: &Table, heading: &str) -> usize {
+    table.columns.iter().rposition(|column| column.heading == heading).unwrap_or_default()
 }

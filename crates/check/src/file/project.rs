@@ -47,6 +47,24 @@ tables! {
         pub hazard_source: Option<String>,
         /// Notes.
         pub notes: Option<String>,
+        /// Kind of the intervention, such as an improvement (NTC 8.4.2).
+        pub intervention: Option<String>,
+        /// Why these mechanisms are checked: cracks, connections, what holds the wall.
+        pub mechanism: Option<String>,
+        /// Sources of loads and thrusts.
+        pub loads: Option<String>,
+        /// Materials, tests, and what the level of knowledge rests on.
+        pub materials: Option<String>,
+        /// Whether the section is monolithic.
+        pub monolithic: Option<bool>,
+        /// Whether the quality of the masonry excludes that it disintegrates.
+        pub masonry_quality: Option<bool>,
+        /// Whether the connections are as the mechanism takes them.
+        pub connections: Option<bool>,
+        /// Plans, elevations and photographs beside the file (SVG, PNG, JPEG).
+        #[serde(default)]
+        #[key(default = Vec::<String>::new())]
+        pub figures: Vec<String>,
     }
 }
 
@@ -102,6 +120,7 @@ impl ReportTable {
             (say!("Municipality", "Comune"), &self.municipality),
             (say!("Land register", "Dati catastali"), &self.cadastral),
             (say!("Revision", "Revisione"), &self.revision),
+            (say!("Intervention", "Tipo di intervento"), &self.intervention),
             (say!("Source of the hazard", "Fonte dei dati di pericolosità"), &self.hazard_source),
             (say!("Notes", "Note"), &self.notes),
         ];

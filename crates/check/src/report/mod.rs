@@ -1,5 +1,7 @@
 //! The report of a check for a calculation file, in one page: what the reports of all codes share.
 
+mod declared;
+mod software;
 mod walls;
 
 use files::FileError;
@@ -28,7 +30,8 @@ pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckE
     let language = origin.report.language;
     let headline = format!("\n{}", head(verdict, None, language));
     let page = begun(origin.title, verdict, &headline, origin);
-    let page = sections(sheet_head(page, verdict, origin), verdict.details.site(language)?, language);
+    let page = sections(sheet_head(page, verdict, origin), declared::sections(origin)?, language);
+    let page = sections(page, verdict.details.site(language)?, language);
     let page = sections(page, verdict.details.sections(origin)?, language);
     let page = end(page, &verdict.details.symbols(language), &verdict.details.readings(), origin)?;
     Ok(finished(&page, origin.title, origin))
@@ -122,6 +125,8 @@ fn end(
         let markup = paragraph(&introduced, language) + &list(readings, language);
         parts.push(Section::new(say!("Readings of the code", "Interpretazioni della norma"), markup));
     }
+    let program = say!("Program (NTC 10.2)", "Codice di calcolo (NTC 10.2)");
+    parts.push(Section::new(program, software::section(origin)));
     page = sections(page, parts, language).text("<div class=\"together\">");
     let document = vec![Section::new(say!("Document", "Documento"), document(origin)?)];
     Ok(sections(page, document, language).text(&signed(origin)).text("</div>"))

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use run::walls::NamedWall;
 
-use super::{Origin, begun, end, finished, footer, head, sections, sheet_head};
+use super::{Origin, begun, declared, end, finished, footer, head, sections, sheet_head};
 use crate::code::verdict::{Section, Verdict};
 use crate::error::CheckError;
 use crate::walls::{WallCodes, WallVerdicts};
-use crate::words::markup::{as_written, table};
+use crate::words::markup::{as_written, cards};
 use crate::words::{Language, Sentence, say};
 
 /// Makes the page of a report of walls, the worst first. Walls that could not be checked stand on the cover
@@ -59,6 +59,7 @@ pub fn page_of_walls(
     let title = origin.report.project.as_deref().unwrap_or(origin.title);
     let summary = Section::new(say!("Summary of the walls", "Riepilogo delle pareti"), cover);
     let page = sections(begun(title, worst, "", origin), vec![summary], language);
+    let page = sections(page, declared::sections(origin)?, language);
     let mut page = sections(page, worst.details.site(language)?, language);
     for (index, (name, verdict)) in checked().enumerate() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
@@ -94,7 +95,7 @@ fn data<'a>(walls: impl Iterator<Item = (&'a str, &'a Verdict<'a>)>, language: L
         if rows.is_empty() {
             heads.extend(own);
         }
-        rows.push([as_written(name), cells.join("</td><td>")]);
+        rows.push(("", [vec![as_written(name)], cells].concat()));
     }
-    format!("<div class=\"data\">{}</div>", table(&heads, &rows))
+    format!("<div class=\"data\">{}</div>", cards(&heads, &rows))
 }

@@ -8,15 +8,15 @@ use rocking_wall::wall::{Parameters, Wall};
 use crate::words::{Language, Sentence, at_most, say, shown};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
-const SIZE: [f64; 2] = [520.0, 410.0];
-const AXIS: f64 = 215.0;
+const SIZE: [f64; 2] = [640.0, 410.0];
+const AXIS: f64 = 235.0;
 const FOOT: f64 = 335.0;
 /// Room for the wall: width and height \[px\].
 const ROOM: [f64; 2] = [110.0, 265.0];
 /// Half the width of supports, and places of dimensions \[px\].
 const SUPPORT: f64 = 95.0;
-const OUTER: f64 = 426.0;
-const INNER: f64 = 318.0;
+const OUTER: f64 = 545.0;
+const INNER: f64 = 445.0;
 /// Lengths of the bar that shows the scale \[m\].
 const BARS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
 
@@ -56,7 +56,7 @@ pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> 
     format!(
         "<figure><figcaption>{said}</figcaption><svg class=\"wall\" \
          viewBox=\"0 {from:.0} {width} {height:.0}\" role=\"img\" aria-label=\"{label}\" \
-         font-size=\"14\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
+         font-size=\"15\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
         drawing.svg
     )
 }
@@ -199,7 +199,12 @@ impl Drawing<'_> {
             self.weight([AXIS, y + 34.0], 34.0);
             let force = 1e-3 * weight * (to - from) / height;
             let text = self.said(&format!("{name} = {} kN", ::report::number(force, 4)));
-            self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
+            // on the side without transverse walls
+            if self.of.free_side().is_some_and(|side| side > 0.0) {
+                self.text([AXIS + half + 10.0, y + 22.0], "start", &text);
+            } else {
+                self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
+            }
         }
         if overburden > 0.0 {
             let c = self.parameters.overburden_eccentricity;

@@ -22,7 +22,7 @@ impl Origin<'_> {
     /// Returns where a number of the bar of the tie comes from.
     fn of_bar(&self, number: &BarNumber) -> Sentence {
         if self.file.states(&["check", "tie", "bar", number.key()]) {
-            Sentence::same("[check] tie")
+            say!("file", "file dei dati")
         } else {
             self.of_parameter(&["tie", "bar", number.key()], number.usual.name)
         }
@@ -35,11 +35,23 @@ impl Origin<'_> {
             Some(wall) if wall.stated.as_ref().is_none_or(|stated| stated.contains(&name)) => {
                 say!("file", "file dei dati")
             }
-            None if self.set.iter().any(is_set) => Sentence::same("--set"),
-            None if self.file.states(keys) => say!("scene", "file dei dati"),
+            None if self.set.iter().any(is_set) => say!("command line", "riga di comando"),
+            None if self.file.states(keys) => say!("file", "file dei dati"),
             _ => say!("default", "valore predefinito"),
         }
     }
+}
+
+/// A parameter of a report.
+struct Shown {
+    /// What it is, as markup.
+    what: String,
+    /// Its key in a file.
+    key: String,
+    /// Its value, as markup.
+    value: String,
+    /// Where it comes from.
+    from: Sentence,
 }
 
 /// The wall to scale, and its parameters that matter to the check: of these groups and names.
@@ -49,6 +61,37 @@ pub(crate) fn the_wall(
     origin: &Origin<'_>,
     is_used: &dyn Fn(&str, &str) -> bool,
 ) -> String {
+    let language = origin.report.language;
+    let all = all(wall, parameters, origin, is_used).into_iter();
+    let rows: Vec<_> = all.map(|one| [one.what, one.value, one.from.markup(language)]).collect();
+    let parts = [say!("parameter", "parametro"), say!("value", "valore"), say!("from", "provenienza")];
+    let rows = table(&heads(parts, language), &rows);
+    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters, language))
+}
+
+/// The keys by which a file states the parameters of the wall: what each is, its key, and its origin.
+pub(crate) fn keys(
+    wall: &Wall,
+    parameters: &Parameters,
+    origin: &Origin<'_>,
+    is_used: &dyn Fn(&str, &str) -> bool,
+) -> Vec<[String; 3]> {
+    let language = origin.report.language;
+    let all = all(wall, parameters, origin, is_used).into_iter();
+    all.map(|one| [one.what, code(&one.key), one.from.markup(language)]).collect()
+}
+
+/// A key as markup, which no language replaces.
+pub(crate) fn code(key: &str) -> String {
+    format!("<code translate=\"no\">{}</code>", escaped(key))
+}
+
+fn all(
+    wall: &Wall,
+    parameters: &Parameters,
+    origin: &Origin<'_>,
+    is_used: &dyn Fn(&str, &str) -> bool,
+) -> Vec<Shown> {
     let mut rows = Vec::new();
     for (group, names) in GROUPS {
         for name in names {
@@ -66,16 +109,15 @@ pub(crate) fn the_wall(
         let points: Vec<_> = points.map(|point| format!("({point})")).collect();
         let name = say!("Corners of the force law, `u/u_ins, F/F0`", "Vertici della legge, `u/u_ins, F/F0`");
         let from = origin.of_parameter(&["force_law", "force_law"], "force_law");
-        rows.push([name.markup(language), points.join(" "), from.markup(language)]);
+        let (what, value) = (name.markup(language), points.join(" "));
+        rows.push(Shown { what, key: "points".to_owned(), value, from });
     }
     rows.extend(bar(parameters, origin));
-    let parts = [say!("parameter", "parametro"), say!("value", "valore"), say!("from", "provenienza")];
-    let rows = table(&heads(parts, language), &rows);
-    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters, language))
+    rows
 }
 
 /// The numbers of the bar and anchor that make the tie.
-fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
+fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<Shown> {
     let Some(bar) = parameters.bar.filter(|_| parameters.weaker_part().is_some()) else { return Vec::new() };
     let numbers = Bar::NUMBERS.iter().enumerate();
     let language = origin.report.language;
@@ -83,16 +125,11 @@ fn bar(parameters: &Parameters, origin: &Origin<'_>) -> Vec<[String; 3]> {
         let given = bar.get(index)?;
         let of_number = unit_for_people(number.usual.unit);
         let unit = if number.key() == "diameter" { Unit::MILLIMETRES } else { of_number };
-        let name = named(number.text, number.usual.name, language);
-        Some([name, value_in(given, unit, language), origin.of_bar(number).markup(language)])
+        let what = described(number.text, number.usual.name).markup(language);
+        let (key, value) = (format!("bar.{}", number.key()), value_in(given, unit, language));
+        Some(Shown { what, key, value, from: origin.of_bar(number) })
     };
     numbers.filter_map(row).collect()
-}
-
-/// What a parameter is, with its name.
-fn named(description: &str, name: &str, language: Language) -> String {
-    let what = described(description, name);
-    format!("{} <small translate=\"no\">{name}</small>", what.markup(language))
 }
 
 /// The unit in which people read a number in an SI unit, and the factor to it.
@@ -135,7 +172,7 @@ fn parameter(
     origin: &Origin<'_>,
     group: &str,
     name: &str,
-) -> Option<[String; 3]> {
+) -> Option<Shown> {
     let variable = variable(name)?;
     let text = parameter_text(parameters, name)?;
     let number: Option<f64> = text.parse().ok();
@@ -167,7 +204,8 @@ fn parameter(
             (value_of(&escaped(said.of(language)), ""), stated())
         }
     };
-    Some([named(variable.description, name, language), value, from.markup(language)])
+    let what = described(variable.description, name).markup(language);
+    Some(Shown { what, key: name.to_owned(), value, from })
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.

@@ -28,6 +28,8 @@ pub struct Origin<'a> {
     pub records: &'a Records,
     /// What the report says of the project, with its date and language.
     pub report: &'a ReportTable,
+    /// The program that computes, with its version.
+    pub program: &'a str,
 }
 
 /// A picture with its caption.

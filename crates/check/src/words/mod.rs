@@ -151,18 +151,20 @@ impl Language {
 pub struct Sentence {
     en: String,
     it: String,
+    /// What pages say in its place, where it names a key of a file.
+    page: Option<Box<Sentence>>,
 }
 
 impl Sentence {
     /// Makes a text of its two forms.
     pub fn new(en: impl Into<String>, it: impl Into<String>) -> Self {
-        Self { en: en.into(), it: it.into() }
+        Self { en: en.into(), it: it.into(), page: None }
     }
 
     /// Makes a text that is the same in both languages: a symbol, or what the user writes.
     pub fn same(text: impl Into<String>) -> Self {
         let text = text.into();
-        Self { it: text.clone(), en: text }
+        Self { it: text.clone(), en: text, page: None }
     }
 
     /// The text in a language.
@@ -173,14 +175,29 @@ impl Sentence {
         }
     }
 
+    /// Gives what pages say in its place: who reads a report has no file with keys.
+    #[must_use]
+    pub(crate) fn on_page(self, page: Self) -> Self {
+        Self { page: Some(Box::new(page)), ..self }
+    }
+
+    /// Puts it in a frame, and what pages say in its place in the same one.
+    pub(crate) fn framed(&self, frame: impl Fn(Self) -> Self) -> Self {
+        let own = frame(Self { page: None, ..self.clone() });
+        match &self.page {
+            Some(page) => own.on_page(frame((**page).clone())),
+            None => own,
+        }
+    }
+
     /// The text in a language as markup, with its symbols as formulas.
     pub(crate) fn markup(&self, language: Language) -> String {
-        markup(self.of(language))
+        markup(self.page.as_deref().unwrap_or(self).of(language))
     }
 
     /// The same as markup in both languages.
     pub(crate) fn as_markup(&self) -> Self {
-        Self { en: markup(&self.en), it: markup(&self.it) }
+        Self::new(markup(&self.en), markup(&self.it))
     }
 }
 

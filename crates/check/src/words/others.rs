@@ -28,17 +28,22 @@ pub(crate) fn improbable(warning: &Warning) -> Sentence {
         }
         None => "controllare valore e unità".to_owned(),
     };
-    let name = match *name {
+    let key = *name;
+    let name = match key {
         "period of the building" => "il periodo dell'edificio",
         "period of a storey" => "il periodo di un piano",
         "a_g of the grid at T_R = 475 years" => "a_g del reticolo a T_R = 475 anni",
         "a_g of the grid at T_R = 30 years" => "a_g del reticolo a T_R = 30 anni",
         name => name,
     };
-    Sentence::new(
-        english,
-        format!("{name} = {value}{unit} è insolito: è usuale da {least} a {most}{unit}; {remedy}"),
-    )
+    let usual = format!(" = {value}{unit} è insolito: è usuale da {least} a {most}{unit}; {remedy}");
+    let told = Sentence::new(&*english, format!("{name}{usual}"));
+    // a page has no names of parameters
+    let Some(variable) = rocking_wall::scene::variable(key) else { return told };
+    let described = described(variable.description, key);
+    let page =
+        Sentence::new(english.replacen(key, &described, 1), format!("{}{usual}", described.of(Language::It)));
+    told.on_page(page)
 }
 
 /// A wall that is heavy beside its floor.

@@ -78,6 +78,7 @@ fn every_code_gives_all_of_a_verdict() {
             set: &[],
             records,
             report: &ReportTable::default(),
+            program: "wall",
         };
         let page = page(&verdict, &origin).unwrap();
         for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {

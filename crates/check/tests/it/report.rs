@@ -48,7 +48,15 @@ fn report_of_file(name: &str, text: &str, language: Language) -> String {
     let mut report = file.report().unwrap();
     report.language = language;
     let records = codes.shared().records();
-    let origin = Origin { title: "walls", wall: None, file: &file, set: &[], records, report: &report };
+    let origin = Origin {
+        title: "walls",
+        wall: None,
+        file: &file,
+        set: &[],
+        records,
+        report: &report,
+        program: "wall",
+    };
     page_of_walls(&verdicts, &walls, &codes, &origin).unwrap()
 }
 
@@ -59,7 +67,8 @@ pub(crate) fn report_of_one(text: &str) -> String {
     let scene = Scene::parse("one.toml", text, ".".as_ref()).unwrap();
     let verdict = code.check((&scene).into()).unwrap();
     let (records, report) = (code.records(), file.report().unwrap());
-    let origin = Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report };
+    let origin =
+        Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report, program: "wall" };
     page(&verdict, &origin).unwrap()
 }
 
@@ -263,7 +272,8 @@ fn what_a_table_of_walls_states_is_not_a_default() {
                 SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 } }\nwalls = [{ table = \"stated.csv\" }]\n";
     let name = folder.join("stated.toml");
     let text = plain(&report_of_file(name.to_str().unwrap(), text, Language::En));
-    let origins: Vec<_> = text.split("width\n1 m\n").skip(1).map(|after| after.lines().next()).collect();
+    let origins: Vec<_> =
+        text.split("Length along the wall\n1 m\n").skip(1).map(|after| after.lines().next()).collect();
     assert_eq!(origins, [Some("file"), Some("default")]);
 }
 
@@ -280,9 +290,10 @@ fn a_wall_of_no_file_states_everything() {
     let verdict = code.check((&scene).into()).unwrap();
     let (records, report) = (code.records(), file.report().unwrap());
     let width = |wall: Option<&NamedWall>| {
-        let origin = Origin { title: "one", wall, file: &file, set: &[], records, report: &report };
+        let origin =
+            Origin { title: "one", wall, file: &file, set: &[], records, report: &report, program: "wall" };
         let text = plain(&page(&verdict, &origin).unwrap());
-        let (_, after) = text.split_once("width\n1 m\n").unwrap();
+        let (_, after) = text.split_once("Length along the wall\n1 m\n").unwrap();
         after.lines().next().unwrap().to_owned()
     };
     assert_eq!(width(None), "default", "the scene leaves it open");
@@ -300,7 +311,7 @@ fn a_computed_ratio_is_that_of_the_model() {
     let e = rocking_wall::wall::Wall::new(&scene.parameters).unwrap().restitution().positive;
     let c_bar = rocking_wall::wall::equivalence::free_standing_block(e);
     let report = text_of_one(&text);
-    let mut rows = report.split("free-standing block c_bar\n").skip(1);
+    let mut rows = report.split("Damping constant of a free-standing block\n").skip(1);
     let row = rows.next().unwrap();
     let shown: f64 = row.split_whitespace().next().unwrap().parse().unwrap();
     // six digits

@@ -66,7 +66,15 @@ fn the_report_of_a_check_opens() {
         let (code, report) = (check::read(&file).unwrap(), &file.report().unwrap());
         let scene = Scene::parse("scene", &text, "".as_ref()).unwrap();
         let (title, records) = (&*scene.title, code.records());
-        let origin = check::Origin { title, wall: None, file: &file, set: &[], records, report };
+        let origin = check::Origin {
+            title,
+            wall: None,
+            file: &file,
+            set: &[],
+            records,
+            report,
+            program: concat!("playground ", env!("CARGO_PKG_VERSION")),
+        };
         let page = check::page(&code.check((&scene).into()).unwrap(), &origin).unwrap();
         let without = |page: &str| page.split(">Document").next().unwrap().to_owned();
         assert_eq!(without(answer["answer"].as_str().unwrap()), without(&page));

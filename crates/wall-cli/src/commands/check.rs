@@ -110,7 +110,15 @@ fn one(
     if let Some(path) = report {
         let report = project(arguments, file)?;
         let (set, records) = (&arguments.scene.set, code.records());
-        let origin = Origin { title: &scene.title, wall: None, file, set, records, report: &report };
+        let origin = Origin {
+            title: &scene.title,
+            wall: None,
+            file,
+            set,
+            records,
+            report: &report,
+            program: super::VERSION,
+        };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
     console.save(csv.as_ref(), || verdict.csv(language))?;
@@ -177,7 +185,15 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
         let report = project(arguments, file)?;
         let title = Path::new(file.name()).file_stem().unwrap_or_default().to_string_lossy();
         let (set, records) = (&arguments.scene.set, code.records());
-        let origin = Origin { title: &title, wall: None, file, set, records, report: &report };
+        let origin = Origin {
+            title: &title,
+            wall: None,
+            file,
+            set,
+            records,
+            report: &report,
+            program: super::VERSION,
+        };
         console.write(path, page_of_walls(&verdicts, &walls, &codes, &origin)?.as_bytes())?;
     }
     console.warn(&warnings);

@@ -8,6 +8,7 @@ use std::path::Path;
 mod building;
 mod check;
 mod check_before;
+mod check_languages;
 mod check_report;
 mod check_report_walls;
 mod command_line;

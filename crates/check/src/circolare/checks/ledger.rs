@@ -109,7 +109,7 @@ impl ActivationCheck {
                 let height = if held { "a_Z" } else { "S_eZ" };
                 let words = say! {
                     "Demand: the ground governs, above the {height} of the height",
-                    "Domanda: determinante il terreno, superiore alla {height} in quota", height
+                    "Domanda: determinante il suolo, superiore alla {height} in quota", height
                 };
                 (words, "[3.2.2]", "a_g S")
             }

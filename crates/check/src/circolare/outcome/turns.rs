@@ -23,7 +23,12 @@ pub(super) fn by_raise(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> V
                      raises it (C8.7.1.2.1.8)",
                     "{side}: {state} in spostamento vale {ratio}; senza [check.SLD] nessuna a_g di \
                      attivazione lo innalza (C8.7.1.2.1.8)", side, state, ratio
-                });
+                }.on_page(say! {
+                    "{side}: {state} by displacement is {ratio}; without SLD no a_g of activation raises it \
+                     (C8.7.1.2.1.8)",
+                    "{side}: {state} in spostamento vale {ratio}; senza lo SLD nessuna a_g di attivazione lo \
+                     innalza (C8.7.1.2.1.8)", side, state, ratio
+                }));
             } else if state == LimitState::Slc && decides && found.raised && found.zeta < target {
                 warnings.push(say! {
                     "{side}: SLC by displacement has zeta_E = {ratio}; {zeta} is by analogy with \

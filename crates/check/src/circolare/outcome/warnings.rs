@@ -28,7 +28,8 @@ pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) ->
     let (sides, governs) = (&outcome.sides, outcome.governs.side);
     // sides that are alike are named once
     let differing = || sides.iter().take(if case.alike { 1 } else { 2 });
-    let ordered: [Vec<Sentence>; 12] = [
+    let ordered: [Vec<Sentence>; 13] = [
+        of_states(statement, floors),
         of_statement(statement, parameters, floors, wall),
         loads::warnings(case, outcome.dynamic.is_some()),
         ranges::of_statement(statement),
@@ -46,12 +47,8 @@ pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) ->
     ordered.into_iter().flatten().filter(|warning| seen.insert(warning.clone())).collect()
 }
 
-fn of_statement(
-    statement: &Statement,
-    parameters: &Parameters,
-    floors: Option<&Floors>,
-    wall: &Wall,
-) -> Vec<Sentence> {
+/// What does not go together among the limit states.
+fn of_states(statement: &Statement, floors: Option<&Floors>) -> Vec<Sentence> {
     let mut warnings = Vec::new();
     let mut below: Option<(LimitState, f64)> = None;
     for given in statement.states.iter().flatten() {
@@ -71,24 +68,46 @@ fn of_statement(
                 "{state}: building_damping and building_period have no effect without [check.building]",
                 "{state}: building_damping e building_period non hanno effetto senza [check.building]",
                 state = given.state
-            });
+            }.on_page(say! {
+                "{state}: damping and period of the building have no effect on the ground",
+                "{state}: smorzamento e periodo dell'edificio non hanno effetto al suolo", state = given.state
+            }));
         }
     }
+    warnings
+}
+
+fn of_statement(
+    statement: &Statement,
+    parameters: &Parameters,
+    floors: Option<&Floors>,
+    wall: &Wall,
+) -> Vec<Sentence> {
+    let mut warnings = Vec::new();
     let body = wall.body();
     if statement.table.overburden_mass.is_some()
         && (body.overburden == 0.0 || body.mechanism != Mechanism::Parapet)
     {
-        warnings.push(say! {
-            "overburden_mass has no effect: it is for a parapet with overburden",
-            "overburden_mass non ha effetto: vale per un parapetto con carico in sommità"
-        });
+        warnings.push(
+            say! {
+                "overburden_mass has no effect: it is for a parapet with overburden",
+                "overburden_mass non ha effetto: vale per un parapetto con carico in sommità"
+            }
+            .on_page(say! {
+                "the mass of the overburden has no effect: it is for a parapet with overburden",
+                "la massa del carico non ha effetto: vale per un parapetto con carico in sommità"
+            }),
+        );
     }
     let is_at_edges = parameters.a3 == 1.0 && parameters.multilinear.is_none() && statement.masonry.is_none();
     if statement.table.compression_considered && is_at_edges {
         warnings.push(say! {
             "compression_considered with a3 = 1 puts the hinges at the edges: give the reduced thickness",
             "compression_considered con a3 = 1 lascia le cerniere agli spigoli: fornire lo spessore ridotto"
-        });
+        }.on_page(say! {
+            "compression is stated as considered, and the hinges are at the edges of the thickness given",
+            "la compressione è dichiarata considerata e le cerniere sono agli spigoli dello spessore fornito"
+        }));
     }
     let of_wall = parameters.unusual();
     warnings.extend(of_wall.chain(statement.improbable(floors)).map(|warning| improbable(&warning)));
@@ -103,13 +122,22 @@ fn of_statement(
         warnings.push(say! {
             "the static checks use [check.building]; runs under records use [[storeys]]",
             "le verifiche statiche usano [check.building]; le analisi con accelerogrammi usano [[storeys]]"
-        });
+        }.on_page(say! {
+            "the static checks use the building of the check, runs under records its storeys",
+            "le verifiche statiche usano l'edificio della verifica, le analisi dinamiche i suoi piani"
+        }));
     }
     if statement.table.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
-        warnings.push(say! {
-            "use class IV is checked for SLD too (NTC 8.3); give [check.SLD]",
-            "in classe d'uso IV si verifica anche lo SLD (NTC 8.3); fornire [check.SLD]"
-        });
+        warnings.push(
+            say! {
+                "use class IV is checked for SLD too (NTC 8.3); give [check.SLD]",
+                "in classe d'uso IV si verifica anche lo SLD (NTC 8.3); fornire [check.SLD]"
+            }
+            .on_page(say! {
+                "use class IV is checked for SLD too (NTC 8.3), whose hazard is not given",
+                "in classe d'uso IV si verifica anche lo SLD (NTC 8.3), i cui dati non sono forniti"
+            }),
+        );
     }
     warnings.extend(floors.and_then(|floors| floors.heavy(wall)).map(|heavy| {
         say! {
@@ -163,14 +191,18 @@ fn of_rules(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict, found: Leas
     let passes = |zeta: f64| zeta >= case.statement.target;
     let turns = passes(lowest) != passes(own);
     match case.rule? {
-        Hinge::Given if turns || lowest < own * (1.0 - LOWER) => Some(say! {
-            "{side}: the hinge is given at {given}; at {place} {check} has zeta_E = {zeta}, {result}; state \
-             hinge = \"worst\"",
-            "{side}: la cerniera è fornita a {given}; a {place} {check} ha ζ_E = {zeta}, {result}; \
-             dichiarare hinge = \"worst\"",
-            side, given = case.parameters.hinge_ratio, place, check = found.worst_check?,
-            zeta = fixed(lowest, 3), result = passed(passes(lowest))
-        }),
+        Hinge::Given if turns || lowest < own * (1.0 - LOWER) => {
+            let said = say! {
+                "{side}: the hinge is given at {given}; at {place} {check} has zeta_E = {zeta}, {result}",
+                "{side}: la cerniera è fornita a {given}; a {place} {check} ha ζ_E = {zeta}, {result}",
+                side, given = case.parameters.hinge_ratio, place, check = found.worst_check?,
+                zeta = fixed(lowest, 3), result = passed(passes(lowest))
+            };
+            let remedy = say! {
+                "{said}; state hinge = \"worst\"", "{said}; dichiarare hinge = \"worst\"", said
+            };
+            Some(remedy.on_page(said))
+        }
         Hinge::Worst | Hinge::LeastAlpha0 if passes(lowest) != passes(least) => Some(say! {
             "{side}: the hinge turns the verdict: {lowest}, {one}, at the least favourable hinge {place}; \
              {least}, {other}, at that of the least alpha0, {hinge}",
@@ -195,7 +227,11 @@ fn of_place(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict) -> Vec<Sent
             "{side}: the hinge that governs, {at}, is at an end of hinge_range = [{from}, {to}]",
             "{side}: la cerniera determinante, {at}, è a un estremo di hinge_range = [{from}; {to}]",
             side, at, from, to
-        });
+        }.on_page(say! {
+            "{side}: the hinge that governs, {at} h, is at an end of the range from {from} h to {to} h",
+            "{side}: la cerniera determinante, {at} h, è a un estremo dell'intervallo da {from} h a {to} h",
+            side, at, from, to
+        }));
     }
     let Parameters { height, thickness, .. } = case.parameters;
     let at = hinge.unwrap_or(0.5);
@@ -216,10 +252,16 @@ fn of_curve(case: &Case<'_>, curve: &Curve) -> Vec<Sentence> {
     let statement = case.statement;
     let mut warnings = Vec::new();
     if curve.tie().is_some_and(|tie| tie.strength_displacement().is_none()) {
-        warnings.push(say! {
-            "the tie has no tie_strength: it never breaks and is counted at d_SLV and d_SLC",
-            "la catena è senza tie_strength: non si rompe ed è contata a d_SLV e d_SLC"
-        });
+        warnings.push(
+            say! {
+                "the tie has no tie_strength: it never breaks and is counted at d_SLV and d_SLC",
+                "la catena è senza tie_strength: non si rompe ed è contata a d_SLV e d_SLC"
+            }
+            .on_page(say! {
+                "no strength of the tie is given: it never breaks and is counted at d_SLV and d_SLC",
+                "la resistenza della catena non è fornita: non si rompe ed è contata a d_SLV e d_SLC"
+            }),
+        );
     }
     warnings.extend(ranges::of_tie(case, curve));
     let makes = |state: LimitState| statement.state(state).is_some();
@@ -254,11 +296,16 @@ fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<Sentence> {
              tight tie that acts at the activation",
             "SLD e SLV con q non considerano la catena; dichiarare [check.tie] at_activation = \"yield\" per \
              una catena tesa attiva all'attivazione"
-        }),
+        }.on_page(say! {
+            "SLD and SLV with q do not count the tie", "SLD e SLV con q non considerano la catena"
+        })),
         AtActivation::Yield if has_q && tie.ultimate == Some(0.0) => Some(say! {
             "SLV with q counts a brittle tie (tie_ultimate = 0), and q > 1 asks for one that yields",
             "SLV con q considera una catena fragile (tie_ultimate = 0), mentre q > 1 ne richiede una duttile"
-        }),
+        }.on_page(say! {
+            "SLV with q counts a brittle tie, and q > 1 asks for one that yields",
+            "SLV con q considera una catena fragile, mentre q > 1 ne richiede una duttile"
+        })),
         AtActivation::Yield => None,
     }
 }

@@ -8,7 +8,7 @@ use crate::error::CheckError;
 use crate::sections::origin::Figure;
 use crate::words::formulas::formula;
 use crate::words::ledger::Ledger;
-use crate::words::markup::table;
+use crate::words::markup::{aligned, table};
 use crate::words::names::{Deciding, Sides};
 use crate::words::{Language, Sentence, Written, above, joined, say, shown, side as told_side};
 
@@ -120,7 +120,7 @@ fn at_hinges(one: &SideLedger<'_>, language: Language) -> String {
     let row = |(symbol, unit): (&str, &str)| {
         let cells: Vec<_> = ledgers.iter().map(|ledger| language.or_dash(ledger.number(symbol))).collect();
         let is_said = cells.iter().any(|cell| !matches!(&**cell, "0" | "–"));
-        is_said.then(|| [formula(symbol) + unit, cells.join("</td><td>")])
+        is_said.then(|| [formula(symbol) + unit, aligned(cells).join("</td><td>")])
     };
     let rows: Vec<_> = all.into_iter().filter_map(row).collect();
     let first = say!("at the hinge of each check", "alla cerniera di ogni verifica");

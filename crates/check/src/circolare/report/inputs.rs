@@ -8,24 +8,48 @@ use crate::circolare::statement::states::Source;
 use crate::circolare::statement::table::{
     Activation, AtActivation, Hinge, LARGEST_CONFIDENCE_FACTOR, RecordScale, Rocks, STRESS_BLOCK,
 };
+use crate::sections::inputs::code;
 use crate::sections::origin::Origin;
 use crate::words::markup::{heads, table};
 use crate::words::names::LimitState;
 use crate::words::{Sentence, at_most, say};
 
-/// What is stated, and where.
-type Stated = (Sentence, Sentence);
+/// What is stated, by which key, and where it comes from.
+struct Stated {
+    said: Sentence,
+    /// Its key in a file; empty for what no key states.
+    key: String,
+    from: Sentence,
+}
 
 /// Describes the statements of the engineer, and where each comes from.
 pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
+    let language = origin.report.language;
+    let rows = all(case, origin).into_iter();
+    let rows: Vec<_> = rows.map(|one| [one.said.markup(language), one.from.markup(language)]).collect();
+    let parts = [say!("statement", "dichiarazione"), say!("from", "provenienza")];
+    format!("<div class=\"from\">{}</div>", table(&heads(parts, language), &rows))
+}
+
+/// The keys by which a file makes the statements: what each says, its key, and where it comes from.
+pub(super) fn keys(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<[String; 3]> {
+    let language = origin.report.language;
+    let stated = all(case, origin).into_iter().filter(|one| !one.key.is_empty());
+    stated.map(|one| [one.said.markup(language), code(&one.key), one.from.markup(language)]).collect()
+}
+
+fn all(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<Stated> {
     let statement = case.statement;
     let mut rows: Vec<Stated> = Vec::new();
-    let from = |keys: &[&str]| {
-        let stated = keys.iter().find(|key| origin.file.states(&["check", key]));
-        let default = say!("default", "valore predefinito");
-        stated.map_or(default, |key| Sentence::same(format!("[check] {key}")))
+    let stated = |said: Sentence, keys: &[&str]| {
+        let found = keys.iter().find(|key| origin.file.states(&["check", key]));
+        let (key, from) = match found {
+            Some(key) => (*key, say!("stated", "dichiarato")),
+            None => (keys[0], say!("default", "valore predefinito")),
+        };
+        Stated { said, key: format!("check.{key}"), from }
     };
-    let mut state = |said: Sentence, keys: &[&str]| rows.push((said, from(keys)));
+    let mut state = |said: Sentence, keys: &[&str]| rows.push(stated(said, keys));
     state(activation(statement), &["before_activation"]);
     if case.parameters.overburden > 0.0 {
         state(overburden(case), &["overburden_mass"]);
@@ -76,11 +100,7 @@ pub(super) fn statements(case: &Checked<'_>, origin: &Origin<'_>) -> String {
         state(said, &[given.state.key(), "building_damping"]);
     }
     rows.extend(of_states(statement));
-    let language = origin.report.language;
-    let rows: Vec<_> =
-        rows.iter().map(|(said, from)| [said.markup(language), from.markup(language)]).collect();
-    let parts = [say!("statement", "dichiarazione"), say!("from", "provenienza")];
-    format!("<div class=\"from\">{}</div>", table(&heads(parts, language), &rows))
+    rows
 }
 
 /// What holds for limit states, and what the method of the check takes.
@@ -92,14 +112,18 @@ fn of_states(statement: &Statement) -> Vec<Stated> {
             "Something else becomes unstable at `u` = {u} m and limits SLC.",
             "Un'altra instabilità locale a `u` = {u} m limita lo SLC.", u
         };
-        rows.push((said, Sentence::same("[check] SLC displacement")));
+        let (key, from) = ("check.SLC.displacement".to_owned(), say!("stated", "dichiarato"));
+        rows.push(Stated { said, key, from });
     }
-    let by_method = || say!("method of the check", "metodo della verifica");
+    let by_method = |said: Sentence| {
+        let (key, from) = (String::new(), say!("method of the check", "metodo della verifica"));
+        Stated { said, key, from }
+    };
     let said = say! {
         "There is one resultant of the forces on each body (C8.7.1.1), so that `e*` = 1.",
         "Su ogni corpo agisce una sola risultante delle forze (C8.7.1.1), per cui `e*` = 1."
     };
-    rows.push((said, by_method()));
+    rows.push(by_method(said));
     if statement.states.iter().flatten().any(|state| matches!(state.source, Source::Code(_))) {
         let said = say! {
             "The shape of each spectrum (`F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k`) is held at that of the site \
@@ -107,7 +131,7 @@ fn of_states(statement: &Statement) -> Vec<Stated> {
             "La forma di ogni spettro (`F0, T_C*, S, T_B, T_C, T_D, T_k, ξ_k`) resta quella del sito al \
              variare di a_g."
         };
-        rows.push((said, by_method()));
+        rows.push(by_method(said));
     }
     let missing = LimitState::ALL.into_iter().filter(|state| statement.state(*state).is_none());
     let missing: Vec<_> = missing.map(LimitState::key).collect();
@@ -117,7 +141,7 @@ fn of_states(statement: &Statement) -> Vec<Stated> {
             "Non verificati: dati sismici non forniti per {missing} (NTC 8.3, 7.3.6).",
             missing = missing.join(", ")
         };
-        rows.push((said, Sentence::same("[check]")));
+        rows.push(Stated { said, key: String::new(), from: say!("stated", "dichiarato") });
     }
     rows
 }

@@ -28,7 +28,9 @@ impl Checked<'_> {
     pub(super) fn of_level(&self, said: Sentence) -> Sentence {
         match self.stated_level().filter(|_| self.statement.hinge_levels.len() > 1) {
             None => said,
-            Some(level) => say!("above {level} m: {said}", "sopra {level} m: {said}", level, said),
+            Some(level) => {
+                said.framed(|said| say!("above {level} m: {said}", "sopra {level} m: {said}", level, said))
+            }
         }
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod figure;
 mod hinges;
 mod inputs;
 mod levels;
+mod loads;
 mod notes;
 pub(super) mod overview;
 pub(super) mod readings;
@@ -19,10 +20,10 @@ use super::outcome::Checked;
 use super::statement::table::{Activation, Hinge};
 use crate::code::verdict::Section;
 use crate::error::CheckError;
-use crate::sections::inputs::the_wall;
+use crate::sections::inputs::{keys, the_wall};
 use crate::sections::origin::Origin;
 use crate::words::ledger::Ledger;
-use crate::words::markup::side_head;
+use crate::words::markup::{as_paragraph, heads, side_head, table};
 use crate::words::names::{Deciding, Side, Sides};
 use crate::words::{Language, Sentence, say};
 
@@ -94,10 +95,19 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
         (STATIC.contains(&group) || is_dynamic && DYNAMIC.contains(&group)) && !replaced
     };
     let sides = ledgers(case);
+    let text = |text: Option<&String>| text.map_or_else(String::new, |text| as_paragraph(text));
     let mut sections = vec![
         Section::new(
             say!("Statements of the engineer", "Dichiarazioni del progettista"),
             inputs::statements(case, origin),
+        ),
+        Section::new(
+            say!("Materials and level of knowledge", "Materiali e livello di conoscenza"),
+            loads::materials(case, language) + &text(origin.report.materials.as_ref()),
+        ),
+        Section::new(
+            say!("Loads", "Analisi dei carichi"),
+            loads::loads(case, language) + &text(origin.report.loads.as_ref()),
         ),
         Section::new(say!("The wall", "La parete"), the_wall(&case.wall, &case.parameters, origin, &is_used)),
         Section::new(say!("Demand at the wall", "Domanda alla parete"), site::at_wall(case, language)?),
@@ -133,5 +143,10 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
     }
     let heading = say!("Runs under records C8.7.1.2.1.9", "Analisi con accelerogrammi C8.7.1.2.1.9");
     add(heading, runs::section(case, language));
+    let all = [inputs::keys(case, origin), keys(&case.wall, &case.parameters, origin, &is_used)].concat();
+    let parts =
+        [say!("datum", "dato"), say!("key in the file", "chiave nel file"), say!("from", "provenienza")];
+    let heading = say!("Origin of the data", "Provenienza dei dati");
+    add(heading, format!("<div class=\"from\">{}</div>", table(&heads(parts, language), &all)));
     Ok(sections)
 }

@@ -63,7 +63,7 @@ impl Checked<'_> {
                 notes.push(self.of_level(say! {
                     "{state}: a_g S = {ground} m/s² of the ground governs at the height, above a_Z = \
                      {printed} m/s² [C7.2.8].",
-                    "{state}: in quota è determinante a_g S = {ground} m/s² del terreno, superiore ad a_Z = \
+                    "{state}: in quota è determinante a_g S = {ground} m/s² del suolo, superiore ad a_Z = \
                      {printed} m/s² [C7.2.8].", state = given.state, ground, printed
                 }));
             }

@@ -12,7 +12,7 @@ use crate::ntc::floor::{FloorSpectrum, Mode};
 use crate::ntc::ground::{GroundSpectrum, Topography};
 use crate::sections::origin::Figure;
 use crate::words::formulas::formula;
-use crate::words::markup::{paragraph, table};
+use crate::words::markup::{aligned, list, paragraph, table};
 use crate::words::names::LimitState;
 use crate::words::others::storeys;
 use crate::words::{Language, Sentence, Written, joined, say, shown};
@@ -55,7 +55,7 @@ impl<'a> Rows<'a> {
         if values.iter().any(|value| value != "–") {
             let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
             let name = format!("{}{unit} <small>{source}</small>", formula(&self.language.decimal(name)));
-            self.lines.push([name, values.join("</td><td>")]);
+            self.lines.push([name, aligned(values).join("</td><td>")]);
         }
     }
 
@@ -77,14 +77,15 @@ pub(in crate::circolare) fn section(
 ) -> Result<Vec<Section>, CheckError> {
     let mut rows = Rows::new(case, language);
     let some = |value: Option<f64>| language.or_dash(value);
-    rows.row(["a_g", "[check]", "g"], |(given, _)| language.shown(given.ag));
+    rows.row(["a_g", "NTC 3.2", "g"], |(given, _)| language.shown(given.ag));
     for (name, source, unit, value) in GROUND {
         rows.row([name, source, unit], |(_, demand)| some(demand.ground().map(value)));
     }
     rows.row(["a_g S", "[3.2.2]", "m/s²"], |(_, demand)| {
         some(demand.ground().map(|ground| ground.acceleration(0.0, 0.05)))
     });
-    let markup = ground_of(case, language) + &rows.table() + &of_ground(case, language)?;
+    let nodes = list(&case.statement.site_nodes, language);
+    let markup = ground_of(case, language) + &rows.table() + &nodes + &of_ground(case, language)?;
     Ok(vec![Section::new(say!("Site hazard", "Pericolosità sismica del sito"), markup)])
 }
 
@@ -142,17 +143,17 @@ fn place(case: &Checked<'_>) -> Option<Sentence> {
     {
         said.push(say! {
             "Building of {storeys} storeys with T_1 = {period} s, linear shape of its first mode, wall at \
-             `z/H` = {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([check] building, [C7.2.10]); `a = 0.8` and \
+             `z/H` = {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([C7.2.10]); `a = 0.8` and \
              `b = 1.1` in [C7.2.6]",
             "Edificio di {storeys} piani con T_1 = {period} s, prima forma modale lineare, parete a `z/H` = \
-             {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([check] building, [C7.2.10]); `a = 0,8` e `b = 1,1` \
+             {ratio}: `γ_1 = 3n/(2n + 1)`, `ψ_1 = z/H` ([C7.2.10]); `a = 0,8` e `b = 1,1` \
              nella [C7.2.6]",
             storeys = storeys.to_string(), period = Written(shown(*period)), ratio = Written(shown(ratio))
         });
     } else if building.is_some() {
         said.push(say! {
-            "Modes of the building as given in [check.building]",
-            "Modi dell'edificio come forniti in [check.building]"
+            "Modes of the building as stated",
+            "Modi dell'edificio come dichiarati"
         });
     } else if let Some(floors) = case.floors.as_ref().filter(|_| !case.statement.is_on_ground()) {
         let of = storeys(floors);

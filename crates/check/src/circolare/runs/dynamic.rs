@@ -104,7 +104,11 @@ impl DynamicCheck {
                      {stated} of [[storeys]]",
                     "{state}: le analisi hanno building_damping = {xi} per ogni modo, non damping_ratio = \
                      {stated} di [[storeys]]", state, xi, stated
-                });
+                }.on_page(say! {
+                    "{state}: the runs have ξ_k = {xi} for every mode, not {stated} of the storeys",
+                    "{state}: le analisi hanno ξ_k = {xi} per ogni modo, non {stated} dei piani",
+                    state, xi, stated
+                }));
             }
         }
         warnings

@@ -67,6 +67,8 @@ pub struct Statement {
     pub(super) hinge_range: [f64; 2],
     /// What is to be said of the numbers from a grid.
     pub(super) site_notes: Vec<Sentence>,
+    /// The nodes of a grid around the site, with their numbers.
+    pub(super) site_nodes: Vec<Sentence>,
 }
 
 impl Statement {
@@ -84,10 +86,11 @@ impl Statement {
             return Err(CheckError::value(&["tie", "bar"], message));
         }
         statement.records = file.records(statement.table.records.as_ref())?;
-        if let Some(FromGrid { file, notes, warnings }) = from_grid {
+        if let Some(FromGrid { file, notes, nodes, warnings }) = from_grid {
             statement.records.files.extend(file);
             statement.records.warnings.extend(warnings);
             statement.site_notes = notes;
+            statement.site_nodes = nodes;
         }
         let count = motions(&statement.records.named).len();
         if (1..FEWEST_RECORDS).contains(&count) {
@@ -160,6 +163,7 @@ impl Statement {
             masonry,
             hinge_range,
             site_notes: Vec::new(),
+            site_nodes: Vec::new(),
         })
     }
 
@@ -289,6 +293,10 @@ impl Statement {
                  {of_scene} della scena; dichiarare lo stesso in [impact]",
                 own = stated.name(), of_scene = scene.rocking.name()
             }
+            .on_page(say! {
+                "the static checks and the runs rock to different sides",
+                "le verifiche statiche e le analisi dinamiche oscillano in versi diversi"
+            })
         })
     }
 

@@ -10,15 +10,18 @@ use crate::file::lines_of_grid;
 use crate::file::site::{no_place, return_period};
 use crate::words::names::LimitState;
 use crate::words::others::improbable;
-use crate::words::{Sentence, at_most, say};
+use crate::words::{Sentence, at_most, joined, say};
 
 use super::table::{CheckTable, SiteTable};
 use crate::ntc::grid::{Grid, SiteHazard};
+use crate::ntc::ground::Hazard;
 
 /// The file that was read, `None` where its lines are in the table, and what is to be said of the numbers.
 pub(crate) struct FromGrid {
     pub(crate) file: Option<PathBuf>,
     pub(crate) notes: Vec<Sentence>,
+    /// The nodes with their numbers.
+    pub(crate) nodes: Vec<Sentence>,
     /// Where `a_g` is not that of a site in its unit, or another one is stated.
     pub(crate) warnings: Vec<Sentence>,
 }
@@ -101,11 +104,9 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     };
     notes.push(say! {
         "Site at latitude {latitude}°, longitude {longitude}° on the grid of {source}: {how}, straight over \
-         log T_R, as NTC 2008, Annex A, is known in the field; its text was not seen. Compare the numbers \
-         with those of the ministry.",
-        "Sito a latitudine {latitude}°, longitudine {longitude}° sul reticolo di {source}: {how} in log T_R, \
-         come è noto dall'Allegato A delle NTC 2008; il testo non è stato visto. Confrontare i numeri con \
-         quelli del ministero.", latitude, longitude, source, how
+         log T_R (NTC 2008, Annex A).",
+        "Sito a latitudine {latitude}°, longitudine {longitude}° sul reticolo di {source}: {how} in log T_R \
+         (NTC 2008, Allegato A).", latitude, longitude, source, how
     });
     let of_grid = |usual: Usual, years: f64| usual.warning(hazard.hazard(years).ag);
     let short = || of_grid(AG_30, 30.0).filter(|_| first <= 30.0);
@@ -113,7 +114,30 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         let warning = improbable(&warning);
         say!("{warning}; state ag_unit", "{warning}; dichiarare ag_unit", warning)
     }));
-    Ok(Some(FromGrid { file, notes, warnings }))
+    let nodes = nodes(&hazard, site.nominal_life * site.use_coefficient);
+    Ok(Some(FromGrid { file, notes, nodes, warnings }))
+}
+
+/// The nodes around the site, with their weights and numbers of each limit state; `reference` is `V_R`
+/// \[years\].
+fn nodes(hazard: &SiteHazard, reference: f64) -> Vec<Sentence> {
+    let one = |([longitude, latitude], share, node): ([f64; 2], f64, SiteHazard)| {
+        let states = LimitState::ALL.map(|state| {
+            let Hazard { ag, f0, tc } = node.hazard(return_period(reference, state.exceeded()));
+            say! {
+                "{state}: {ag} g, {f0}, {tc} s", "{state}: {ag} g; {f0}; {tc} s", state,
+                ag = at_most(ag, 4), f0 = at_most(f0, 4), tc = at_most(tc, 4)
+            }
+        });
+        say! {
+            "Node at longitude {longitude}°, latitude {latitude}°, weight {share}; a_g, `F0`, `T_C*` of \
+             {states}.",
+            "Nodo a longitudine {longitude}°, latitudine {latitude}°, peso {share}; a_g, `F0`, `T_C*` allo \
+             {states}.",
+            longitude, latitude, share = at_most(share, 4), states = joined(&states, "; ")
+        }
+    };
+    hazard.nodes().map(one).collect()
 }
 
 /// Says that an `a_g` is stated beside the site whose grid has another one for the return period.

@@ -1,0 +1,129 @@
+//! The loads of the wall, and its materials with the level of knowledge.
+
+use rocking_wall::wall::{Load, Opening, Parameters, Part};
+
+use crate::circolare::outcome::Checked;
+use crate::circolare::statement::table::KnowledgeLevel;
+use crate::words::formulas::formula;
+use crate::words::markup::{heads, table};
+use crate::words::{Language, Sentence, Written, say, shown};
+
+/// A row: what it is, how it follows, and its value.
+type Row = [String; 3];
+
+/// The loads: own weight, overburden, parts, openings, loads and thrusts.
+pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
+    let Parameters { height, thickness, width, density, gravity, .. } = case.parameters;
+    let mut rows = Vec::new();
+    if let Some(profile) = &case.parameters.profile {
+        rows.extend(profile.parts().iter().map(|part| of_part(part, gravity, language)));
+        rows.extend(profile.openings().iter().map(|opening| of_opening(opening, language)));
+        rows.extend(profile.loads().iter().map(|load| of_load(load, language)));
+    } else {
+        let [h, b, l, rho] = [height, thickness, width, density].map(|value| language.stated(value));
+        let weight = 1e-3 * density * gravity * height * thickness * width;
+        let how = format!(
+            "{} = {rho} · {} · {h} · {b} · {l} · 10⁻³",
+            formula("ρ g h b l"),
+            language.stated(gravity)
+        );
+        rows.push(row(&say!("Own weight `W`", "Peso proprio `W`"), how, weight, "kN", language));
+    }
+    let overburden = case.wall.body().overburden;
+    if overburden > 0.0 && case.parameters.profile.is_none() {
+        let per_metre = 1e-3 * overburden / width;
+        let words = say!("Overburden `O`, in all", "Carico in sommità `O`, totale");
+        let how = say!("stated, without mass", "dichiarato, senza massa").markup(language);
+        rows.push(row(&words, how, 1e-3 * overburden, "kN", language));
+        let words = say!("Overburden, per metre", "Carico in sommità, al metro");
+        rows.push(row(&words, formula("O/l"), per_metre, "kN/m", language));
+        let words = say!("Its eccentricity `c`, outwards", "Sua eccentricità `c`, verso l'esterno");
+        let how = say!("stated", "dichiarata").markup(language);
+        rows.push(row(&words, how, case.parameters.overburden_eccentricity, "m", language));
+    }
+    let parts = [say!("load", "carico"), say!("how", "origine"), say!("value", "valore")];
+    table(&heads(parts, language), &rows)
+}
+
+fn row(words: &Sentence, how: String, value: f64, unit: &str, language: Language) -> Row {
+    [words.markup(language), how, format!("<span class=\"value\">{} {unit}</span>", language.shown(value))]
+}
+
+fn written(value: f64) -> Written {
+    Written(shown(value))
+}
+
+fn of_part(part: &Part, gravity: f64, language: Language) -> Row {
+    let [lower, upper] = part.thickness;
+    let [from, to] = part.width;
+    // the mean of a product of two straight lines
+    let section = (2.0 * (lower * from + upper * to) + lower * to + upper * from) / 6.0;
+    let words = say! {
+        "Part from {from} to {to} m", "Porzione da {from} a {to} m",
+        from = written(part.base), to = written(part.base + part.height)
+    };
+    let how = say! {
+        "thickness {lower} to {upper} m, width {from} to {to} m, {density} kg/m³",
+        "spessore da {lower} a {upper} m, larghezza da {from} a {to} m, {density} kg/m³",
+        lower = written(lower), upper = written(upper), from = written(from), to = written(to),
+        density = written(part.density)
+    };
+    let weight = 1e-3 * part.density * gravity * section * part.height;
+    row(&words, how.markup(language), weight, "kN", language)
+}
+
+fn of_opening(opening: &Opening, language: Language) -> Row {
+    let words = say! {
+        "Opening from {from} to {to} m", "Apertura da {from} a {to} m",
+        from = written(opening.base), to = written(opening.base + opening.height)
+    };
+    let how = say!("taken out of its part", "detratta dalla porzione").markup(language);
+    row(&words, how, opening.width, "m", language)
+}
+
+fn of_load(load: &Load, language: Language) -> Row {
+    let words = say!("Load at {height} m", "Carico a {height} m", height = written(load.height));
+    let how = say! {
+        "at x = {inside} m, thrust {thrust} kN outwards, {share} of its mass moves along",
+        "a x = {inside} m, spinta {thrust} kN verso l'esterno, quota {share} della massa in moto",
+        inside = written(load.inside), thrust = written(1e-3 * load.thrust),
+        share = written(load.moving_mass.unwrap_or(0.0))
+    };
+    row(&words, how.markup(language), 1e-3 * load.force, "kN", language)
+}
+
+/// The materials, and the level of knowledge with its factor.
+pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
+    let (table_of_check, parameters) = (&case.statement.table, &case.parameters);
+    let stated = || say!("stated", "dichiarato").markup(language);
+    let mut rows = vec![row(
+        &say!("Specific weight of the masonry", "Peso specifico della muratura"),
+        formula("ρ g"),
+        1e-3 * parameters.density * parameters.gravity,
+        "kN/m³",
+        language,
+    )];
+    if let Some(strength) = table_of_check.masonry_strength {
+        let words = say!("Compressive strength f_m", "Resistenza a compressione f_m");
+        rows.push(row(&words, stated(), 1e-6 * strength, "MPa", language));
+    }
+    if let Some(modulus) = table_of_check.young_modulus {
+        let words = say!("Young's modulus `E`", "Modulo di elasticità `E`");
+        rows.push(row(&words, stated(), 1e-6 * modulus, "MPa", language));
+    }
+    if let Some(bar) = parameters.bar {
+        let words = say!("Yield stress of the bar", "Tensione di snervamento della barra");
+        rows.push(row(&words, stated(), 1e-6 * bar.yield_stress, "MPa", language));
+    }
+    let level = match table_of_check.knowledge_level {
+        Some(KnowledgeLevel::LC1) => Sentence::same("LC1"),
+        Some(KnowledgeLevel::LC2) => Sentence::same("LC2"),
+        Some(KnowledgeLevel::LC3) => Sentence::same("LC3"),
+        None if table_of_check.confidence_factor.is_some() => say!("stated", "dichiarato"),
+        None => say!("default", "valore predefinito"),
+    };
+    let words = say!("Confidence factor FC (C8.5.4)", "Fattore di confidenza FC (C8.5.4)");
+    rows.push(row(&words, level.markup(language), case.statement.confidence_factor, "", language));
+    let parts = [say!("material", "materiale"), say!("from", "origine"), say!("value", "valore")];
+    table(&heads(parts, language), &rows)
+}

@@ -1,0 +1,301 @@
+//! Reports in Italian have no English of the program, and those in English no Italian.
+
+use std::fs;
+
+use crate::command_line::{assert_has, content, folder, succeed};
+
+/// A strip wall in a building, its hinge searched, its hinges set back, in use class IV.
+const STRIP: &str = r#"
+[geometry]
+mechanism = "vertical_spanning"
+height = 3.5
+thickness = 0.3
+density = 1800
+overburden = 20000
+overburden_eccentricity = 0.05
+[force_law]
+a1 = 0.03
+[check]
+code = "circolare-2019"
+before_activation = "law"
+soil = "C"
+hinge = "worst"
+topography = "T2"
+masonry_strength = 1.5e6
+masonry_gamma = 2
+knowledge_level = "LC2"
+use_class = "IV"
+height_demand = "printed"
+building = { storeys = 3, period = 0.3, height_ratio = 0.6 }
+SLD = { ag = 0.08, F0 = 2.45, TC = 0.30, building_damping = 0.05 }
+SLV = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }
+SLC = { ag = 0.20, F0 = 2.45, TC = 0.34, building_damping = 0.1, displacement = 0.1 }
+"#;
+
+/// A loaded parapet, held, on the ground, by the check with q.
+const LINEAR: &str = r#"
+[geometry]
+height = 2
+thickness = 0.4
+density = 1800
+overburden = 3000
+[check]
+code = "circolare-2019"
+method = "linear"
+behaviour_factor = 1.5
+before_activation = "rigid"
+overburden_mass = 0.5
+soil = "A"
+topography = 1.1
+SLV = { ag = 0.1, F0 = 2.45, TC = 0.32 }
+"#;
+
+/// A parapet under spectra of its own place.
+const SPECTRUM: &str = r#"
+[geometry]
+height = 2
+thickness = 0.4
+density = 1800
+[check]
+code = "circolare-2019"
+before_activation = "rigid"
+SLV = { damping = 0.05, ag = 0.1, spectrum = [[0, 0.2], [0.3, 0.5], [4, 0.05]], spectrum_damping = 0.05 }
+SLD = { ag = 0.05, spectrum = [[0, 0.1], [0.3, 0.25], [4, 0.02]], spectrum_damping = 0.05 }
+"#;
+
+/// A parapet on a floor under records, on a grid of the hazard.
+const SITE: &str = r#"
+[geometry]
+height = 2
+thickness = 0.4
+density = 1800
+[[storeys]]
+period = 0.3
+[check]
+code = "circolare-2019"
+method = "dynamic"
+before_activation = "rigid"
+rocking = "one_sided_positive"
+soil = "B"
+record_scale = "none"
+site.grid = "grid.csv"
+site.ag_unit = "g/10"
+site.coordinates = [42.02, 13.03]
+site.nominal_life = 50
+site.use_coefficient = 1
+SLD = { building_damping = 0.05 }
+SLV = { building_damping = 0.1 }
+SLC = { building_damping = 0.1 }
+records = { synthetic = { count = 3, duration = 10, step = 0.02 } }
+"#;
+
+/// A façade with a bar that yields.
+const TIED: &str = r#"
+[geometry]
+height = 6.0
+thickness = 0.5
+density = 1900
+overburden = 10e3
+overburden_eccentricity = 0.1
+
+[force_law]
+a1 = 0.03
+
+[tie]
+tie_height = 5.8
+tie_side = "positive"
+
+[tie.bar]
+diameter = 0.016
+length = 6.0
+yield_stress = 235e6
+ultimate_strain = 0.02
+anchor_capacity = 60e3
+spacing = 3.0
+
+[check]
+code = "circolare-2019"
+before_activation = "law"
+soil = "C"
+overburden_mass = 1.0
+rocking = "one_sided_positive"
+tie = { at_activation = "yield" }
+SLV = { ag = 0.18, F0 = 2.45, TC = 0.34 }
+
+[report]
+project = "Messa in sicurezza, the façade"
+nominal_life = 50
+use_coefficient = 1.0
+language = "it"
+"#;
+
+/// A parapet by fractions of its displacement, under records.
+const FRACTIONS: &str = r#"
+[geometry]
+height = 2
+thickness = 0.4
+density = 1800
+[force_law]
+a1 = 0.05
+[check]
+code = "fractions"
+records = { synthetic = { count = 7, duration = 10, step = 0.02 } }
+"#;
+
+/// Words that no Italian text of the program has.
+pub(crate) const ENGLISH: &str = "the of is are with and at from its not walls each taken before which \
+                       without to for by has have under needs stands passed demand tie records spectrum \
+                       onset displacement ratio quantity unit capacity secant points column bears site \
+                       outwards";
+
+/// Words that no English text of the program has.
+const ITALIAN: &str = "della dello degli dei delle gli è sono non verso parete catena spostamento domanda \
+                       capacità verifica soddisfatta alla allo nel suolo piani sottosuolo dichiarato peso \
+                       carico spettro lo il un una";
+
+/// The texts of a page: what stands between tags other than those of formulas, and the labels of pictures.
+/// What users write and names of parameters are left out.
+pub(crate) fn texts(page: &str) -> Vec<String> {
+    let mut page = page.to_owned();
+    for (begins, ends) in [
+        ("<style", "</style>"),
+        ("<title", "</title>"),
+        ("<span translate", "</span>"),
+        ("<code translate", "</code>"),
+    ] {
+        while let Some(from) = page.find(begins) {
+            let to = from + page[from..].find(ends).unwrap() + ends.len();
+            page.replace_range(from..to, "<br>");
+        }
+    }
+    for tag in ["i", "b", "sub", "sup"] {
+        page = page.replace(&format!("<{tag}>"), "").replace(&format!("</{tag}>"), "");
+    }
+    let labels = page.split("aria-label=\"").skip(1).map(|rest| rest.split('"').next().unwrap().to_owned());
+    let text =
+        page.split('<').map(|part| part.split_once('>').map_or("", |(_, text)| text).trim().to_owned());
+    text.chain(labels).filter(|text| !text.is_empty()).collect()
+}
+
+/// The words of a language that a text has.
+pub(crate) fn foreign(text: &str, language: &'static str) -> Option<&'static str> {
+    let words: Vec<&str> =
+        text.split(|c: char| !c.is_alphabetic() && c != '_').filter(|word| !word.is_empty()).collect();
+    language.split(' ').find(|own| words.contains(own))
+}
+
+/// Scenes that differ from those above in what is stated.
+fn variants() -> Vec<(&'static str, String)> {
+    let of_strip = |from: &str, to: &str| STRIP.replace(from, to);
+    let table = |more: &str| LINEAR.replace("[check]\n", &format!("[check]\n{more}\n"));
+    let tall = LINEAR.replace("height = 2\n", "height = 9\n").replace("\nmethod = \"linear\"", "");
+    let slc = |text: &str| text.replace("SLV = {", "SLC = {");
+    let law = |law: &str| {
+        let text = LINEAR.replace("[check]", &format!("[force_law]\n{law}\n[check]"));
+        text.replace("\"rigid\"", "\"law\"").replace("method = \"linear\"\n", "")
+    };
+    let declared = "[report]\nmechanism = \"x\"\nmaterials = \"x\"\nloads = \"x\"\nmonolithic = true\n\
+                    masonry_quality = false\nintervention = \"x\"\nclient = \"x\"\n";
+    vec![
+        ("target", table("target = 0.6")),
+        ("retrofit", table("target = 0.9\nuse_class = \"III\"")),
+        ("raised", of_strip("[check]\n", "[check]\nraise_slc = true\n")),
+        ("ground", of_strip("height_ratio = 0.6", "height_ratio = 0")),
+        (
+            "modes",
+            of_strip(
+                "storeys = 3, period = 0.3, height_ratio = 0.6",
+                "modes = [{ period = 0.3, participation = 1.1 }, { period = 0.1, participation = -0.3 }]",
+            ),
+        ),
+        ("inwards", table("rocking = \"one_sided_negative\"")),
+        ("outwards", table("rocking = \"one_sided_positive\"")),
+        ("tall", tall.clone()),
+        ("tall_slc", slc(&tall)),
+        ("trilinear", law("force_law = \"trilinear\"\na1 = 0.03\nd1 = 0.8")),
+        ("points", law("force_law = \"multilinear\"\npoints = [[0.05, 0.9], [1.0, 0.0]]")),
+        ("knowledge", table("knowledge_level = \"LC3\"\ncompression_considered = true")),
+        (
+            "heavy_tie",
+            TIED.replace("diameter = 0.016", "diameter = 0.06").replace("anchor_capacity = 60e3\n", ""),
+        ),
+        ("declared", LINEAR.to_owned() + declared),
+        ("quiet", SITE.replace("\"g/10\"", "\"m/s2\"")),
+        (
+            "spring",
+            of_strip("\"worst\"", "\"given\"")
+                .replace("overburden_eccentricity", "hinge_ratio = 0.5\noverburden_eccentricity"),
+        ),
+        ("class_four", of_strip("SLD = {", "#SLD = {")),
+    ]
+}
+
+#[test]
+fn reports_have_one_language() {
+    let folder = folder("report_languages");
+    let nodes = [(13.0, 42.0), (13.05, 42.0), (13.0, 42.05), (13.05, 42.05)];
+    let rows = nodes.map(|(lon, lat)| format!("{lon},{lat},0.5,2.4,0.28,5,2.5,0.36\n"));
+    let grid = "lon,lat,ag_30,F0_30,TC_30,ag_3000,F0_3000,TC_3000\n".to_owned() + &rows.concat();
+    fs::write(folder.join("grid.csv"), grid).unwrap();
+    let beam =
+        STRIP.replace("\"law\"", "\"beam\"\nyoung_modulus = 1e9").replace("\"worst\"", "\"least_alpha0\"");
+    let anchor = TIED.replace("60e3", "30e3");
+    let torn = TIED.replace("ultimate_strain = 0.02", "ultimate_strain = 0.001");
+    let (before, after) = TIED.split_once("[tie.bar]").unwrap();
+    let check = after.split_once("[check]").unwrap().1.replace("yield", "none");
+    let brittle =
+        format!("{before}tie_stiffness = 5e6\ntie_strength = 10e3\ntie_slack = 0.001\n[check]{check}");
+    let given =
+        STRIP.replace("\"worst\"", "\"given\"").replace("[force_law]", "hinge_ratio = 0.6\n[force_law]");
+    let seven = SITE.replace("count = 3", "count = 7").replace("\"none\"", "\"spectrum\"");
+    // a hinge at the end of its range, beside a squat body, with an overburden in another unit
+    let squat = STRIP.replace("overburden = 20000", "overburden = 0.02\nhinge_ratio = 0.95");
+    let squat = squat.replace("\"worst\"", "\"worst\"\nhinge_range = [0.9, 0.96]");
+    let squat = squat.replace(", displacement = 0.1 }", " }");
+    let points = "spectrum = [[0, 2], [0.5, 5], [4, 0.6]]\nunit = \"m/s2\"\n[tie]\ntie_height = 1.5\n\
+                  tie_stiffness = 2e6\ntie_strength = 2e3\n";
+    let of_points = FRACTIONS.split("records").next().unwrap().to_owned() + points;
+    let on_a_floor = FRACTIONS.replace("[check]", "[[storeys]]\nperiod = 0.3\n[check]");
+    let wall = "\n[geometry]\nheight = 2\nthickness = 0.4\ndensity = 1800\n";
+    let examples = check::CODES.map(|code| (code.name, code.example.to_owned() + wall));
+    let scenes = [
+        ("strip", STRIP),
+        ("beam", &beam),
+        ("linear", LINEAR),
+        ("spectrum", SPECTRUM),
+        ("site", SITE),
+        ("tied", TIED),
+        ("anchor", &anchor),
+        ("torn", &torn),
+        ("brittle", &brittle),
+        ("given", &given),
+        ("seven", &seven),
+        ("squat", &squat),
+        ("fractions", FRACTIONS),
+        ("of_points", &of_points),
+        ("on_a_floor", &on_a_floor),
+    ];
+    let variants = variants();
+    let scenes = scenes.into_iter().chain(examples.iter().map(|(name, scene)| (*name, &**scene)));
+    let scenes: Vec<_> = scenes.chain(variants.iter().map(|(name, scene)| (*name, &**scene))).collect();
+    assert!(scenes.len() >= 30, "{}", scenes.len());
+    for (name, scene) in scenes {
+        fs::write(folder.join("scene.toml"), scene).unwrap();
+        for (language, others) in [("it", ENGLISH), ("en", ITALIAN)] {
+            let file = format!("{name}-{language}.html");
+            succeed(&folder, &["check", "scene.toml", "--lang", language, "--report", &file]);
+            let page = content(&folder, &file);
+            assert!(page.contains(&format!("<html lang=\"{language}\"")), "{name}");
+            let all = texts(&page);
+            assert!(all.len() > 50, "{name}");
+            let own = |text: &&String| !text.starts_with("wall ");
+            let left: Vec<_> =
+                all.iter().filter(own).filter_map(|text| Some((foreign(text, others)?, text))).collect();
+            assert!(left.is_empty(), "{name} in {language}: these texts are not: {left:#?}");
+        }
+    }
+    assert_has(&content(&folder, "torn-it.html"), &["la barra (fragile)", "Area della sezione della barra"]);
+    // the runs rock as the scene does
+    let said = "Nelle verifiche statiche la parete oscilla solo verso u &gt; 0, verso l'esterno.";
+    assert_has(&content(&folder, "site-it.html"), &[said]);
+}
