@@ -137,7 +137,7 @@ impl Unit {
         {
             self.simulation.restore(before);
             let early = self.move_wall(CommunicationStep { duration, ..step });
-            if early.as_ref().is_ok_and(|done| done.overturned || done.fractures != [None; 2]) {
+            if early.as_ref().is_ok_and(|done| done.overturned || done.fractures != [false; 2]) {
                 (step.duration, event) = (duration, Some(step.from + duration));
                 done = early;
             } else {
@@ -156,7 +156,7 @@ impl Unit {
             input.extrapolate(step.duration);
         }
         self.refresh();
-        self.log_events(&done, end, log);
+        self.log_events(&done, [step.from, end], log);
         Ok(event)
     }
 
@@ -187,8 +187,19 @@ impl Unit {
         Some(event - step.from + margin).filter(|&duration| duration < step.duration)
     }
 
-    /// Logs what happened in a step.
-    fn log_events(&self, done: &Step, end: f64, log: &mut Log<'_>) {
+    #[cold]
+    fn log_fractures(&self, done: &Step, [from, end]: [f64; 2], log: &mut Log<'_>) {
+        let firsts = self.simulation.progress().tie_breaks;
+        for (_, first) in done.fractures.into_iter().zip(firsts).filter(|(has_broken, _)| *has_broken) {
+            match first.filter(|time| *time >= from - HAPPENED_SINCE) {
+                Some(time) => log.event(format_args!("a tie broke at t = {time} s")),
+                None => log.event(format_args!("another tie broke by t = {end} s")),
+            }
+        }
+    }
+
+    /// Logs what happened in a step between two times \[s\].
+    fn log_events(&self, done: &Step, [from, end]: [f64; 2], log: &mut Log<'_>) {
         if done.put_to_rest {
             log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
         }
@@ -196,8 +207,8 @@ impl Unit {
             let time = self.simulation.progress().overturn_time.unwrap_or(end);
             log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
         }
-        for time in done.fractures.into_iter().flatten() {
-            log.event(format_args!("a tie broke at t = {time} s"));
+        if done.fractures != [false; 2] {
+            self.log_fractures(done, [from, end], log);
         }
         if done.departed {
             log.event(format_args!(
