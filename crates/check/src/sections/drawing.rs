@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
+use run::drawing::Words;
 
 use crate::words::{Language, Sentence, at_most, say, shown};
 
@@ -36,6 +37,9 @@ struct Drawing<'a> {
 /// The figure, with what its marks mean.
 pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> String {
     let body = of.body();
+    if !body.is_rectangle {
+        return of_body(of, parameters, language);
+    }
     let thickness = parameters.thickness;
     let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
     let mut drawing = Drawing { of, parameters, scale, language, svg: String::new() };
@@ -59,6 +63,25 @@ pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> 
          font-size=\"15\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
         drawing.svg
     )
+}
+
+/// The figure of a body: its section with loads, thrusts and ties, and its front.
+fn of_body(of: &Wall, parameters: &Parameters, language: Language) -> String {
+    let words = match language {
+        Language::En => Words::EN,
+        Language::It => Words::IT,
+    };
+    let mut said: Vec<_> = marks(of, parameters).iter().map(|said| said.markup(language)).collect();
+    let loads = say! {
+        "Arrows: loads and thrusts. ⊙ Centroid of the masonry.",
+        "Frecce: carichi e spinte. ⊙ Baricentro della muratura."
+    };
+    said.push(loads.markup(language));
+    let svg = run::drawing::without_legend(of, parameters, words);
+    let label = say!("the wall to scale", "la parete in scala");
+    let svg =
+        svg.replace("aria-label=\"the wall to scale\"", &format!("aria-label=\"{}\"", label.of(language)));
+    format!("<figure><figcaption>{}</figcaption>{svg}</figure>\n", said.join(" "))
 }
 
 /// What the marks of a drawing mean.

@@ -12,7 +12,7 @@ use crate::report::report_of_one;
 const ROUNDING: f64 = 1e-12;
 const G: f64 = 9.81;
 
-fn near(found: f64, expected: f64, what: &str) {
+pub(crate) fn near(found: f64, expected: f64, what: &str) {
     assert!((found - expected).abs() <= ROUNDING * expected.abs(), "{what}: {found}, expected {expected}");
 }
 
@@ -37,7 +37,7 @@ fn load(force: f64, height: f64, inside: f64, share: f64, thrust: &str) -> Strin
 }
 
 /// A façade of two storeys, 50 and 36 cm thick, with a floor and a roof.
-fn facade(thrust: &str, more: &str) -> String {
+pub(crate) fn facade(thrust: &str, more: &str) -> String {
     part(0.5, 3.3)
         + &part(0.36, 3.1)
         + &load(14e3, 3.3, 0.4, 1.0, "")
@@ -45,7 +45,7 @@ fn facade(thrust: &str, more: &str) -> String {
         + &check(more)
 }
 
-fn number(of: &Value, keys: &[&str]) -> f64 {
+pub(crate) fn number(of: &Value, keys: &[&str]) -> f64 {
     let found = keys.iter().fold(of, |value, key| &value[*key]);
     found.as_f64().unwrap_or_else(|| panic!("{keys:?} of {of}"))
 }
@@ -122,7 +122,7 @@ fn levels(outcome: &Value) -> &[Value] {
     outcome["levels"].as_array().unwrap()
 }
 
-fn json(text: &str) -> Value {
+pub(crate) fn json(text: &str) -> Value {
     use rocking_wall::scene::Scene;
     let scene = Scene::parse("scene.toml", text, ".".as_ref()).unwrap();
     let code = check::read(&check::CheckFile::parse("scene.toml", text).unwrap()).unwrap();

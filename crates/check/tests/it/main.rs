@@ -7,6 +7,7 @@
 mod broken;
 mod circolare;
 mod circolare_bodies;
+mod circolare_body_ties;
 mod circolare_cases;
 mod circolare_dynamic;
 mod circolare_edges;

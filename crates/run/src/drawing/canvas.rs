@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use report::escaped;
 
+use super::words::Words;
+
 /// Distance of the lines of labels \[px\].
 pub(super) const LINE: f64 = 17.0;
 /// Size of the letters \[px\].
@@ -24,10 +26,10 @@ pub(super) enum Anchor {
     End,
 }
 
-/// What has been drawn.
-#[derive(Default)]
+/// What has been drawn, and the words of labels.
 pub(super) struct Canvas {
     pub(super) svg: String,
+    pub(super) words: Words,
 }
 
 impl Canvas {
@@ -57,7 +59,8 @@ impl Canvas {
         // a white edge keeps it apart from lines behind it
         let edge = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
         let place = format!("x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\"");
-        let _ = writeln!(self.svg, "<text {place} {edge}>{}</text>", escaped(text));
+        let text = if self.words.has_commas { with_commas(text) } else { text.to_owned() };
+        let _ = writeln!(self.svg, "<text {place} {edge}>{}</text>", escaped(&text));
     }
 
     /// An arrow whose tip is at a place, from `[dx, dy]` away, along an axis.
@@ -136,6 +139,18 @@ fn spread(mut labels: Vec<Label>, [top, bottom]: [f64; 2]) -> Vec<(Label, f64)> 
         most = *place - LINE;
     }
     labels.into_iter().zip(places).collect()
+}
+
+/// Returns a text with commas in place of the points of its numbers.
+fn with_commas(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let is_digit = |at: Option<usize>| at.and_then(|at| letters.get(at)).is_some_and(char::is_ascii_digit);
+    let of_number = |at: usize| is_digit(at.checked_sub(1)) && is_digit(Some(at + 1));
+    letters
+        .iter()
+        .enumerate()
+        .map(|(at, own)| if *own == '.' && of_number(at) { ',' } else { *own })
+        .collect()
 }
 
 #[cfg(test)]

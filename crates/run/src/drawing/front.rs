@@ -19,7 +19,7 @@ pub(super) fn draw(canvas: &mut Canvas, shape: &Shape, top: f64) -> f64 {
     let axis = 0.5 * WIDTH;
     let at = |x: f64, z: f64| [axis + scale * x, foot - scale * z];
     canvas.line([12.0, top - 2.0], [WIDTH - 12.0, top - 2.0], "stroke=\"#ddd\"");
-    canvas.text([12.0, top + 18.0], Anchor::Start, "from the front");
+    canvas.text([12.0, top + 18.0], Anchor::Start, canvas.words.from_the_front);
     for part in &shape.parts {
         let ([bottom, upper], [from, to]) = (part.width.map(|width| 0.5 * width), [part.base, part.top()]);
         let corners = [at(-bottom, from), at(bottom, from), at(upper, to), at(-upper, to)];

@@ -15,6 +15,7 @@ mod section;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod words;
 
 use report::number;
 use rocking_wall::variables::EccentricityMode;
@@ -22,6 +23,7 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use canvas::{Anchor, Canvas, LETTERS, LINE};
 pub use shape::{Hinge, Shape};
+pub use words::Words;
 
 /// Width of a drawing \[px\]: a phone shows it as it is.
 const WIDTH: f64 = 420.0;
@@ -32,13 +34,23 @@ const BARS: [f64; 10] = [50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05];
 
 /// Draws a wall to scale, as SVG for a file and for pages: on white, which pages invert in the dark.
 pub fn svg(wall: &Wall, parameters: &Parameters) -> String {
+    drawn(wall, parameters, Words::EN, true)
+}
+
+/// Draws a wall to scale as [`svg`] does, with other words and without a legend.
+pub fn without_legend(wall: &Wall, parameters: &Parameters, words: Words) -> String {
+    drawn(wall, parameters, words, false)
+}
+
+fn drawn(wall: &Wall, parameters: &Parameters, words: Words, has_legend: bool) -> String {
     let shape = Shape::new(wall, parameters);
-    let mut canvas = Canvas::default();
+    let mut canvas = Canvas { svg: String::new(), words };
     let mut height = section::draw(&mut canvas, &shape, wall, parameters);
     if shape.has_front() {
         height = front::draw(&mut canvas, &shape, height);
     }
-    for line in legend(&shape, wall, parameters) {
+    let legend = if has_legend { legend(&shape, wall, parameters) } else { Vec::new() };
+    for line in legend {
         height += LINE;
         canvas.text([12.0, height], Anchor::Start, &line);
     }

@@ -105,7 +105,7 @@ impl Section<'_> {
             self.canvas.polygon(&corners, &super::masonry(part.density));
             if few {
                 let y = self.y(part.base + 0.72 * part.height);
-                self.label(true, y, of_part(part));
+                self.label(true, y, of_part(part, self.canvas.words.to));
             }
         }
         if self.shape.parts.is_empty() {
@@ -147,24 +147,24 @@ impl Section<'_> {
             let plate = face + 2.0_f64.copysign(sign);
             self.canvas.line([plate, y - 8.0], [plate, y + 8.0], TIE);
         }
-        let is_outside = !tie.holds(1.0);
-        self.label(is_outside, y + 14.0, format!("tie at {}", metres(z)));
+        let (is_outside, words) = (!tie.holds(1.0), self.canvas.words);
+        self.label(is_outside, y + 14.0, format!("{} {} {}", words.tie, words.at, metres(z)));
         if let Some(strength) = tie.strength {
-            self.label(is_outside, y + 14.0 + LINE, format!("up to {}", kilonewtons(strength)));
+            self.label(is_outside, y + 14.0 + LINE, format!("{} {}", words.up_to, kilonewtons(strength)));
         }
     }
 
     /// Loads are arrows downwards to their places, thrusts arrows at the outer face.
     fn loads(&mut self) {
         let few = self.shape.loads.len() <= MOST_LABELS;
-        let shape = self.shape;
+        let (shape, words) = (self.shape, self.canvas.words);
         for load in &shape.loads {
             let Load { force, height, inside, thrust, .. } = *load;
             let at = self.at([inside, height]);
             if force > 0.0 {
                 self.canvas.arrow("load", at, [0.0, -ARROW]);
                 if few {
-                    let text = format!("{} at {}", kilonewtons(force), metres(height));
+                    let text = format!("{} {} {}", kilonewtons(force), words.at, metres(height));
                     self.label(false, at[1] - 0.4 * ARROW, text);
                 }
             }
@@ -173,13 +173,13 @@ impl Section<'_> {
                 let (tip, tail) = if thrust > 0.0 { (ARROW + 4.0, -ARROW) } else { (2.0, ARROW) };
                 self.canvas.arrow("thrust", [face + tip, at[1]], [tail, 0.0]);
                 if few {
-                    let text = format!("thrust {}", kilonewtons(thrust.abs()));
+                    let text = format!("{} {}", words.thrust, kilonewtons(thrust.abs()));
                     self.labels[1].push(Label { from: [face + ARROW + 6.0, at[1]], text });
                 }
             }
         }
         if !few {
-            self.label(false, self.foot - 20.0, format!("{} loads", shape.loads.len()));
+            self.label(false, self.foot - 20.0, format!("{} {}", shape.loads.len(), words.loads));
         }
         if let Some(Load { force, height, inside, .. }) = shape.overburden {
             let [x, mut y] = self.at([inside, height]);
@@ -193,7 +193,7 @@ impl Section<'_> {
     }
 
     fn centroids(&mut self, parameters: &Parameters) {
-        let shape = self.shape;
+        let (shape, words) = (self.shape, self.canvas.words);
         for (index, centroid) in shape.centroids.iter().enumerate() {
             let [x, y] = self.at([centroid.x, centroid.z]);
             let look = format!("fill=\"#fff\" stroke=\"{FORCE}\" stroke-width=\"1.5\"");
@@ -201,7 +201,7 @@ impl Section<'_> {
             self.canvas.circle([x, y], 1.5, &format!("fill=\"{FORCE}\""));
             let name = if shape.centroids.len() > 1 { ["W₁", "W₂"][index.min(1)] } else { "W" };
             let weight = number(1e-3 * centroid.mass * parameters.gravity, 3);
-            let text = format!("{name} = {weight} kN at {} m", number(centroid.z, 3));
+            let text = format!("{name} = {weight} kN {} {} m", words.at, number(centroid.z, 3));
             self.label(true, y, text);
         }
     }
@@ -244,8 +244,8 @@ impl Section<'_> {
         let base = format!("b = {}", metres(inner - outer));
         let ends = [self.x(inner), self.x(outer)];
         self.canvas.across(ends, foot + 22.0, &base);
-        self.canvas.text([AXIS - SUPPORT, foot + 27.0], Anchor::End, "inside");
-        self.canvas.text([AXIS + SUPPORT + 6.0, foot + 8.0], Anchor::Start, "outside");
+        self.canvas.text([AXIS - SUPPORT, foot + 27.0], Anchor::End, self.canvas.words.inside);
+        self.canvas.text([AXIS + SUPPORT + 6.0, foot + 8.0], Anchor::Start, self.canvas.words.outside);
         let y = foot + 61.0;
         bar(self.canvas, [12.0, y], self.scale);
         let x = 250.0;
@@ -261,9 +261,9 @@ impl Section<'_> {
 }
 
 /// Thickness and density of a part.
-fn of_part(part: &Part) -> String {
+fn of_part(part: &Part, to: &str) -> String {
     let [bottom, top] = part.thickness;
     let thickness =
-        if bottom == top { metres(bottom) } else { format!("{} to {}", number(bottom, 4), metres(top)) };
+        if bottom == top { metres(bottom) } else { format!("{} {to} {}", number(bottom, 4), metres(top)) };
     format!("{thickness}, {} kg/m³", number(part.density, 5))
 }

@@ -6,6 +6,7 @@ use super::spectrum::{self, At};
 use super::{ActivationCheck, DisplacementCheck};
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::ledger::{Names, OfSide, gives};
+use crate::circolare::curve::tie;
 use crate::circolare::statement::states::StateStatement;
 use crate::ntc::demand::{Demand, LONGEST_PERIOD};
 use crate::words::ledger::{Ledger, Quantity, Unit};
@@ -237,9 +238,16 @@ impl DisplacementCheck {
         let force = self.tie.map_or(0.0, |tie| tie.force);
         let Names { pushed, lever, .. } = curve.names();
         ledger.know(&[("N", 1e-3 * force)]);
-        let pull = curve.tie().map_or(0.0, |tie| tie.lever * force);
+        let u = self.d / curve.d_per_u;
+        let pulls = curve.ties().map(|tie| tie.lever * tie::force(tie, u));
+        let pull: f64 = pulls.sum();
+        let several = curve.has_several_ties();
+        let pulled = if several { format!("Σ ({lever}) N") } else { format!("({lever}) N") };
+        if several {
+            ledger.know(&[(&pulled, 1e-3 * pull)]);
+        }
         let is_tied = gives((own + curve.of_force(pull)) / factor, self.a);
-        let formula = || format!(" = [a_0 (1 − d/d_0) + ({lever}) N g/({pushed} e*)]/FC");
+        let formula = || format!(" = [a_0 (1 − d/d_0) + {pulled} g/({pushed} e*)]/FC");
         is_tied.then(formula).unwrap_or_default()
     }
 

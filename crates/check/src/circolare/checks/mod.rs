@@ -1,26 +1,28 @@
 //! The static checks of a side.
 
+mod activation;
 pub(super) mod ledger;
 pub(crate) mod sides;
 mod spectrum;
+pub(crate) mod ties;
 
 use report::apart;
 
+use super::curve::Curve;
 use super::curve::case::Case;
 use super::curve::tie::{TieAtLimit, TieState};
-use super::curve::{Curve, TieBreak};
 use super::statement::states::StateStatement;
 use super::statement::table::{AtActivation, Hinge, Method};
 use super::statement::{Displacements, Statement};
 use crate::error::CheckError;
 use crate::ntc::demand::{Demand, Demands};
 use crate::words::names::{Deciding, LimitState};
+pub use activation::AtActivationNumbers;
+use activation::{at_activation, required};
 
 /// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
 /// C8.7.1.2.1.6 \[-\].
 pub const LARGEST_LOSS: f64 = 0.5;
-/// Largest `u_y`/`u_0` of a tie that acts at the activation \[-\].
-const SOFTEST: f64 = 0.10;
 
 /// The checks of a side; `None` for one that is not made.
 #[derive(Clone, Copy, Debug)]
@@ -144,19 +146,6 @@ impl Checks {
     }
 }
 
-/// A wall at its activation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtActivationNumbers {
-    /// α0 with the tie \[-\].
-    pub alpha0: f64,
-    /// a with the tie, without FC \[m/s²\].
-    pub acceleration: f64,
-    /// T0 with the tie \[s\].
-    pub t0: f64,
-    /// N of the tie \[N\].
-    pub force: f64,
-}
-
 /// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActivationCheck {
@@ -205,8 +194,10 @@ pub struct DisplacementCheck {
     pub limited_by_tie: bool,
     /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
     pub raised: bool,
-    /// The tie there and at the demand.
+    /// The tie there and at the demand, of a side that one tie holds.
     pub tie: Option<TieAtLimit>,
+    /// Whether a tie is broken there.
+    pub has_broken_tie: bool,
 }
 
 /// C8.7.1.2.1.5 with the capacity times `factor`: `a_0` of a wall that is held, or `a_y`, over FC, with the
@@ -219,17 +210,12 @@ fn activation(
     xi: f64,
     factor: f64,
 ) -> Result<ActivationCheck, CheckError> {
-    let own = curve.ay;
     let AtActivationNumbers { acceleration, t0, .. } = at_activation(curve, statement)?;
     let capacity = factor * acceleration / statement.confidence_factor;
-    let required = match curve.tie() {
-        // N = max(0, [ζ FC S_L/C_L − a_y] s1 e*/(g A)), with the demand of the wall with its tie
-        Some(tie) if tie.slack == 0.0 => {
-            let demand = demand.acceleration(given.state, curve.tied_period(), xi)?;
-            let lacking = statement.target * statement.confidence_factor * demand / factor - own;
-            Some((lacking / curve.of_force(tie.lever)).max(0.0))
-        }
-        _ => None,
+    // several ties share what is required: each is told it alone
+    let required = match curve.tie().filter(|_| !curve.has_several_ties()) {
+        Some(tie) => required(curve, statement, given, demand, tie, [xi, factor])?,
+        None => None,
     };
     let demand = demand.acceleration(given.state, t0, xi)?;
     let ratio = capacity / demand;
@@ -245,51 +231,6 @@ fn activation(
     })
 }
 
-/// The wall at its activation, with the tie where it counts there.
-pub(super) fn at_activation(curve: &Curve, statement: &Statement) -> Result<AtActivationNumbers, CheckError> {
-    let pull = tie_at_activation(curve, statement)?;
-    Ok(AtActivationNumbers {
-        alpha0: curve.alpha0 + pull / curve.pushed_weight,
-        acceleration: curve.ay + curve.of_force(pull),
-        t0: if pull > 0.0 { curve.tied_period() } else { curve.t0 },
-        force: curve.tie().map_or(0.0, |tie| pull / tie.lever),
-    })
-}
-
-/// A `N_y`, the force of the tie at the place of F at the activation; 0 where it does not count \[N\].
-///
-/// # Errors
-/// [`CheckError`] of a tie that does not act there.
-fn tie_at_activation(curve: &Curve, statement: &Statement) -> Result<f64, CheckError> {
-    if statement.at_activation() == AtActivation::None {
-        return Ok(0.0);
-    }
-    let Some(tie) = curve.tie() else { return Ok(0.0) };
-    let refused = |message: String| {
-        let message = format!("at_activation = \"yield\" {message}");
-        Err(CheckError::value(&["tie", "at_activation"], message))
-    };
-    let Some(strength) = tie.strength else {
-        return refused("needs a tie with tie_strength, N_y in N, or a bar".into());
-    };
-    if tie.slack > 0.0 {
-        return refused(format!(
-            "needs a tight tie: with tie_slack = {} m the wall rocks before the tie pulls; state \"none\", \
-             or leave tie_slack out",
-            tie.slack
-        ));
-    }
-    let (yields, limit) = (strength / tie.stiffness / tie.lever, SOFTEST * curve.zero);
-    if yields > limit {
-        let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
-        return refused(format!(
-            "needs a stiff tie: this one has its strength at u_y = {yields} mm, beyond {SOFTEST} u_0 = \
-             {limit} mm; state \"none\", or a stiffer tie"
-        ));
-    }
-    Ok(tie.lever * strength)
-}
-
 /// Returns the displacement u of a limit state, and whether the tie breaks there, C8.7.1.2.1.6 \[m\].
 fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, bool), CheckError> {
     let of_curve = fraction * curve.zero;
@@ -302,17 +243,13 @@ fn limit(curve: &Curve, given: &StateStatement, fraction: f64) -> Result<(f64, b
         }
         return Ok((of_curve.min(local), false));
     }
-    Ok(match curve.tie_break() {
-        Some(TieBreak { u, loss, .. }) if u < of_curve && loss > LARGEST_LOSS => (u, true),
-        _ => (of_curve, false),
-    })
+    Ok(curve.lost_before(of_curve, LARGEST_LOSS).map_or((of_curve, false), |u| (u, true)))
 }
 
 /// Whether the acceleration of activation at SLD is the least one of a limit state, C8.7.1.2.1.8: always of
 /// SLV; of SLC where that is stated, and not by a tie that SLD counts and that is broken at `d_SLC`.
-fn is_raised(statement: &Statement, state: LimitState, tie: Option<TieAtLimit>) -> bool {
-    let counts = statement.at_activation() == AtActivation::Yield;
-    let is_broken = counts && tie.is_some_and(|tie| tie.state == TieState::Broken);
+fn is_raised(statement: &Statement, state: LimitState, has_broken_tie: bool) -> bool {
+    let is_broken = statement.at_activation() == AtActivation::Yield && has_broken_tie;
     state == LimitState::Slv || statement.table.raise_slc && !is_broken
 }
 
@@ -342,8 +279,10 @@ fn displacement(
     let t0 = curve.tied_period().min(period);
     let (acceleration, demand, demand_terms) = demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
-    let tie = curve.tie().map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
-    let least = floor.filter(|_| is_raised(statement, state, tie)).unwrap_or(0.0);
+    let alone = curve.tie().filter(|_| !curve.has_several_ties());
+    let tie = alone.map(|tie| TieAtLimit::new(tie, [u, demand / curve.d_per_u]));
+    let has_broken_tie = curve.ties().any(|tie| TieState::at(tie, u) == TieState::Broken);
+    let least = floor.filter(|_| is_raised(statement, state, has_broken_tie)).unwrap_or(0.0);
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
@@ -361,5 +300,6 @@ fn displacement(
         limited_by_tie,
         raised,
         tie,
+        has_broken_tie,
     })
 }

@@ -5,7 +5,9 @@ mod ledger;
 use rocking_wall::wall::Body;
 use serde::Serialize;
 
-use super::{AtActivationNumbers, Checks, DisplacementCheck, at_activation};
+use super::activation::{AtActivationNumbers, at_activation};
+use super::ties::{TieNumbers, TieVerdict, of_ties};
+use super::{Checks, DisplacementCheck};
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::case::{Case, has_plateau};
 use crate::circolare::curve::hinge::{self, Search};
@@ -31,6 +33,8 @@ pub struct SideVerdict {
     pub activation: AtActivationNumbers,
     /// The tie, on a side that it holds.
     pub tie: Option<TieNumbers>,
+    /// Each of several ties that hold the side; none where one holds it alone.
+    pub ties: Vec<TieVerdict>,
     /// `ζ_E` without the tie.
     pub untied: Option<Untied>,
     /// `ζ_E` with half and twice a₁ or E.
@@ -53,13 +57,9 @@ impl SideVerdict {
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
         });
-        let tie = curve.tie().map(|tie| TieNumbers {
-            engaged: tie.onset(),
-            yields: tie.strength_displacement(),
-            breaks: tie.fracture_displacement(),
-            loss: curve.tie_break().map(|broken| broken.loss),
-        });
+        let tie = curve.tie().map(|tie| TieNumbers::new(&curve, 0, tie));
         let activation = at_activation(&curve, case.statement)?;
+        let ties = if curve.has_several_ties() { of_ties(case, sign, &curve, &checks)? } else { Vec::new() };
         let mut others: Vec<Curve> = Vec::new();
         for hinge in Deciding::ALL.into_iter().filter_map(|check| checks.hinge(check)) {
             if curve.hinge != Some(hinge) && others.iter().all(|other| other.hinge != Some(hinge)) {
@@ -68,8 +68,18 @@ impl SideVerdict {
         }
         let sensitivity = sensitivity(case, sign);
         let (least_alpha0, unsearched) = (None, None);
-        let mut side =
-            Self { curve, checks, least_alpha0, activation, tie, untied, sensitivity, unsearched, others };
+        let mut side = Self {
+            curve,
+            checks,
+            least_alpha0,
+            activation,
+            tie,
+            ties,
+            untied,
+            sensitivity,
+            unsearched,
+            others,
+        };
         if let Some(rule) = case.rule {
             side.look_beside(case, sign, rule)?;
         }
@@ -150,19 +160,6 @@ pub struct LeastAlpha0 {
     pub worst_hinge: Option<f64>,
     /// The check that has it; `None` where it was not searched.
     pub worst_check: Option<Deciding>,
-}
-
-/// Displacements u of a tie, and what its rupture takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TieNumbers {
-    /// Where it begins to pull \[m\].
-    pub engaged: f64,
-    /// Where it has its strength \[m\].
-    pub yields: Option<f64>,
-    /// Where it breaks \[m\].
-    pub breaks: Option<f64>,
-    /// What the curve loses there, over its largest a \[-\].
-    pub loss: Option<f64>,
 }
 
 /// `ζ_E` of a side without its tie.

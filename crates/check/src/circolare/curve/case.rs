@@ -51,10 +51,7 @@ impl<'a> Case<'a> {
         sizes::check(&parameters)?;
         let mut parameters = level::above(&parameters, statement.hinge_levels[level])?;
         parameters.rocking = statement.table.rocking.map_or(parameters.rocking, Rocks::rocking);
-        // in the check a tie without a plastic elongation is brittle
-        if parameters.tie_strength > 0.0 && parameters.tie_ultimate < 0.0 {
-            parameters.tie_ultimate = 0.0;
-        }
+        level::make_brittle(&mut parameters);
         level::check_body(&parameters)?;
         let activation = activation(&parameters, statement)?;
         stated(&parameters, activation, subject.assumed)?;

@@ -1,7 +1,7 @@
 //! The body that a wall has above a level, and the thrusts that count on one of its sides.
 
 use rocking_wall::variables::{Mechanism, Rocking};
-use rocking_wall::wall::{Load, Parameters, Part, Profile};
+use rocking_wall::wall::{Load, Parameters, Part, Profile, TieNumbers};
 
 use crate::error::CheckError;
 
@@ -35,12 +35,29 @@ pub(crate) fn above(parameters: &Parameters, level: f64) -> Result<Parameters, C
     };
     let mut above = parameters.clone();
     above.set_profile(body);
-    above.tie_height -= level;
-    // a tie at the level or below holds what does not turn
-    if above.tie_height <= SAME * parameters.height {
-        (above.tie_stiffness, above.bar) = (0.0, None);
+    let ties: Vec<_> = parameters.ties().map(|tie| lowered(tie, level, parameters.height)).collect();
+    let [first, further @ ..] = &ties[..] else { return Ok(above) };
+    Ok(Parameters { further_ties: further.into(), ..above.tied_by(*first) })
+}
+
+/// A tie as it holds the body above a level; one at the level or below holds what does not turn.
+fn lowered(tie: TieNumbers, level: f64, height: f64) -> TieNumbers {
+    if tie.height <= level + SAME * height {
+        return TieNumbers { stiffness: 0.0, bar: None, ..tie };
     }
-    Ok(above)
+    TieNumbers { height: tie.height - level, ..tie }
+}
+
+/// Makes the ties brittle that have a strength and no plastic elongation: the check has no others.
+pub(crate) fn make_brittle(parameters: &mut Parameters) {
+    let brittle = |tie: TieNumbers| {
+        let ultimate = if tie.strength > 0.0 && tie.ultimate < 0.0 { 0.0 } else { tie.ultimate };
+        TieNumbers { ultimate, ..tie }
+    };
+    let ties: Vec<_> = parameters.ties().map(brittle).collect();
+    let [first, further @ ..] = &ties[..] else { return };
+    parameters.tie_ultimate = first.ultimate;
+    parameters.further_ties = further.into();
 }
 
 fn rectangle(parameters: &Parameters) -> Part {
@@ -87,11 +104,18 @@ pub(crate) fn on_side(parameters: &Parameters, sign: f64) -> Parameters {
     own
 }
 
-/// Divides the forces of loads by a factor, as of the runs; their masses stay.
+/// Divides the forces of loads and of further ties by a factor, as of the runs; masses stay.
 pub(crate) fn divide_loads(parameters: &mut Parameters, factor: f64) {
     set_loads(parameters, |load| Load { force: load.force / factor, thrust: load.thrust / factor, ..*load });
     parameters.load_force /= factor;
     parameters.thrust /= factor;
+    let softer = |tie: &TieNumbers| TieNumbers {
+        stiffness: tie.stiffness / factor,
+        strength: tie.strength / factor,
+        bar: None,
+        ..*tie
+    };
+    parameters.further_ties = parameters.further_ties.iter().map(softer).collect();
 }
 
 fn set_loads(parameters: &mut Parameters, changed: impl Fn(&Load) -> Load) {
@@ -108,9 +132,6 @@ fn set_loads(parameters: &mut Parameters, changed: impl Fn(&Load) -> Load) {
 /// # Errors
 /// [`CheckError`] with the load or the part, its value and the remedy.
 pub(crate) fn check_body(parameters: &Parameters) -> Result<(), CheckError> {
-    if !parameters.further_ties.is_empty() {
-        return Err(CheckError::wall("a check counts one tie: leave the others out"));
-    }
     for (index, load) in loads(parameters).iter().enumerate() {
         if load.force > 0.0 && load.moving_mass.is_none() {
             return Err(CheckError::wall(format!(

@@ -13,6 +13,7 @@
 //! r is the share of the overburden O whose mass moves with a parapet. A strip wall is held at its top, where
 //! its overburden rests: O is in F alone.
 
+mod breaks;
 pub(crate) mod case;
 pub(crate) mod hinge;
 pub(super) mod ledger;
@@ -29,6 +30,7 @@ use rocking_wall::wall::{Body, Parameters, Sides, Statics, Tie};
 
 use super::statement::table::Activation;
 use crate::error::CheckError;
+pub use breaks::TieBreak;
 use case::{Case, has_plateau};
 use pushed::Pushed;
 use set_back::SetBack;
@@ -85,21 +87,6 @@ pub struct Curve {
     pub dy: f64,
     /// `a_y`, without FC: the largest acceleration before the wall rocks \[m/s²\].
     pub ay: f64,
-}
-
-/// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TieBreak {
-    /// u there \[m\].
-    pub u: f64,
-    /// a with the tie there \[m/s²\].
-    pub before: f64,
-    /// The largest a that the wall alone reaches from there on \[m/s²\].
-    pub after: f64,
-    /// The largest a of the whole curve \[m/s²\].
-    pub largest: f64,
-    /// What is lost over the largest \[-\].
-    pub loss: f64,
 }
 
 impl Curve {
@@ -187,9 +174,19 @@ impl Curve {
         self.statics.body()
     }
 
-    /// The tie that holds this side.
+    /// The ties that hold this side.
+    pub fn ties(&self) -> impl Iterator<Item = &Tie> + Clone {
+        self.statics.ties().of_side(self.sign).filter(|_| self.tied)
+    }
+
+    /// The first tie that holds this side.
     pub fn tie(&self) -> Option<&Tie> {
-        self.statics.tie().filter(|tie| self.tied && tie.holds(self.sign))
+        self.ties().next()
+    }
+
+    /// Whether more than one tie holds this side.
+    pub(super) fn has_several_ties(&self) -> bool {
+        self.ties().count() > 1
     }
 
     /// The acceleration of a force at the place of F, without FC: g F/(s1 e*) \[m/s²\].
@@ -197,22 +194,26 @@ impl Curve {
         self.gravity * force / (self.pushed_weight * self.e_star)
     }
 
-    /// T0 of the wall beside a tie that is tight from the start \[s\].
+    /// T0 of the wall beside ties that are tight from the start \[s\].
     pub(super) fn tied_period(&self) -> f64 {
-        let own = self.t0;
-        let Some(tie) = self.tie().filter(|tie| tie.slack == 0.0 && !self.is_rigid()) else { return own };
-        let stiffness = self.of_force(tie.slope()) / self.d_per_u;
-        TAU / ((TAU / own).powi(2) + stiffness).sqrt()
+        self.period_beside(self.ties())
     }
 
-    /// a at u of the wall without its tie, with FC [C8.7.1.3] \[m/s²\].
-    pub(super) fn own(&self, u: f64) -> f64 {
-        self.of_force(self.own_force(u)) / self.confidence_factor
+    /// T0 of the wall beside those of some ties that are tight from the start \[s\].
+    pub(super) fn period_beside<'a>(&self, ties: impl Iterator<Item = &'a Tie> + Clone) -> f64 {
+        let tight = ties.filter(|tie| tie.slack == 0.0);
+        if self.is_rigid() || tight.clone().next().is_none() {
+            return self.t0;
+        }
+        let slope = tight.map(Tie::slope).fold(0.0, |sum, slope| sum + slope);
+        let stiffness = self.of_force(slope) / self.d_per_u;
+        TAU / ((TAU / self.t0).powi(2) + stiffness).sqrt()
     }
 
     /// a at u with the tie up to and including where it breaks, with FC \[m/s²\].
     pub(super) fn tied(&self, u: f64) -> f64 {
-        let pull = self.tie().map_or(0.0, |tie| tie.lever * tie::force(tie, u));
+        let pulls = self.ties().map(|tie| tie.lever * tie::force(tie, u));
+        let pull = pulls.fold(0.0, |sum, pull| sum + pull);
         self.of_force(self.own_force(u) + pull) / self.confidence_factor
     }
 
@@ -222,7 +223,7 @@ impl Curve {
         if self.activation == Activation::Law {
             at.extend(self.statics.own_corners(self.sign));
         }
-        if let Some(tie) = self.tie() {
+        for tie in self.ties() {
             at.push(tie.onset());
             at.extend(tie.strength_displacement());
             at.extend(tie.fracture_displacement());
@@ -235,26 +236,14 @@ impl Curve {
 
     /// Corners (d, a) of the curve up to `d_0`, with FC, to draw \[m, m/s²\].
     pub(super) fn corners(&self) -> Vec<(f64, f64)> {
-        let breaks = self.tie().and_then(Tie::fracture_displacement);
         let mut corners = Vec::new();
         for u in self.places() {
             corners.push((self.d_per_u * u, self.tied(u)));
-            if breaks == Some(u) {
-                corners.push((self.d_per_u * u, self.own(u)));
+            if self.ties().any(|tie| tie.fracture_displacement() == Some(u)) {
+                corners.push((self.d_per_u * u, self.beyond(u)));
             }
         }
         corners
-    }
-
-    /// Returns what the curve loses for good where its tie breaks, over its largest a; `None` without a tie
-    /// that breaks.
-    pub(super) fn tie_break(&self) -> Option<TieBreak> {
-        let u = self.tie()?.fracture_displacement()?;
-        let before = self.tied(u);
-        let after = self.largest_own_from(u);
-        let reached = self.places().into_iter().filter(|place| *place <= u).map(|place| self.tied(place));
-        let largest = reached.fold(before.max(after), f64::max);
-        Some(TieBreak { u, before, after, largest, loss: ((before - after) / largest).max(0.0) })
     }
 
     /// The largest a of the wall without its tie from u on, with FC \[m/s²\].

@@ -2,7 +2,6 @@
 
 use crate::circolare::checks::sides::SideVerdicts;
 use crate::circolare::curve::case::Case;
-use crate::circolare::curve::tie::TieState;
 use crate::circolare::statement::table::Method;
 use crate::words::names::{Deciding, LimitState};
 use crate::words::{Sentence, fixed, passed, say};
@@ -15,8 +14,7 @@ pub(super) fn by_raise(case: &Case<'_>, sides: &SideVerdicts, passes: bool) -> V
         let side = case.told(side);
         for (state, found) in verdict.by_displacement().filter(|(_, found)| found.ratio < target) {
             let [ratio, zeta] = [found.ratio, found.zeta].map(|value| fixed(value, 3));
-            let is_broken =
-                verdict.activation.force > 0.0 && found.tie.is_some_and(|tie| tie.state == TieState::Broken);
+            let is_broken = verdict.activation.force > 0.0 && found.has_broken_tie;
             if statement.state(LimitState::Sld).is_none() && state == LimitState::Slv {
                 warnings.push(say! {
                     "{side}: {state} by displacement is {ratio}; without [check.SLD] no a_g of activation \

@@ -140,6 +140,18 @@ impl Checked<'_> {
                 }
             }));
         }
+        for tie in &side.ties {
+            let name =
+                say!("the tie at {height} m", "la catena a {height} m", height = at_most(tie.height, 4));
+            notes.extend(tie.limits.iter().map(|(state, at)| {
+                let [force, later] = [at.force, at.force_at_demand].map(|force| at_most(1e-3 * force, 4));
+                say! {
+                    "{name} has {force} kN at d_{state} ({own}), {later} kN at the demand ({then}).",
+                    "{name} ha {force} kN a d_{state} ({own}), {later} kN alla domanda ({then}).",
+                    name, force, state, own = at.state.words(), later, then = at.state_at_demand.words()
+                }
+            }));
+        }
         if let Some(untied) = side.untied {
             let states = [(LimitState::Slv, untied.slv), (LimitState::Slc, untied.slc)].into_iter();
             let states: Vec<_> = states

@@ -6,7 +6,6 @@ use serde_json::Value;
 use crate::circolare::checks::DisplacementCheck;
 use crate::circolare::checks::sides::SideVerdict;
 use crate::circolare::curve::ledger::OfSide;
-use crate::circolare::curve::tie::TieState;
 use crate::circolare::outcome::{Checked, Outcome};
 use crate::circolare::runs::dynamic::DynamicCheck;
 use crate::circolare::statement::table::{Method, UseClass};
@@ -150,7 +149,7 @@ fn remark(
                 "la domanda supera la capacità; vale l'a_g di attivazione (C8.7.1.2.1.8)"
             });
         }
-        let is_broken = check.tie.is_some_and(|tie| tie.state == TieState::Broken);
+        let is_broken = check.has_broken_tie;
         if side.activation.force > 0.0 && is_broken {
             parts.push(say! {
                 "the tie, which SLD counts, is broken at d_{state}",

@@ -4,7 +4,7 @@ use super::{SideLedger, by_side};
 use crate::circolare::curve::tie::{TieState, add_bar, anchors};
 use crate::circolare::outcome::Checked;
 use crate::words::ledger::Ledger;
-use crate::words::markup::{paragraph, table};
+use crate::words::markup::{heads, paragraph, table};
 use crate::words::names::Deciding;
 use crate::words::{Language, Sentence, say};
 
@@ -16,6 +16,7 @@ pub(super) fn section(case: &Checked<'_>, sides: &[SideLedger<'_>], language: La
         }
         one.ledger.markup("tie", language)
             + &forces(case, one, language)
+            + &of_several(one, language)
             + &one.ledger.markup("required", language)
             + &required(case, one, language)
             + &one.ledger.markup("untied", language)
@@ -27,9 +28,48 @@ pub(super) fn section(case: &Checked<'_>, sides: &[SideLedger<'_>], language: La
         "The plate, the masonry around it and the connections are verified apart for these forces.",
         "Il capochiave, la muratura circostante e i collegamenti si verificano a parte per questi tiri."
     };
-    let mut bar = Ledger::default();
-    add_bar(&case.parameters, &mut bar);
-    bar.markup("", language) + &of_sides + &paragraph(&apart, language)
+    let bars = case.parameters.ties().map(|tie| {
+        let mut bar = Ledger::default();
+        add_bar(&case.parameters.tied_by(tie), &mut bar);
+        bar.markup("", language)
+    });
+    bars.collect::<String>() + &of_sides + &paragraph(&apart, language)
+}
+
+/// The forces of several ties, and what each would need alone.
+fn of_several(one: &SideLedger<'_>, language: Language) -> String {
+    let mut rows = Vec::new();
+    for tie in &one.verdict.ties {
+        let mut row = |place: Sentence, force: f64, state: Sentence| {
+            let height = language.shown(tie.height);
+            let force = language.shown(1e-3 * force);
+            rows.push([height, place.markup(language), force, state.markup(language)]);
+        };
+        if tie.at_activation > 0.0 {
+            let place = say!("Activation", "Attivazione del meccanismo");
+            row(place, tie.at_activation, TieState::AtStrength.words());
+        }
+        for (state, at) in &tie.limits {
+            row(Sentence::same(format!("d_{state}")), at.force, at.state.words());
+            let place = say!("Demand of {state}, S_d", "Domanda allo {state}, S_d", state);
+            row(place, at.force_at_demand, at.state_at_demand.words());
+        }
+        for (check, required) in [Deciding::Sld, Deciding::SlvWithQ].into_iter().zip(tie.required) {
+            let Some(force) = required else { continue };
+            let place = say!("Required of it alone, {check}", "Tiro richiesto se sola, {check}", check);
+            row(place, force, Sentence::default());
+        }
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let parts = [
+        say!("tie at [m]", "catena a [m]"),
+        say!("where", "dove"),
+        Sentence::same("`N` [kN]"),
+        say!("state", "stato"),
+    ];
+    table(&heads(parts, language), &rows)
 }
 
 /// A force of the tie in all and per metre, and of each anchor where the bar is known: cells of a row.
@@ -54,6 +94,9 @@ fn between(case: &Checked<'_>, before: &[Sentence], after: &[Sentence], language
 /// The forces of the tie at the activation, the limit states and their demands.
 fn forces(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> String {
     let (side, mut rows) = (one.verdict, Vec::new());
+    if !side.ties.is_empty() {
+        return String::new();
+    }
     let mut row = |place: Sentence, d: Option<f64>, force: f64, state: Sentence| {
         let d = language.or_dash(d.map(|d| 1e3 * d));
         rows.push([place.markup(language), d, cells(case, force, language), state.markup(language)]);

@@ -52,8 +52,10 @@ impl Thresholds {
             let falls = stretch * wall.body().instability.of(sign);
             let end = side.map_or(falls, |side| side.curve.d0.min(falls));
             let limit = side.and_then(|side| side.displacement(state)).map_or(end, |check| check.d);
-            let tie = wall.tie().filter(|tie| side.is_some() && tie.holds(sign));
-            let strength = tie.and_then(Tie::strength_displacement).map_or(f64::INFINITY, |u| stretch * u);
+            // where a tie has no other end, its strength is one; otherwise the first yield is told
+            let ties = wall.ties().of_side(sign).filter(|tie| side.is_some() && ends(tie) == is_end(wall));
+            let yields = ties.filter_map(Tie::strength_displacement).map(|u| stretch * u);
+            let strength = yields.fold(f64::INFINITY, f64::min);
             [limit, end, strength]
         };
         let sides = [(1.0, sides.positive.as_ref()), (-1.0, sides.negative.as_ref())].map(of_side);
@@ -129,7 +131,12 @@ pub struct DynamicRun {
 
 /// Whether a run that reaches the strength of the tie fails: it does not break, and has no other end.
 pub(super) fn is_end(wall: &Wall) -> bool {
-    wall.tie().is_some_and(|tie| tie.strength.is_some() && tie.fracture_displacement().is_none())
+    wall.ties().iter().any(ends)
+}
+
+/// Whether a tie has a strength and does not break.
+fn ends(tie: &Tie) -> bool {
+    tie.strength.is_some() && tie.fracture_displacement().is_none()
 }
 
 /// The dynamic check of a limit state.

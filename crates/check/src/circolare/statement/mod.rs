@@ -194,6 +194,11 @@ impl Statement {
     pub(super) fn with_bar(&self, parameters: &Parameters) -> Result<Parameters, CheckError> {
         let mut parameters = parameters.clone();
         let bar = self.table.tie.as_ref().and_then(|tie| tie.bar);
+        if bar.is_some() && !parameters.further_ties.is_empty() {
+            let message = "[check.tie] holds for all ties, and a bar belongs to each: give [tie.bar] in each \
+                           [[tie]], and leave that of [check.tie] out";
+            return Err(CheckError::value(&["tie", "bar"], message));
+        }
         if let (Some(bar), None) = (bar, &parameters.bar) {
             parameters.bar = Some(bar);
             parameters.apply_bars()?;

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Tie;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::{LeastAlpha0, SideVerdict, TieNumbers};
+use super::{LeastAlpha0, SideVerdict};
 use crate::circolare::checks::LARGEST_LOSS;
 use crate::circolare::checks::ledger::OfCheck;
+use crate::circolare::checks::ties::{TieNumbers, TieVerdict};
 use crate::circolare::curve::TieBreak;
 use crate::circolare::curve::ledger::{Names, OfSide};
 use crate::circolare::statement::table::STRESS_BLOCK;
@@ -25,7 +26,13 @@ impl SideVerdict {
         self.add_set_back(of, &mut ledger);
         self.curve.add_to(of, &mut ledger);
         self.add_activation(&mut ledger);
-        self.tie.iter().for_each(|tie| tie.add_to(self, of, &mut ledger));
+        if self.ties.is_empty() {
+            self.tie.iter().for_each(|tie| tie.add_to(self, of, &mut ledger));
+        } else {
+            self.ties.iter().for_each(|tie| tie.add_to(self, &mut ledger));
+            ledger.begin("", "");
+            ledger.fact("ties", json!(self.ties.iter().map(TieVerdict::json).collect::<Vec<_>>()));
+        }
         let is_tied = self.activation.force > 0.0;
         for (given, demand) in of.statement.demanded(demands) {
             let at = |own| OfCheck { side: of, curve: &self.curve, own, given, demand, is_tied };
@@ -109,24 +116,31 @@ impl SideVerdict {
     /// Adds the wall at its activation; with the tie at its strength where that counts.
     fn add_activation(&self, ledger: &mut Ledger) {
         let (at, curve) = (self.activation, &self.curve);
-        let slope = curve.tie().map_or(0.0, Tie::slope);
+        let slope: f64 = curve.ties().map(Tie::slope).sum();
         let stiffness = curve.of_force(slope) / curve.d_per_u;
         let Names { pushed, lever, .. } = curve.names();
-        let tied = &*format!("({lever})² K g/({pushed} e* d/u)");
+        let sum = if curve.has_several_ties() { "Σ " } else { "" };
+        let pulls = curve.ties().map(|tie| tie.lever * tie.strength.unwrap_or(0.0));
+        ledger.know(&[(&format!("Σ ({lever}) N_y"), 1e-3 * pulls.sum::<f64>())]);
+        let tied = &*format!("{sum}({lever})² K g/({pushed} e* d/u)");
         ledger.begin("activation", "tie");
         let words = say! {
             "Multiplier of activation with the tie at its strength, without FC",
             "Moltiplicatore di attivazione con la catena alla resistenza, senza FC"
         };
-        let equation = format!("α0 = [F_act + ({lever}) N_y]/{pushed}");
+        let equation = format!("α0 = [F_act + {sum}({lever}) N_y]/{pushed}");
         let multiplier = Quantity::new("alpha0", equation, Unit::NONE, at.alpha0, words).at("[C8.7.1.1]");
         let words = say! {
             "Acceleration of activation with the tie at its strength, without FC",
             "Accelerazione di attivazione con la catena alla resistenza, senza FC"
         };
-        let equation = format!("a = {} + ({lever}) N_y g/[{pushed} e*]", curve.own_symbol());
+        let equation = format!("a = {} + {sum}({lever}) N_y g/[{pushed} e*]", curve.own_symbol());
         let acceleration = Quantity::new("a", equation, Unit::ACCELERATION, at.acceleration, words);
-        let words = say!("Force of the tie at the activation", "Tiro della catena all'attivazione");
+        let words = if curve.has_several_ties() {
+            say!("Forces of the ties at the activation", "Somma dei tiri delle catene all'attivazione")
+        } else {
+            say!("Force of the tie at the activation", "Tiro della catena all'attivazione")
+        };
         let force = Quantity::new("tie_force", "N", Unit::KILONEWTONS, at.force, words).unlisted();
         if at.force == 0.0 {
             for (key, value) in
@@ -198,6 +212,72 @@ impl TieNumbers {
             Some(broken) => add_rupture(side, of, &broken, ledger),
             None => ledger.fact("loss", json!(self.loss)),
         }
+    }
+}
+
+impl TieVerdict {
+    /// Adds where one of several ties pulls, yields and breaks.
+    fn add_to(&self, side: &SideVerdict, ledger: &mut Ledger) {
+        let (mm, numbers) = (Unit::MILLIMETRES, self.numbers);
+        let Names { per_elongation, .. } = side.curve.names();
+        let [number, height] = [(self.place + 1).to_string(), shown(self.height)].map(Written);
+        ledger.know(&[
+            ("K", 1e-3 * self.tie.stiffness),
+            ("N_y", 1e-3 * self.tie.strength.unwrap_or(f64::NAN)),
+            ("g_0", 1e3 * self.tie.slack),
+            ("e_p", 1e3 * self.tie.ultimate.unwrap_or(f64::NAN)),
+            ("y", self.height),
+        ]);
+        ledger.begin("", "tie");
+        let strength = self.tie.strength;
+        let words = say! {
+            "Tie {number} at {height} m: strength", "Catena {number} a {height} m: resistenza", number, height
+        };
+        ledger.add(Quantity::new("", "N_y", Unit::KILONEWTONS, strength, words));
+        let words = say!("Tie {number} begins to pull at", "La catena {number} inizia a tirare a", number);
+        let engaged = Quantity::new("", format!("u_g = g_0 {per_elongation}"), mm, numbers.engaged, words);
+        ledger.add(if numbers.engaged > 0.0 { engaged } else { engaged.unlisted() });
+        let words = say!(
+            "Tie {number} reaches its strength at",
+            "La catena {number} raggiunge la resistenza a",
+            number
+        );
+        let equation = format!("u_y = (N_y/K {{10³}} + g_0) {per_elongation}");
+        ledger.add(Quantity::new("", equation, mm, numbers.yields, words));
+        let words = say!("Tie {number} breaks at", "La catena {number} si rompe a", number);
+        let equation = format!("u_r = (N_y/K {{10³}} + g_0 + e_p) {per_elongation}");
+        ledger.add(Quantity::new("", equation, mm, numbers.breaks, words));
+        let words = say! {
+            "What the curve, with FC, loses there with the ties that hold, over its largest a",
+            "Riduzione della capacità alla sua rottura, con le catene che restano, rapportata ad a_max"
+        };
+        let loss = Quantity::new("", "Δa/a_max", Unit::NONE, numbers.loss, words).at("C8.7.1.2.1.6");
+        ledger.add(loss.with_numbers(""));
+    }
+
+    /// Its numbers by their names, in SI units.
+    fn json(&self) -> Value {
+        let [sld, slv_q] = self.required;
+        let mut json = json!({
+            "tie": self.place,
+            "height": self.height,
+            "u_engaged": self.numbers.engaged,
+            "u_yield": self.numbers.yields,
+            "u_break": self.numbers.breaks,
+            "loss": self.numbers.loss,
+            "force_at_activation": self.at_activation,
+            "SLD": { "tie_required": sld },
+            "SLV_q": { "tie_required": slv_q },
+        });
+        for (state, at) in &self.limits {
+            json[state.key()] = json!({
+                "tie_force": at.force,
+                "tie_state": at.state,
+                "tie_force_at_demand": at.force_at_demand,
+                "tie_state_at_demand": at.state_at_demand,
+            });
+        }
+        json
     }
 }
 
