@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
+use files::FileError;
 use report::page::Page;
 use report::table::{Column, Digits, Table};
 use rocking_wall::scene::SceneError;
 use run::parallel;
+use run::records::NamedRecord;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
 
@@ -30,8 +32,15 @@ pub struct WallVerdicts<'a> {
 /// Codes of the walls of a file: that of the file, and those of walls that state something alone.
 pub struct WallCodes {
     shared: Box<dyn Code>,
-    /// By the places of walls in the file.
-    own: BTreeMap<usize, Box<dyn Code>>,
+    /// By the places of walls in the file, and what rows of tables state.
+    own: BTreeMap<Place, Box<dyn Code>>,
+}
+
+/// The place of a wall in its file, and what its row states.
+type Place = (usize, Vec<(&'static str, String)>);
+
+fn place(wall: &NamedWall) -> Place {
+    (wall.entry, wall.check.clone())
 }
 
 impl WallCodes {
@@ -46,16 +55,20 @@ impl WallCodes {
         let shared = read(file).or_else(|error| {
             // what every wall states need not stand in the table of the file
             let own = walls.iter().map(|wall| stated(wall).ok().flatten()).collect::<Option<Vec<_>>>();
-            own.and_then(|own| read(own.first()?).ok()).ok_or(error)
+            let own = own.and_then(|own| read(own.first()?).ok());
+            own.or_else(|| of_row(file, walls.first()?, of_wall, Vec::new()).ok().flatten()).ok_or(error)
         });
         let shared = shared.map_err(|error| file.located(error))?;
         let mut own = BTreeMap::new();
         for wall in walls {
-            if own.contains_key(&wall.entry) {
+            if own.contains_key(&place(wall)) {
                 continue;
             }
-            if let Some(file) = stated(wall)? {
-                own.insert(wall.entry, read(&file).map_err(|error| file.located(error))?);
+            let records = shared.records().named.clone();
+            if let Some(code) = of_row(file, wall, of_wall, records)? {
+                own.insert(place(wall), code);
+            } else if let Some(file) = stated(wall)? {
+                own.insert(place(wall), read(&file).map_err(|error| file.located(error))?);
             }
         }
         Ok(Self { shared, own })
@@ -68,8 +81,23 @@ impl WallCodes {
 
     /// The code of a wall.
     pub fn of(&self, wall: &NamedWall) -> &dyn Code {
-        self.own.get(&wall.entry).map_or(&*self.shared, |own| &**own)
+        self.own.get(&place(wall)).map_or(&*self.shared, |own| &**own)
     }
+}
+
+/// The code of a wall whose row in a table states something of its check; `None` of others.
+fn of_row(
+    file: &CheckFile<'_>,
+    wall: &NamedWall,
+    of_wall: &[&str],
+    records: Vec<NamedRecord>,
+) -> Result<Option<Box<dyn Code>>, SceneError> {
+    let Some(text) = file.with_row(wall)? else { return Ok(None) };
+    let own = file.of_row(&text, records)?;
+    let own = own.of_wall(wall.entry, of_wall)?.unwrap_or(own);
+    let named =
+        |error: CheckError| FileError::whole(file.name(), format!("wall {:?}: [check] {error}", wall.name));
+    Ok(Some(read(&own).map_err(named)?))
 }
 
 /// Checks every wall on some threads; walls that are alike stay in their order.

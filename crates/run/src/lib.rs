@@ -45,6 +45,7 @@ pub mod records;
 pub mod rotations;
 pub mod sample;
 pub mod shaking;
+mod wall_columns;
 pub mod wall_parameters;
 mod wall_table;
 pub mod wall_text;

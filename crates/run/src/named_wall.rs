@@ -20,6 +20,8 @@ pub struct NamedWall {
     pub stated: Option<Vec<&'static str>>,
     /// The place of its table in the list of walls that was read.
     pub entry: usize,
+    /// What a row of a table states of its check: keys of the table `[check]` and their values.
+    pub check: Vec<(&'static str, String)>,
 }
 
 /// Parameters without which a wall is not checked, with their groups: no default decides a verdict.
@@ -45,6 +47,14 @@ impl NamedWall {
 
     /// Makes a wall on the ground, all of whose parameters are stated.
     pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        Self { name: name.into(), parameters, floors: None, assumed: Vec::new(), stated: None, entry: 0 }
+        Self {
+            name: name.into(),
+            parameters,
+            floors: None,
+            assumed: Vec::new(),
+            stated: None,
+            entry: 0,
+            check: Vec::new(),
+        }
     }
 }

@@ -9,6 +9,7 @@ use rocking_wall::scene::{KINEMATICS, Scene};
 use rocking_wall::wall::Parameters;
 
 use crate::named_wall::NamedWall;
+use crate::wall_columns::{choice, column, key_of_check};
 use crate::wall_parameters::{check_parameter, wall_parameters};
 
 /// Largest table that is read.
@@ -37,18 +38,23 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
     let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
     let forms = "a table of walls: a line of names with a column `name`, and a row for each wall";
     let columns = Columns::of_texts(text.trim_start_matches('\u{feff}'), forms).map_err(in_file)?;
-    let names: Vec<&str> = columns.names().iter().map(Name::written).collect();
+    let names: Vec<&str> = columns.names().iter().map(Name::written).map(column).collect();
+    check_twice(&names).map_err(|message| fail(columns.line(), message))?;
     check_names(&names).map_err(|message| fail(columns.line(), message))?;
     let (mut walls, mut scene, mut numbers) = (Vec::new(), Scene::default(), Numbers::new(&columns));
     let mut thousands = vec![Thousands::default(); names.len()];
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
         scene.parameters = Parameters::default();
-        let (mut wall, mut stated) = (None, Vec::new());
+        let (mut wall, mut stated, mut check) = (None, Vec::new(), Vec::new());
         let cells = names.iter().zip(&mut thousands).zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
         for ((&column, thousands), cell) in cells {
             if column == NAME {
                 wall = Some(cell.into_owned());
+                continue;
+            }
+            if let Some(key) = key_of_check(column) {
+                check.push((key, value_of_check(&cell)));
                 continue;
             }
             stated.extend(wall_parameters().chain([KINEMATICS]).find(|name| *name == column));
@@ -58,7 +64,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
                 thousands.push(&cell, row.line);
                 scene.set(column, &number.to_string()).map_err(|error| fail(row.line, error.to_string()))?;
             } else {
-                scene.set(column, &cell).map_err(|error| fail(row.line, error.to_string()))?;
+                scene.set(column, choice(&cell)).map_err(|error| fail(row.line, error.to_string()))?;
             }
         }
         let wall = wall.filter(|name| !NO_NAMES.split(' ').any(|none| name.eq_ignore_ascii_case(none)));
@@ -77,7 +83,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
                 format!("the wall {wall:?} has no {gap}; write it, or delete the row or the column");
             return Err(fail(row.line, message));
         }
-        walls.push(NamedWall::new(wall, scene.parameters.clone()).stating(stated));
+        walls.push(NamedWall { check, ..NamedWall::new(wall, scene.parameters.clone()).stating(stated) });
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;
@@ -91,9 +97,25 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
     Ok(walls)
 }
 
-/// Refuses columns that are no parameters, and a table without names of walls.
+/// What a cell states of the check, as TOML has it: a number with a point, or a choice.
+fn value_of_check(cell: &str) -> String {
+    let number = cell.replacen(',', ".", 1);
+    match number.parse::<f64>() {
+        Ok(_) => number,
+        Err(_) => choice(cell).to_owned(),
+    }
+}
+
+/// Refuses a name and its Italian in one table.
+fn check_twice(names: &[&str]) -> Result<(), String> {
+    let twice = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
+    twice.map_or(Ok(()), |(_, name)| Err(format!("two columns state {name}; delete one")))
+}
+
+/// Refuses columns that are neither parameters nor read by a check, and a table without names of walls.
 fn check_names(names: &[&str]) -> Result<(), String> {
-    names.iter().try_for_each(|column| check_parameter(column, &[KINEMATICS, NAME]))?;
+    let of_wall = names.iter().filter(|name| key_of_check(name).is_none());
+    of_wall.copied().try_for_each(|column| check_parameter(column, &[KINEMATICS, NAME]))?;
     if names.contains(&NAME) { Ok(()) } else { Err("a table of walls needs a column \"name\"".to_owned()) }
 }
 
@@ -140,6 +162,23 @@ mod tests {
         }
         // a tab stands for an empty cell, too
         assert_eq!(of("name\ta1\theight\tthickness\na\t\t2\t0.3\n")[0].2, 0.3);
+    }
+
+    #[test]
+    fn headers_may_be_italian_and_rows_state_their_check() {
+        let text = "Parete;Meccanismo;Altezza;Spessore;Quota relativa;Cerniera;prima dell'attivazione\n\
+                    P1;flessione verticale;3,4;0,4;0,83;più sfavorevole;legge\n\
+                    P2;parapetto;1,2;0,3;1;;rigida\n";
+        let walls = parse("walls.csv", text).unwrap();
+        let stated = |index: usize| -> Vec<(&str, &str)> {
+            walls[index].check.iter().map(|(key, value)| (*key, value.as_str())).collect()
+        };
+        assert_eq!((walls[0].name.as_str(), walls[0].parameters.height), ("P1", 3.4));
+        let ratio = ("building.height_ratio", "0.83");
+        assert_eq!(stated(0), [ratio, ("hinge", "worst"), ("before_activation", "law")]);
+        assert_eq!(stated(1), [("building.height_ratio", "1"), ("before_activation", "rigid")]);
+        let error = parse("walls.csv", "name;altezza;height\na;3;3\n").unwrap_err().to_string();
+        assert!(error.contains("two columns state height; delete one"), "{error}");
     }
 
     #[test]

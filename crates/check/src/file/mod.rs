@@ -154,6 +154,37 @@ impl<'a> CheckFile<'a> {
         Ok(Some(file))
     }
 
+    /// The text of the file with what a row of a table of walls states of its check behind it.
+    ///
+    /// # Errors
+    /// [`FileError`] of a value that TOML does not have.
+    pub(crate) fn with_row(&self, wall: &NamedWall) -> Result<Option<String>, FileError> {
+        if wall.check.is_empty() {
+            return Ok(None);
+        }
+        let statements: Vec<_> =
+            wall.check.iter().map(|(key, value)| format!("check.{key}={value}")).collect();
+        let text = with_assignments(self.file.place().text(), &statements);
+        let named =
+            |message: String| FileError::whole(self.name(), format!("wall {:?}: {message}", wall.name));
+        text.map(Some).map_err(named)
+    }
+
+    /// Parses such a text: the same file, with the same records.
+    ///
+    /// # Errors
+    /// [`FileError`] where the text is not TOML.
+    pub(crate) fn of_row<'b>(
+        &self,
+        text: &'b str,
+        records: Vec<NamedRecord>,
+    ) -> Result<CheckFile<'b>, FileError>
+    where
+        'a: 'b,
+    {
+        Ok(CheckFile::parse_with(self.name(), text, self.own)?.with_records(records))
+    }
+
     /// Takes these records in place of those that the table names.
     #[must_use]
     pub fn with_records(self, records: Vec<NamedRecord>) -> Self {

@@ -63,9 +63,11 @@ pub fn page_of_walls(
     let mut page = sections(page, worst.details.site(language)?, language);
     for (index, (name, verdict)) in checked().enumerate() {
         let Some(wall) = walls.iter().find(|wall| wall.name == name) else { continue };
-        let own = origin.file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
-        let own =
-            Origin { title: name, file: own.as_ref().unwrap_or(origin.file), wall: Some(wall), ..*origin };
+        let text = origin.file.with_row(wall)?;
+        let row = text.as_ref().map(|text| origin.file.of_row(text, Vec::new())).transpose()?;
+        let file = row.as_ref().unwrap_or(origin.file);
+        let own = file.of_wall(wall.entry, codes.shared().entry().of_wall)?;
+        let own = Origin { title: name, file: own.as_ref().unwrap_or(file), wall: Some(wall), ..*origin };
         let foot = format!("wall{index}");
         page = page.styled(&footer(&foot, &origin.footer(Some(name))));
         page = page.text(&format!(

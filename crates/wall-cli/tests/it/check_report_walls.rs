@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::check_languages::{ENGLISH, foreign, texts};
-use crate::command_line::{assert_has, content, fails, folder, refused, succeed};
+use crate::command_line::{assert_has, content, fails, folder, json, refused, succeed};
 
 /// Three parapets, and their check.
 fn parapets() -> (String, &'static str) {
@@ -96,4 +96,40 @@ fn walls_without_a_verdict_stand_on_the_cover() {
     let words = ["no wall could be checked; wall \"unknown\": density not stated"];
     refused(&folder, &["check", "none.toml", "--report", "none.html"], &words);
     refused(&folder, &["check", "walls.toml", "--report", "walls.toml"], &["walls.toml"]);
+}
+
+/// A table of walls has columns for what differs from wall to wall, its headers may be Italian, and the
+/// report says that the rows state it.
+#[test]
+fn rows_state_their_check() {
+    let folder = folder("check_rows");
+    let walls = "Parete;Meccanismo;Altezza;Spessore;Massa volumica;Carico in sommità;Quota relativa;\
+                 prima dell'attivazione;Massa solidale\n\
+                 P1;ribaltamento semplice;1,2;0,3;1800;3000;1;rigida;0,5\n\
+                 P2;ribaltamento semplice;1,2;0,3;1800;3000;0;rigida;1\n";
+    fs::write(folder.join("walls.csv"), walls).unwrap();
+    let check = "[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n\
+                 building = { storeys = 3, period = 0.3 }\n\
+                 SLV = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n";
+    fs::write(folder.join("walls.toml"), format!("walls = [{{ table = \"walls.csv\" }}]\n{check}")).unwrap();
+    succeed(&folder, &["check", "walls.toml", "--csv", "out.csv", "--report", "walls.html"]);
+    // each row beside a scene of its own
+    let table = content(&folder, "out.csv");
+    for (name, ratio, mass) in [("P1", "1", "0.5"), ("P2", "0", "1")] {
+        let scene = format!(
+            "[geometry]\nheight = 1.2\nthickness = 0.3\ndensity = 1800\noverburden = 3000\n{}",
+            check.replace("period = 0.3", &format!("period = 0.3, height_ratio = {ratio}")).replace(
+                "[check]\n",
+                &format!("[check]\nbefore_activation = \"rigid\"\noverburden_mass = {mass}\n")
+            )
+        );
+        fs::write(folder.join("scene.toml"), scene).unwrap();
+        let zeta = json(&folder, &["check", "scene.toml", "--json"])["governs"]["zeta_E"].to_string();
+        assert!(table.lines().any(|line| line.starts_with(name) && line.contains(&zeta)), "{zeta} {table}");
+    }
+    let page = content(&folder, "walls.html");
+    assert_eq!(page.matches("<code translate=\"no\">check.overburden_mass</code></td><td>stated").count(), 2);
+    let bad = walls.replace("rigida;1", "molle;1");
+    fs::write(folder.join("walls.csv"), bad).unwrap();
+    refused(&folder, &["check", "walls.toml"], &["wall \"P2\": [check] before_activation"]);
 }
