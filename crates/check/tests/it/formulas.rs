@@ -168,6 +168,12 @@ fn every_printed_formula_gives_its_number() {
     let count: usize =
         cases.iter().map(|case| assert_gives(&report_of_one(case["scene"].as_str().unwrap()))).sum();
     assert!(count > 600, "{count} formulas of {} cases", cases.len());
+    // the force that a tie needs is that for the target
+    let tied =
+        cases.iter().map(|case| case["scene"].as_str().unwrap()).filter(|scene| scene.contains("[tie]"));
+    let with_target = |scene: &str| scene.replace("[check]\n", "[check]\ntarget = 0.8\n");
+    let count: usize = tied.map(|scene| assert_gives(&report_of_one(&with_target(scene)))).sum();
+    assert!(count > 100, "{count} formulas with a target");
 }
 
 #[test]

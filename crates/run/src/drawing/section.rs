@@ -256,7 +256,7 @@ impl Section<'_> {
         );
         let tip = [[x + 40.0, y - 3.0], [x + 31.0, y - 7.5], [x + 31.0, y + 1.5]];
         self.canvas.polygon(&tip, &format!("fill=\"{HINGE}\""));
-        self.canvas.text([x + 48.0, y + 1.0], Anchor::Start, "u > 0: outwards");
+        self.canvas.text([x + 48.0, y + 1.0], Anchor::Start, self.canvas.words.outwards);
     }
 }
 

@@ -13,6 +13,7 @@ pub struct Words {
     pub tie: &'static str,
     pub thrust: &'static str,
     pub loads: &'static str,
+    pub outwards: &'static str,
     /// Whether numbers have decimal commas.
     pub has_commas: bool,
 }
@@ -29,6 +30,7 @@ impl Words {
         tie: "tie",
         thrust: "thrust",
         loads: "loads",
+        outwards: "u > 0: outwards",
         has_commas: false,
     };
     /// Italian.
@@ -42,6 +44,7 @@ impl Words {
         tie: "catena",
         thrust: "spinta",
         loads: "carichi",
+        outwards: "u > 0: verso l'esterno",
         has_commas: true,
     };
 }

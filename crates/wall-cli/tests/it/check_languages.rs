@@ -142,6 +142,63 @@ code = "fractions"
 records = { synthetic = { count = 7, duration = 10, step = 0.02 } }
 "#;
 
+/// A façade of three floors with windows, a vault and a roof that push, which may open at each storey.
+const FACADE: &str = r#"
+[geometry]
+mechanism = "parapet"
+part = [
+  { height = 2.7, thickness = 0.6, density = 1800, width = 3.0 },
+  { height = 2.6, thickness = 0.48, density = 1800, width = 3.0 },
+  { height = 2.5, thickness = 0.36, density = 1800, width = 3.0 },
+]
+opening = [{ base = 0.9, height = 1.2, width = 1.0 }, { base = 3.6, height = 1.2, width = 1.0 }]
+load = [
+  { force = 24e3, height = 2.7, inside = 0.48, moving_mass = 1.0, thrust = 900, thrust_lasts = true },
+  { force = 21e3, height = 5.3, inside = 0.38, moving_mass = 0.5 },
+  { force = 18e3, height = 7.8, inside = 0.24, moving_mass = 1.0, thrust = 1500 },
+]
+[check]
+code = "circolare-2019"
+before_activation = "rigid"
+soil = "B"
+hinge_levels = [0, 2.7, 5.3]
+building = { storeys = 3, period = 0.33, height_ratio = [0.0, 0.346, 0.679] }
+SLD = { ag = 0.045, F0 = 2.55, TC = 0.26, building_damping = 0.05 }
+SLV = { ag = 0.105, F0 = 2.52, TC = 0.3, building_damping = 0.1 }
+"#;
+
+/// A façade with two ties, of which one breaks early.
+const TWO_TIES: &str = r#"
+[geometry]
+mechanism = "parapet"
+part = [
+  { height = 3.4, thickness = 0.5, density = 1800, width = 1.0 },
+  { height = 3.2, thickness = 0.4, density = 1800, width = 1.0 },
+]
+load = [{ force = 8e3, height = 6.6, inside = 0.28, moving_mass = 1.0, thrust = 1200, thrust_lasts = true }]
+[[tie]]
+tie_height = 3.3
+tie_stiffness = 3e6
+tie_strength = 6e3
+tie_ultimate = 0.3
+tie_side = "positive"
+[[tie]]
+tie_height = 6.5
+tie_stiffness = 4e6
+tie_strength = 9e3
+tie_ultimate = 0.115
+tie_side = "positive"
+[check]
+code = "circolare-2019"
+before_activation = "rigid"
+soil = "B"
+rocking = "one_sided_positive"
+tie = { at_activation = "yield" }
+SLD = { ag = 0.104, F0 = 2.332, TC = 0.281 }
+SLV = { ag = 0.261, F0 = 2.364, TC = 0.347 }
+SLC = { ag = 0.334, F0 = 2.4, TC = 0.364 }
+"#;
+
 /// Words that no Italian text of the program has.
 pub(crate) const ENGLISH: &str = "the of is are with and at from its not walls each taken before which \
                        without to for by has have under needs stands passed demand tie records spectrum \
@@ -226,6 +283,9 @@ fn variants() -> Vec<(&'static str, String)> {
             of_strip("\"worst\"", "\"given\"")
                 .replace("overburden_eccentricity", "hinge_ratio = 0.5\noverburden_eccentricity"),
         ),
+        ("facade", FACADE.to_owned()),
+        ("facade_each", FACADE.replace("[check]\n", "[check]\nresultants = \"each\"\n")),
+        ("two_ties", TWO_TIES.to_owned()),
         ("class_four", of_strip("SLD = {", "#SLD = {")),
     ]
 }

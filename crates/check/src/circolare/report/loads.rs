@@ -63,13 +63,20 @@ fn of_part(part: &Part, gravity: f64, language: Language) -> Row {
         from = written(part.base), to = written(part.base + part.height)
     };
     let how = say! {
-        "thickness {lower} to {upper} m, width {from} to {to} m, {density} kg/m³",
-        "spessore da {lower} a {upper} m, larghezza da {from} a {to} m, {density} kg/m³",
-        lower = written(lower), upper = written(upper), from = written(from), to = written(to),
-        density = written(part.density)
+        "thickness {thickness} m, width {width} m, {density} kg/m³",
+        "spessore {thickness} m, larghezza {width} m, {density} kg/m³",
+        thickness = between(part.thickness), width = between(part.width), density = written(part.density)
     };
     let weight = 1e-3 * part.density * gravity * section * part.height;
     row(&words, how.markup(language), weight, "kN", language)
+}
+
+/// A size at the bottom and at the top, once where both are alike.
+fn between([lower, upper]: [f64; 2]) -> Sentence {
+    if lower == upper {
+        return say!("{lower}", "{lower}", lower = written(lower));
+    }
+    say!("{lower} to {upper}", "da {lower} a {upper}", lower = written(lower), upper = written(upper))
 }
 
 fn of_opening(opening: &Opening, language: Language) -> Row {
