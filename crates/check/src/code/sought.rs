@@ -1,6 +1,7 @@
 //! What a search varies, and within which range.
 
-use rocking_wall::wall::Parameters;
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::{Load, Parameters};
 
 use crate::error::CheckError;
 
@@ -20,12 +21,23 @@ pub enum Sought {
     TieStiffness,
     /// The smallest diameter of the bar of the tie \[m\]: its stiffness, strength and elongation follow.
     BarDiameter,
+    /// The largest sum of the thrusts on a wall of parts, in proportion \[N\].
+    Thrust,
+    /// The largest sum of the loads on a wall of parts, in proportion \[N\].
+    Load,
 }
 
 impl Sought {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Thickness, Self::Height, Self::TieStrength, Self::TieStiffness, Self::BarDiameter];
+    pub const ALL: [Self; 7] = [
+        Self::Thickness,
+        Self::Height,
+        Self::TieStrength,
+        Self::TieStiffness,
+        Self::BarDiameter,
+        Self::Thrust,
+        Self::Load,
+    ];
 
     /// Name of the parameter.
     pub fn name(self) -> &'static str {
@@ -35,6 +47,8 @@ impl Sought {
             Self::TieStrength => "tie_strength",
             Self::TieStiffness => "tie_stiffness",
             Self::BarDiameter => "bar_diameter",
+            Self::Thrust => "thrust",
+            Self::Load => "load",
         }
     }
 
@@ -42,7 +56,7 @@ impl Sought {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Thickness | Self::Height | Self::BarDiameter => "m",
-            Self::TieStrength => "N",
+            Self::TieStrength | Self::Thrust | Self::Load => "N",
             Self::TieStiffness => "N/m",
         }
     }
@@ -50,6 +64,33 @@ impl Sought {
     /// Returns whether it is a number of the tie.
     pub fn is_of_tie(self) -> bool {
         matches!(self, Self::TieStrength | Self::TieStiffness | Self::BarDiameter)
+    }
+
+    /// Returns whether the largest value that passes is sought.
+    pub fn is_largest(self) -> bool {
+        matches!(self, Self::Height | Self::Thrust | Self::Load)
+    }
+
+    /// The sum of the thrusts or of the loads on a wall of parts; 0 of what is neither \[N\].
+    pub(crate) fn sum(self, parameters: &Parameters) -> f64 {
+        let loads = parameters.profile.iter().flat_map(|profile| profile.loads());
+        match self {
+            Self::Thrust => loads.map(|load| load.thrust.abs()).sum(),
+            Self::Load => loads.map(|load| load.force).sum(),
+            _ => 0.0,
+        }
+    }
+
+    /// The loads with the sum of the thrusts or of the forces, in proportion.
+    fn with_sum(self, parameters: &mut Parameters, sum: f64) {
+        let factor = sum / self.sum(parameters);
+        let scaled = |load: &Load| match self {
+            Self::Thrust => Load { thrust: factor * load.thrust, ..*load },
+            _ => Load { force: factor * load.force, ..*load },
+        };
+        let Some(profile) = &parameters.profile else { return };
+        let loads = profile.loads().iter().map(scaled).collect();
+        parameters.profile = Some(profile.with_loads(loads).into());
     }
 
     /// The wall with another value of the parameter.
@@ -69,12 +110,14 @@ impl Sought {
                 }
                 parameters.apply_bars()?;
             }
+            Self::Thrust | Self::Load => self.with_sum(&mut parameters, value),
         }
         Ok(parameters)
     }
 
     /// The range of values that is searched, within which a builder would choose: a quarter to four times the
-    /// wall's own size; ties up to the weight that the wall carries; bars of 6 to 60 mm.
+    /// wall's own size or load; ties up to the weight that the wall carries; bars of 6 to 60 mm; thrusts of a
+    /// hundredth to ten times the wall's own.
     pub(crate) fn range(self, parameters: &Parameters) -> [f64; 2] {
         let (weight, load) = (weight(parameters), load(parameters));
         match self {
@@ -83,16 +126,22 @@ impl Sought {
             Self::TieStrength => [1e-3 * weight, load],
             Self::TieStiffness => [load / parameters.height, 1e4 * load / parameters.height],
             Self::BarDiameter => [6e-3, 60e-3],
+            Self::Thrust => [1e-2, 10.0].map(|factor| factor * self.sum(parameters)),
+            Self::Load => [0.25, 4.0].map(|factor| factor * self.sum(parameters)),
         }
     }
 }
 
 fn weight(parameters: &Parameters) -> f64 {
     let Parameters { height, thickness, width, density, gravity, .. } = *parameters;
-    density * gravity * height * thickness * width
+    match &parameters.profile {
+        Some(profile) => gravity * profile.centroid([0.0, height]).mass,
+        None if parameters.mechanism == Mechanism::RigidBody => gravity * parameters.body_mass,
+        None => density * gravity * height * thickness * width,
+    }
 }
 
-/// W + O \[N\].
+/// W + O, with the loads on a body \[N\].
 pub(crate) fn load(parameters: &Parameters) -> f64 {
-    weight(parameters) + parameters.overburden
+    weight(parameters) + parameters.overburden + Sought::Load.sum(parameters) + parameters.load_force
 }

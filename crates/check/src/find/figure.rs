@@ -20,7 +20,7 @@ impl Found {
         let name = self.sought.title();
         let name = name.of(language);
         let (unit, factor, scale) = match self.sought {
-            Sought::TieStrength => ("kN", 1e-3, Scale::LogarithmicAcross),
+            Sought::TieStrength | Sought::Thrust | Sought::Load => ("kN", 1e-3, Scale::LogarithmicAcross),
             Sought::TieStiffness => ("kN/m", 1e-3, Scale::LogarithmicAcross),
             Sought::BarDiameter => ("mm", 1e3, Scale::Linear),
             Sought::Thickness | Sought::Height => ("m", 1.0, Scale::Linear),

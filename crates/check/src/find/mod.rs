@@ -1,4 +1,4 @@
-//! The smallest thickness or tie, or the largest height, with which a wall passes each of its checks.
+//! The smallest thickness or tie, or the largest height, thrust or load, with which a wall passes its checks.
 
 mod figure;
 mod text;
@@ -151,7 +151,7 @@ pub fn find(code: &dyn Code, subject: Subject<'_>, sought: Sought) -> Result<Fou
         search.check(parameters, |_| ())?;
     }
     let found = checks.iter().map(|one| search.one(&tries, one)).collect::<Result<Vec<_>, _>>()?;
-    let extreme = if sought == Sought::Height { f64::min } else { f64::max };
+    let extreme = if sought.is_largest() { f64::min } else { f64::max };
     let of_all = |bound: fn(&FoundCheck) -> Option<f64>| {
         let values: Option<Vec<f64>> = found.iter().filter(|one| one.decides).map(bound).collect();
         values.and_then(|values| values.into_iter().reduce(extreme))
@@ -207,8 +207,8 @@ impl Search<'_> {
             tries.push((at(index), self.outcomes(at(index))));
             parallel::count_done(tried as usize);
         }
-        // of heights the largest is sought
-        if self.sought == Sought::Height {
+        // of heights, thrusts and loads the largest is sought
+        if self.sought.is_largest() {
             tries.reverse();
         }
         tries
@@ -244,8 +244,18 @@ impl Search<'_> {
 }
 
 fn check_tie(parameters: &Parameters, sought: Sought) -> Result<(), CheckError> {
+    let refused = |message: &str| Err(CheckError::wall(format!("{} {message}", sought.name())));
     let is_held = match sought {
-        Sought::Thickness | Sought::Height => return Ok(()),
+        Sought::Thickness | Sought::Height if !parameters.is_rectangle() => {
+            return refused("is that of a rectangle; of a wall of parts thrust, load and a tie are sought");
+        }
+        Sought::Thrust | Sought::Load if sought.sum(parameters) == 0.0 => {
+            return refused("is sought, but the wall has none; state it in [[geometry.load]]");
+        }
+        _ if sought.is_of_tie() && !parameters.further_ties.is_empty() => {
+            return refused("is sought of one tie; leave the others out");
+        }
+        Sought::Thickness | Sought::Height | Sought::Thrust | Sought::Load => return Ok(()),
         Sought::TieStiffness => true,
         Sought::TieStrength => parameters.tie_stiffness > 0.0,
         Sought::BarDiameter => parameters.bar.is_some(),

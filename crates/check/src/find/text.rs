@@ -10,6 +10,8 @@ impl Sought {
         let italian = match self {
             Self::Thickness => "spessore",
             Self::Height => "altezza",
+            Self::Thrust => "somma delle spinte",
+            Self::Load => "somma dei carichi",
             Self::TieStrength => "resistenza della catena",
             Self::TieStiffness => "rigidezza della catena",
             Self::BarDiameter => "diametro della barra",
@@ -35,7 +37,7 @@ impl FoundCheck {
         let (check, unit) = (self.told(), sought.unit());
         let bound = |value: f64| {
             let value = at_most(value, 6);
-            if sought == Sought::Height {
+            if sought.is_largest() {
                 say!("up to {value} {unit}", "fino a {value} {unit}", value, unit)
             } else {
                 say!("from {value} {unit}", "da {value} {unit}", value, unit)
@@ -122,7 +124,7 @@ impl Found {
                 name, from, to, unit, target
             };
         }
-        let extreme = if self.sought == Sought::Height {
+        let extreme = if self.sought.is_largest() {
             say!("largest", "valore massimo")
         } else {
             say!("smallest", "valore minimo")

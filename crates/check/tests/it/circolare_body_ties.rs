@@ -1,6 +1,7 @@
-//! Several ties of a façade in the check by Circolare 7/2019, and its drawing.
+//! Several ties of a façade in the check by Circolare 7/2019, its drawing, and the loads that it bears.
 
-use check::Language;
+use check::{CheckFile, Found, Language, Sought, find, read};
+use rocking_wall::scene::Scene;
 use serde_json::Value;
 
 use crate::circolare::refuses;
@@ -126,5 +127,46 @@ fn reports_of_several_ties_are_complete() {
     }
     for said in [">outside<", "tie at", "thrust 0"] {
         assert!(!italian.contains(said), "{said}");
+    }
+}
+
+fn searched(text: &str, sought: Sought) -> Result<Found, String> {
+    let scene = Scene::parse("scene.toml", text, ".".as_ref()).unwrap();
+    let code = read(&CheckFile::parse("scene.toml", text).unwrap()).unwrap();
+    find(&*code, (&scene).into(), sought).map_err(|error| error.to_string())
+}
+
+/// The largest thrust that just passes has ζ_E = 1 as a thrust that is stated; sizes of rectangles and what
+/// is not there are no answer.
+#[test]
+fn the_largest_thrust_that_passes_is_found() {
+    let scene = |thrust: f64| facade(&format!("thrust = {thrust:?}"), "hinge_levels = [0, 3.3]");
+    let found = searched(&scene(300.0), Sought::Thrust).unwrap();
+    let most = found.value.unwrap();
+    assert!(
+        found.text(Language::It).contains("somma delle spinte, valore massimo"),
+        "{}",
+        found.text(Language::It)
+    );
+    let zeta = |thrust: f64| number(&json(&scene(thrust)), &["governs", "zeta_E"]);
+    // the value is known to 1e-9 of itself
+    assert!((zeta(most) - 1.0).abs() < 1e-6 && zeta(1.01 * most) < 1.0, "{most}: {}", zeta(most));
+    let load = searched(&scene(300.0), Sought::Load).unwrap();
+    assert!(load.checks.iter().all(|check| check.curve.len() == 241));
+    for (text, sought, message) in [
+        (
+            scene(300.0),
+            Sought::Thickness,
+            "thickness is that of a rectangle; of a wall of parts thrust, load",
+        ),
+        (facade("", ""), Sought::Thrust, "thrust is sought, but the wall has none; state it"),
+        (
+            tie(3.2, 4e6, 5e3, 0.5) + &tie(6.2, 4e6, 9e3, 0.07) + &scene(300.0),
+            Sought::TieStrength,
+            "tie_strength is sought of one tie; leave the others out",
+        ),
+    ] {
+        let error = searched(&text, sought).unwrap_err();
+        assert!(error.contains(message), "{error}");
     }
 }

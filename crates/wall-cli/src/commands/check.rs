@@ -20,7 +20,7 @@ use crate::output::{Console, progress, written};
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// Find the smallest thickness, tie strength or stiffness, or the largest height, that passes
+    /// Find the smallest thickness or tie, or the largest height, thrust or load, that passes
     #[arg(long, value_name = "PARAMETER", value_parser = sought)]
     find: Option<Sought>,
     /// With --find: write capacity over demand over the parameter as a chart (SVG)
