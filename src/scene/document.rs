@@ -47,7 +47,7 @@ tables! {
         /// Restitution.
         #[serde(default)]
         pub impact: Group,
-        /// Tie of a wall of one body, or a list of several.
+        /// Tie of the wall, or a list of several.
         #[serde(default)]
         pub tie: TieTables,
         /// Initial displacement and velocity.

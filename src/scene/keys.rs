@@ -23,13 +23,17 @@ impl Deref for Group {
 
 /// The ties of a wall: one table `[tie]`, or a list `[[tie]]`.
 #[derive(Clone, Debug, Default)]
-pub struct TieTables(Vec<Group>);
+pub struct TieTables {
+    tables: Vec<Group>,
+    /// Whether they are a list.
+    pub(super) is_list: bool,
+}
 
 impl Deref for TieTables {
     type Target = [Group];
 
     fn deref(&self) -> &[Group] {
-        &self.0
+        &self.tables
     }
 }
 
@@ -45,11 +49,13 @@ impl<'de> Deserialize<'de> for TieTables {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TieTables, A::Error> {
-                Ok(TieTables(vec![Group::deserialize(MapAccessDeserializer::new(map))?]))
+                let table = Group::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(TieTables { tables: vec![table], is_list: false })
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<TieTables, A::Error> {
-                Ok(TieTables(Vec::deserialize(SeqAccessDeserializer::new(seq))?))
+                let tables = Vec::deserialize(SeqAccessDeserializer::new(seq))?;
+                Ok(TieTables { tables, is_list: true })
             }
         }
 

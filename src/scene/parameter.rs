@@ -7,7 +7,7 @@ use toml::Value;
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
 
-use super::body::{BODY, LOAD, OPENING, PART, apply_body};
+use super::body::{BODY, LOAD, OF_BODY, OPENING, PART, apply_body};
 use super::error::SceneError;
 use super::keys::{
     BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, TieTables,
@@ -50,6 +50,10 @@ pub fn apply_group(
         match (group, key.get_ref().as_str()) {
             ("force_law", POINTS) => points = Some(value),
             ("force_law", "force_law") if own.as_str() == Some(MULTILINEAR) => law = Some(value),
+            (TIE_GROUP, BAR) if own.is_array() => {
+                let message = "bar is one table: write [tie.bar] below its [tie] or [[tie]]";
+                return Err(place.error(value.span(), message));
+            }
             (TIE_GROUP, BAR) => bar = Some(value),
             ("geometry", PART | OPENING | LOAD | BODY) => {}
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
@@ -115,9 +119,14 @@ pub fn apply_ties(
         let mut alone = Parameters { width: parameters.width, ..Parameters::default() };
         let of_tie = if number == 0 { &mut *parameters } else { &mut alone };
         apply_group(of_tie, TIE_GROUP, table, file)?;
-        if ties.len() > 1 && of_tie.tie_stiffness == 0.0 {
-            let message = "has no stiffness: give tie_stiffness or [tie.bar], or leave it out";
-            return Err(refused(number, format!("tie {} of {} {message}", number + 1, ties.len())));
+        let missing = [
+            (of_tie.tie_stiffness == 0.0, "no stiffness: give tie_stiffness or [tie.bar], or leave it out"),
+            (of_tie.tie_height == 0.0, "no height: give tie_height"),
+        ];
+        if let (true, Some((_, what))) =
+            (ties.is_list, missing.into_iter().find(|(is_missing, _)| *is_missing))
+        {
+            return Err(refused(number, format!("tie {} of {} has {what}", number + 1, ties.len())));
         }
         if number > 0 {
             further.extend(alone.ties().next());
@@ -164,9 +173,13 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     if name == "force_law" {
         parameters.multilinear = None;
     }
-    if parameters.profile.is_some() && OF_RECTANGLE.contains(&name) {
-        let message = format!("{name} is that of a rectangle, and the wall has parts; change these");
-        return Err(SceneError::Value { message });
+    if parameters.profile.is_some() {
+        let whose = if OF_RECTANGLE.contains(&name) { "a rectangle" } else { "a body by its integrals" };
+        if OF_RECTANGLE.contains(&name) || OF_BODY.contains(&name) {
+            let message =
+                format!("{name} is that of {whose}, and the wall has parts; change these in its file");
+            return Err(SceneError::Value { message });
+        }
     }
     if !parameters.further_ties.is_empty() && (name.starts_with("tie_") || name.starts_with("bar_")) {
         let message =

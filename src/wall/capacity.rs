@@ -64,7 +64,7 @@ impl Wall {
                 .ties()
                 .of_side(sign)
                 .filter(breaks)
-                .map(|tie| tie.lever * tie.strength.unwrap_or_default())
+                .map(|tie| tie.pull * tie.strength.unwrap_or_default())
                 .sum();
             let before = (lost > 0.0).then(|| self.capacity_point(sign, u, self.ties().pull(sign, u) + lost));
             before.into_iter().chain(std::iter::once(after))
@@ -82,7 +82,7 @@ impl Wall {
     }
 
     /// Returns the |u| of the unstable equilibrium that yielding ties move outwards on the side of `sign`, of
-    /// one tie u₃ + (y/`z_G`) `N_y`/k₀ with parallel softening \[m\]; `None` where no tie yields there.
+    /// one tie u₃ + ℓ `N_y`/k₀ with parallel softening \[m\]; `None` where no tie yields there.
     pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
         let yielding = self.branches().iter().filter(|branch| branch.yielding_side() == Some(sign));
         let falling = yielding.filter(|branch| branch.stiffness < 0.0);

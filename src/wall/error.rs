@@ -105,6 +105,12 @@ pub enum ParameterError {
          the tie above the base"
     )]
     TieHeight { tie_height: f64, height: f64 },
+    /// A tie holds a strip where its top support does.
+    #[error(
+        "tie_height = {tie_height} m is at the top support of a strip, where the wall does not move; give a \
+         height below"
+    )]
+    TieAtTop { tie_height: f64 },
     /// A number that the bar of a tie lacks.
     #[error("the bar of the tie needs {name}: give it, or leave the other numbers of the bar out")]
     BarNeeds { name: &'static str },
@@ -164,6 +170,7 @@ impl ParameterError {
             | Self::BarNeeds { name }
             | Self::Bar { name, .. } => vec![name],
             Self::TieHeight { .. } => vec!["tie_height", "height"],
+            Self::TieAtTop { .. } => vec!["tie_height"],
             Self::Conflict { choice, name, .. } => vec![choice, name],
             Self::StartsBehindWalls { .. } => vec!["u_start", "rocking"],
             Self::StartsOverturned { .. } => vec!["u_start"],

@@ -1,10 +1,10 @@
-//! A one-way tie of a wall of one body, anchored to its own support.
+//! A one-way tie, anchored to what moves with the supports of the wall.
 //!
 //! A tie at the height y, of stiffness K and slack g₀, that resists the side of σ = ±1 has the force N at the
-//! elongation e = σ (y/`z_G`) u of the wall there, in a rectangle (2y/h) u:
+//! elongation e = σ ℓ u of the wall there: ℓ = y/`z_G` of one body, in a rectangle 2y/h, and φ(y) of a strip:
 //!
 //! ```text
-//! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ (y/z_G) N
+//! N = min(N_y, max(0, K (e − g₀ − p)))        F_tie(u) = σ ℓ N, of a strip 2 σ ℓ N
 //! ```
 //!
 //! Its plastic elongation p grows with e while N = `N_y`, and never falls. The tie breaks for good where p
@@ -17,7 +17,7 @@
 
 use crate::choices::TieSide;
 
-use super::error::{Choice, ParameterError};
+use super::error::ParameterError;
 use super::force_law::Line;
 use super::given::given;
 use super::mechanism::Body;
@@ -26,7 +26,7 @@ use super::sides::Sides;
 use super::tie_numbers::TieNumbers;
 use super::trigonometric::conflict;
 
-/// A tie of a wall of one body; on both sides two ties of equal data.
+/// A tie; on both sides two ties of equal data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tie {
     /// Stiffness K \[N/m\].
@@ -41,8 +41,10 @@ pub struct Tie {
     pub side: TieSide,
     /// Height y above the base \[m\].
     pub height: f64,
-    /// de/du = y/`z_G`, in a rectangle 2y/h.
+    /// ℓ = de/du: y/`z_G`, in a rectangle 2y/h, and φ(y) of a strip.
     pub lever: f64,
+    /// dF/dN: ℓ, and 2ℓ of a strip, since Eq. (12) of a strip is twice Lagrange's.
+    pub pull: f64,
     /// |u| from which on the wall has left its supports, and the tie with them \[m\].
     departure: Sides,
     // The quotients are computed once, with the tie: where there is none, the compiler may divide by its
@@ -119,15 +121,6 @@ impl Tie {
         if stiffness == 0.0 {
             return Ok(None);
         }
-        if body.is_strip() {
-            return Err(ParameterError::conflict(
-                [
-                    Choice::new("tie_stiffness", stiffness.to_string()),
-                    Choice::new("mechanism", parameters.mechanism.name()),
-                ],
-                "tie_stiffness = 0 or mechanism = parapet",
-            ));
-        }
         if parameters.kinematics == Kinematics::Trigonometric {
             return Err(conflict("tie_stiffness", &stiffness, "tie_stiffness = 0"));
         }
@@ -136,7 +129,12 @@ impl Tie {
         }
         let strength = Some(strength).filter(|strength| *strength > 0.0);
         let ultimate = strength.and(ultimate);
-        let lever = tie_height / body.centroid_height;
+        let (lever, scale) = match body.hinge() {
+            None => (tie_height / body.centroid_height, 1.0),
+            Some(_) if tie_height == height => return Err(ParameterError::TieAtTop { tie_height }),
+            Some(hinge) if tie_height <= hinge => (tie_height / hinge, 2.0),
+            Some(hinge) => ((height - tie_height) / (height - hinge), 2.0),
+        };
         // the elongation under the strength; with no plastic elongation the tie breaks where it yields
         let elastic = strength.map(|strength| strength / stiffness + slack);
         Ok(Some(Self {
@@ -147,6 +145,7 @@ impl Tie {
             side,
             height: tie_height,
             lever,
+            pull: scale * lever,
             departure: body.departure,
             onset: slack / lever,
             yields: elastic.map(|elastic| elastic / lever),
@@ -180,9 +179,9 @@ impl Tie {
         self.breaks
     }
 
-    /// Returns the slope that the tie adds to F where it pulls, K times the square of the lever \[N/m\].
+    /// Returns the slope that the tie adds to F where it pulls, K ℓ dF/dN \[N/m\].
     pub fn slope(&self) -> f64 {
-        self.stiffness * self.lever * self.lever
+        self.stiffness * self.lever * self.pull
     }
 
     /// Returns the force N of the tie at a displacement reached for the first time \[N\].
@@ -264,7 +263,7 @@ impl Tie {
                 Line { anchor, force: line.at(anchor), slope: line.slope + self.slope() / m }
             }
             (TieAction::Yields, _) => {
-                let most = self.lever * self.strength.unwrap_or_default() / m;
+                let most = self.pull * self.strength.unwrap_or_default() / m;
                 Line { force: line.force + most.copysign(sign), ..line }
             }
             _ => line,

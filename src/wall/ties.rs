@@ -97,9 +97,9 @@ impl Ties {
     }
 
     /// Returns the part of |F| that the ties take at |u| on the side of `sign`, reached for the first time:
-    /// Σ (y/`z_G`) N \[N\].
+    /// Σ N dF/dN \[N\].
     pub fn pull(&self, sign: f64, u: f64) -> f64 {
-        let force = |tie: &Tie| tie.lever * tie.force(u.copysign(sign));
+        let force = |tie: &Tie| tie.pull * tie.force(u.copysign(sign));
         self.iter().map(force).fold(0.0, |sum, force| sum + force)
     }
 
@@ -125,7 +125,7 @@ impl Ties {
                     pull += tie.slope() * (end - hold.onset);
                     slope += tie.slope();
                 }
-                TieAction::Yields => pull += tie.lever * tie.strength.unwrap_or_default(),
+                TieAction::Yields => pull += tie.pull * tie.strength.unwrap_or_default(),
             }
         }
         // under a constant pull the force falls up to there, so it is positive all the way

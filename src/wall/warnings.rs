@@ -112,9 +112,13 @@ impl Parameters {
             ]
         });
         let loads = self.profile.iter().flat_map(|profile| profile.loads());
-        let of_loads = loads.map(|load| {
+        let of_loads = loads.flat_map(|load| {
             let range = [100.0, 1e6].map(|force| force * width);
-            (load.force > 0.0, load.force, usual("force", "N", range, FORCES))
+            let thrust = load.thrust.abs();
+            [
+                (load.force > 0.0, load.force, usual("force", "N", range, FORCES)),
+                (thrust > 0.0, thrust, usual("thrust", "N", range.map(|force| 0.1 * force), FORCES)),
+            ]
         });
         let of_profile: Vec<_> = of_parts.chain(of_loads).collect();
         let all = of_shape.into_iter().chain(of_profile).chain(of_wall);

@@ -182,7 +182,12 @@ fn a_number_of_the_rectangle_is_not_that_of_parts() {
     let text = format!("{PART}width = [1.0, 0.5]\n");
     let mut scene = Scene::parse("s.toml", &text, Path::new("nowhere")).unwrap();
     let error = scene.set("height", "4").unwrap_err().to_string();
-    assert_eq!(error, "height is that of a rectangle, and the wall has parts; change these");
+    assert_eq!(error, "height is that of a rectangle, and the wall has parts; change these in its file");
+    let error = scene.set("thrust", "0").unwrap_err().to_string();
+    assert!(
+        error.starts_with("thrust is that of a body by its integrals, and the wall has parts"),
+        "{error}"
+    );
     let taller = Parameters { height: 4.0, ..scene.parameters.clone() };
     let error = Wall::new(&taller).unwrap_err().to_string();
     assert_eq!(error, "height = 4 does not go with the parts of the wall, which have 3; change the parts");

@@ -6,8 +6,9 @@ use fmu_export::{Interface, Model as _};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use rocking_wall::scene::{Scene, to_toml};
+use rocking_wall::simulation::Outputs;
 use rocking_wall::unit::UnitScene;
-use rocking_wall::variables::{BooleanVariable, RealVariable as V, Rocking, TieSide};
+use rocking_wall::variables::{BooleanVariable, Mechanism, RealVariable as V, Rocking, TieSide};
 use rocking_wall::wall::{Parameters, Support, TieMemory, TieNumbers, Wall};
 
 use crate::configuration::mostly;
@@ -81,6 +82,67 @@ fn a_tie_can_be_halved() {
         prop_assert!(difference < allowed, "differs by {difference:e}, allowed {allowed:e}");
         Ok([compared, motion.len()])
     });
+}
+
+/// A strip that is held by one tie or several at any height below its top.
+pub(crate) fn strips() -> impl Strategy<Value = Parameters> {
+    let walls = prop_oneof![yielding::yielding().boxed(), several(yielding::yielding()).boxed()];
+    let strip = |parameters: Parameters| {
+        let height = |height: f64| 0.95 * height.min(parameters.height);
+        let further = parameters.further_ties.iter();
+        let lower = |tie: &TieNumbers| TieNumbers { height: height(tie.height), ..*tie };
+        Parameters {
+            mechanism: Mechanism::VerticalSpanning,
+            rocking: Rocking::TwoSided,
+            tie_height: height(parameters.tie_height),
+            further_ties: further.map(lower).collect(),
+            ..parameters
+        }
+    };
+    walls.prop_map(strip).prop_filter("a strip by Eq. (3)", |parameters| Wall::new(parameters).is_ok())
+}
+
+#[test]
+fn ties_move_a_strip_alike_in_parts_and_by_both_solvers() {
+    mostly(COMPARED, (strips(), motions(), 2_u32..7), splits);
+    mostly(COMPARED, (strips(), motions()), solvers_agree);
+}
+
+/// The force of a tie at φ(y) u is felt twice, as all of Eq. (12) of a strip, and reactions include it by the
+/// law of the lever: their moment about the base is that of a strip without the tie.
+#[test]
+fn a_tie_of_a_strip_has_its_levers() {
+    for (tie_height, lever) in [(0.9, 0.6), (1.5, 1.0), (2.4, 0.4)] {
+        let untied = Parameters {
+            mechanism: Mechanism::VerticalSpanning,
+            height: 3.0,
+            thickness: 0.25,
+            u_start: 0.03,
+            ..Parameters::default()
+        };
+        let tied = Parameters { tie_height, tie_stiffness: 2e5, tie_slack: 0.002, ..untied.clone() };
+        let [with, without] =
+            [&tied, &untied].map(|parameters| start(parameters).outputs(Support::default()));
+        let force = 2e5 * (lever * 0.03 - 0.002);
+        // roundings of F and N
+        assert!((with.tie_force - force).abs() < 1e-12 * force, "{} for {force}", with.tie_force);
+        let added = with.restoring_force - without.restoring_force;
+        assert!((added - 2.0 * lever * force).abs() < 1e-9, "{added} of {force}");
+        // what the tie adds to the sum of inertia: −2 ℓ N λ
+        let sum = |of: &Outputs| of.reactions.bottom + of.reactions.top;
+        let body = start(&tied).wall().body().clone();
+        let inertia = -body.participation * 2.0 * lever * force;
+        let shares: f64 = body.support_weights.iter().sum();
+        assert!((sum(&with) - sum(&without) - inertia * shares / 2.0).abs() < 1e-9, "{with:?} {without:?}");
+    }
+    let at_top = Parameters {
+        mechanism: Mechanism::VerticalSpanning,
+        tie_height: 4.0,
+        tie_stiffness: 1e6,
+        ..Parameters::default()
+    };
+    let error = Wall::new(&at_top).unwrap_err().to_string();
+    assert!(error.starts_with("tie_height = 4 m is at the top support of a strip"), "{error}");
 }
 
 /// The wall of the example by hand with a second tie above its first, which breaks first.
@@ -174,9 +236,20 @@ fn several_ties_that_cannot_be_are_refused() {
             format!("{one}[[tie]]\ntie_height = 3\n"),
             "line 5: tie 2 of 2 has no stiffness: give tie_stiffness",
         ),
-        (format!("{one}[[tie]]\nheight = 3\n"), "line 5: \"height\" belongs in [geometry]"),
+        (
+            format!("{one}[[tie]]\nheight = 3\n"),
+            "line 5: unknown key \"height\" in [tie] (did you mean \"tie_height\"?)",
+        ),
         (format!("{one}[[tie]]\ntie_stiffness = -1\n"), "line 5: tie_stiffness = -1"),
         (format!("{one}[[tie]]\nbar = {{ diameter = 0.016 }}\n"), "line 5: length is missing in [tie.bar]"),
+        ("[[tie]]\ntie_height = 2\n".to_owned(), "line 2: tie 1 of 1 has no stiffness"),
+        (one.replace("tie_height = 2\n", ""), "line 2: tie 1 of 1 has no height: give tie_height"),
+        ("[[tie]]\n".to_owned(), "tie 1 of 1 has no stiffness"),
+        (format!("{one}[[tie.bar]]\nlength = 1\n"), "bar is one table: write [tie.bar] below its [tie]"),
+        (
+            format!("{one}[tie]\ntie_height = 3\n"),
+            "line 4: tie is given twice; leave one out (tables of a list have two brackets: [[tie]])",
+        ),
         (many, "line 1: tie needs at least 1 and at most 100 values, found 101"),
         ("tie = 3\n".to_owned(), "line 1: tie = 3: expected a table [tie], or several [[tie]]"),
         ("tie = [3]\n".to_owned(), "line 1: "),

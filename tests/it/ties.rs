@@ -227,7 +227,6 @@ fn bad_ties_are_refused_with_the_remedy() {
         let message = Wall::new(&parameters).unwrap_err().to_string();
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
     };
-    refused(|p| p.mechanism = Mechanism::VerticalSpanning, ["vertical_spanning", "tie_stiffness = 0"]);
     refused(|p| p.tie_height = 0.0, ["tie_height = 0", "at most height = 4"]);
     refused(|p| p.tie_height = 4.1, ["tie_height = 4.1", "at most height = 4"]);
     refused(

@@ -13,6 +13,10 @@ pub type Groups = BTreeMap<&'static str, Vec<&'static str>>;
 /// Says of a key that a table does not hold in which group it belongs, or what the table holds; `table` is
 /// empty for the file itself.
 pub fn unknown_key(name: &str, table: &str, known: &[&str], groups: &Groups) -> String {
+    let own = format!("{table}_{name}");
+    if known.contains(&own.as_str()) {
+        return format!("unknown key {name:?} in [{table}] (did you mean {own:?}?)");
+    }
     let group = groups.iter().find(|(_, names)| names.contains(&name));
     if let Some((group, _)) = group.filter(|_| table.is_empty() || groups.contains_key(table)) {
         return format!("{name:?} belongs in [{group}]");

@@ -15,7 +15,11 @@ pub(crate) fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, FileE
         let span = error.span().unwrap_or(0..0);
         let text = place.text();
         let message = if error.message().starts_with("duplicate key") {
-            format!("{} is given twice; leave one out", text[span.clone()].trim_matches(['"', '\'']))
+            let key = text[span.clone()].trim_matches(['"', '\'']);
+            let line = text.lines().nth(place.line(span.clone()) - 1).unwrap_or_default().trim();
+            let table = line.strip_prefix('[').map(|table| table.trim_matches(['[', ']']));
+            let of_list = table.map(|table| format!(" (tables of a list have two brackets: [[{table}]])"));
+            format!("{key} is given twice; leave one out{}", of_list.unwrap_or_default())
         } else {
             let line = text.lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
             if error.message().starts_with("cannot extend") {

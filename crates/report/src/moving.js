@@ -25,7 +25,8 @@ function turnWall(wall, [lower, upper], u, drift = 0) {
   const y = Math.sin(turn) * (toe - edge) + Math.cos(turn) * h1;
   upper.setAttribute("transform",
     `translate(${x - edge} ${y - h1}) rotate(${back * degrees} ${edge} ${h1})`);
-  return () => 0;
+  return height => height <= h1 ? toe - toe * Math.cos(turn) + Math.sin(turn) * height
+    : (toe - toe * Math.cos(turn) + Math.sin(turn) * h1) * (h - height) / h2;
 }
 function place(element, x, y) {
   element.style.left = 100 * x + "%";

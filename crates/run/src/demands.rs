@@ -58,7 +58,8 @@ pub fn overturned(fate: Fate, digits: usize) -> String {
 /// Describes where demands end; `None` for a wall that did not overturn.
 pub fn until(response: &Response) -> Option<&'static str> {
     let is_tied = !response.demands.ties.is_empty();
-    let until = if is_tied { "up to overturning; that on the tie beyond" } else { "up to overturning" };
+    let until =
+        if is_tied { "up to overturning; those of ties over the whole run" } else { "up to overturning" };
     response.summary.overturned.then_some(until)
 }
 

@@ -99,7 +99,7 @@ tables! {
         #[serde(default)]
         #[key(properties = without_model("impact"))]
         impact: Group,
-        /// Tie of a wall of one body, or a list of several.
+        /// Tie of the wall, or a list of several.
         #[serde(default)]
         tie: TieTables,
         /// Solver and tolerance.

@@ -205,8 +205,10 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
         ("impact", impact(parameters, wall.restitution().positive)),
     ];
-    let ties: Vec<_> = tie::facts(wall, parameters).into_iter().map(|tie| ("tie", tie)).collect();
-    rows.iter().chain(&ties).map(|(name, value)| row(name, value)).collect()
+    let ties = tie::facts(wall, parameters);
+    let name = |number: usize| if ties.len() > 1 { format!("tie {number}") } else { "tie".to_owned() };
+    let of_ties = ties.iter().zip(1..).map(|(tie, number)| row(&name(number), tie));
+    rows.iter().map(|(name, value)| row(name, value)).chain(of_ties).collect()
 }
 
 /// A number with its unit, of both sides where they differ.

@@ -127,16 +127,27 @@ pub fn said(response: &Response) -> String {
         return String::new();
     }
     let longest = yielding().map(|Yielding { elongation, .. }| elongation.most()).fold(0.0, f64::max);
-    let which = if response.ties.len() > 1 { "One of its ties" } else { "Its tie" };
-    match yielding().flat_map(|of| of.breaks).flatten().reduce(f64::min) {
+    let longest_mm = number(1000.0 * longest, 2);
+    let first = yielding().flat_map(|of| of.breaks).flatten().reduce(f64::min);
+    if response.ties.len() > 1 {
+        let of_all = |count: usize| format!("{count} of {} ties", response.ties.len());
+        let broken = yielding().filter(|of| of.breaks.iter().any(Option::is_some)).count();
+        let yielded = yielding().filter(|of| of.elongation.most() > 0.0).count();
+        return match first {
+            Some(time) => format!(" {} break, from {time:.1} s on.", of_all(broken)),
+            None if longest > 0.0 => format!(" {} yield, by up to {longest_mm} mm.", of_all(yielded)),
+            None => " None of its ties yields.".to_owned(),
+        };
+    }
+    match first {
         Some(time) => format!(" A tie breaks at {time:.1} s."),
-        None if longest > 0.0 => {
-            format!(" {which} yields and gets {} mm longer.", number(1000.0 * longest, 2))
-        }
-        None if response.ties.len() > 1 => " None of its ties yields.".to_owned(),
+        None if longest > 0.0 => format!(" Its tie yields and gets {longest_mm} mm longer."),
         None => " Its tie does not yield.".to_owned(),
     }
 }
+
+/// The colours of the first series, in words.
+const COLORS: [&str; 5] = ["blue", "red", "green", "purple", "amber"];
 
 /// A plot over the time, with its name and its caption.
 pub type Named = (&'static str, String, Plot);
@@ -158,7 +169,11 @@ pub fn plots(wall: &Wall, response: &Response, end: f64) -> Vec<Named> {
     };
     let forces: Vec<_> =
         response.ties.iter().map(|samples| column(samples, &|of| of.force / 1000.0)).collect();
-    let heights: Vec<_> = wall.ties().iter().map(|tie| format!("{} m", number(tie.height, 6))).collect();
+    let named = |(tie, at): (&Tie, usize)| {
+        let color = COLORS.get(at).map_or(String::new(), |color| format!(" ({color})"));
+        format!("{} m{color}", number(tie.height, 6))
+    };
+    let heights: Vec<_> = wall.ties().iter().zip(0..).map(named).collect();
     let are_several = response.ties.len() > 1;
     let of = if are_several {
         format!("Forces of the ties at {}", heights.join(", "))
@@ -175,7 +190,7 @@ pub fn plots(wall: &Wall, response: &Response, end: f64) -> Vec<Named> {
             .iter()
             .map(|samples| column(samples, &|of| 1000.0 * of.elongation.most()))
             .collect();
-        let caption = "Plastic elongation of each tie, the larger side".to_owned();
+        let caption = "Plastic elongation of each tie, on the side where it is larger".to_owned();
         plots.push(("tie_elongation", caption, drawn(&longest, &color, "p (mm)")));
     } else {
         let signs: Vec<_> = wall.ties().iter().flat_map(sides).collect();
@@ -194,7 +209,9 @@ pub fn plots(wall: &Wall, response: &Response, end: f64) -> Vec<Named> {
 /// Forces and elongations over the time, with marks where ties first yield and where they break.
 pub(super) fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     let ties = wall.ties().iter().zip(&response.demands.ties);
+    // marks of several would cover each other
     let marks: Vec<_> = ties
+        .filter(|_| response.ties.len() == 1)
         .flat_map(|(tie, demands)| {
             let breaks = sides(tie).filter_map(|sign| broke(demands, sign)).map(|time| (time, "breaks"));
             // a brittle tie breaks where it would yield

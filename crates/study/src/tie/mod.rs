@@ -24,7 +24,7 @@ use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{TieDemands, Yielding};
 use rocking_wall::variables::TieSide;
-use rocking_wall::wall::{ParameterError, Parameters, Wall};
+use rocking_wall::wall::{ParameterError, Parameters, Tie, Wall};
 
 use run::parallel;
 use run::polarity::Polarities;
@@ -285,8 +285,7 @@ fn values(scene: &Scene, varied: &Varied, given: &[f64]) -> Result<Vec<f64>, Tie
     let mut values = given.to_vec();
     if values.is_empty() && *varied == STIFFNESS {
         let wall = Wall::new(&Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() })?;
-        let lever = wall.ties().first().map_or(1.0, |tie| tie.lever);
-        let unit = wall.body().geometric_stiffness / (lever * lever);
+        let unit = wall.body().geometric_stiffness / wall.ties().first().map_or(1.0, Tie::slope);
         values.push(0.0);
         values.extend((-8..=12).map(|exponent| unit * 10.0_f64.powf(f64::from(exponent) / 4.0)));
     }
