@@ -132,6 +132,12 @@ fn set_loads(parameters: &mut Parameters, changed: impl Fn(&Load) -> Load) {
 /// # Errors
 /// [`CheckError`] with the load or the part, its value and the remedy.
 pub(crate) fn check_body(parameters: &Parameters) -> Result<(), CheckError> {
+    let has_tie = parameters.ties().any(|tie| tie.stiffness > 0.0);
+    if has_tie && parameters.mechanism == Mechanism::VerticalSpanning {
+        return Err(CheckError::wall(
+            "a check counts the ties of one body: leave [tie] out of a strip, or check it as a parapet",
+        ));
+    }
     for (index, load) in loads(parameters).iter().enumerate() {
         if load.force > 0.0 && load.moving_mass.is_none() {
             return Err(CheckError::wall(format!(
