@@ -94,13 +94,17 @@ pub(super) fn by_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sente
             } else {
                 say!("turns the verdict", "cambia l'esito")
             };
-            warnings.push(say! {
-                "{side}: {parameter} {what}: with {assigned} {check} goes from {from} to {to}, {result}",
-                "{side}: {parameter} {what}: con {assigned} lo {check} passa da {from} a {to}, {result}",
-                side = case.told(name), parameter = varied.parameter, what,
-                assigned = varied.assigned(), check = Deciding::ALL[at], from = fixed(own[at], 3),
-                to = fixed(zetas[at], 3), result = passed(!holds)
-            });
+            let said = |parameter: &str| {
+                say! {
+                    "{side}: {parameter} {what}: with {assigned} {check} goes from {from} to {to}, {result}",
+                    "{side}: {parameter} {what}: con {assigned} lo {check} passa da {from} a {to}, {result}",
+                    side = case.told(name), parameter, what,
+                    assigned = varied.assigned(), check = Deciding::ALL[at], from = fixed(own[at], 3),
+                    to = fixed(zetas[at], 3), result = passed(!holds)
+                }
+            };
+            let symbol = if varied.parameter == "young_modulus" { "E" } else { varied.parameter };
+            warnings.push(said(varied.parameter).on_page(said(symbol)));
         }
     }
     warnings
