@@ -80,6 +80,8 @@ pub const ENTRY: Entry = Entry {
         "before_activation",
         "young_modulus",
         "overburden_mass",
+        "hinge_levels",
+        "resultants",
         "hinge",
         "hinge_range",
         "masonry_strength",

@@ -1,6 +1,6 @@
 //! Several ties of a façade in the check by Circolare 7/2019, its drawing, and the loads that it bears.
 
-use check::{CheckFile, Found, Language, Sought, find, read};
+use check::{CheckFile, Found, Language, Sought, WallCodes, check_walls, find, read};
 use rocking_wall::scene::Scene;
 use serde_json::Value;
 
@@ -169,4 +169,27 @@ fn the_largest_thrust_that_passes_is_found() {
         let error = searched(&text, sought).unwrap_err();
         assert!(error.contains(message), "{error}");
     }
+}
+
+/// Walls of a file state their own levels, and are checked as they are alone.
+#[test]
+fn walls_of_a_file_have_their_own_levels() {
+    let part = "[[walls.geometry.part]]\nheight = 3\nthickness = 0.4\ndensity = 1800\n";
+    let wall = |name: &str, levels: &str| {
+        format!("[[walls]]\nname = \"{name}\"\ncheck = {{ hinge_levels = {levels} }}\n{part}{part}")
+    };
+    let table = &facade("", "")[facade("", "").find("[check]").unwrap()..];
+    let text = format!("{table}{}{}", wall("P1", "[0]"), wall("P2", "[0, 3]"));
+    let file = CheckFile::parse("walls.toml", &text).unwrap();
+    let walls = file.walls(&[], &mut Vec::new(), &mut Vec::new()).unwrap();
+    let codes = WallCodes::read(&file, &walls).unwrap();
+    let found = check_walls(&codes, &walls, 1).json();
+    let of = |name: &str| {
+        let own = found.as_array().unwrap().iter().find(|own| own["name"] == name).unwrap();
+        own["verdict"]["levels"].as_array().unwrap_or_else(|| panic!("{own}")).clone()
+    };
+    assert_eq!((of("P1").len(), of("P2").len()), (1, 2));
+    let alpha0 = |level: &Value| number(level, &["sides", "positive", "alpha0"]);
+    near(alpha0(&of("P2")[0]), alpha0(&of("P1")[0]), "the base");
+    near(alpha0(&of("P2")[1]), 0.4 / 3.0, "above 3 m");
 }
