@@ -13,7 +13,7 @@ use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::sides::Sides;
 use super::statics::Statics;
-use super::tie::{Tie, TieMemory};
+use super::tie::TieMemory;
 use super::ties::Ties;
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
@@ -208,11 +208,6 @@ impl Wall {
     /// loads that move along are displaced by more than u in proportion.
     pub(crate) fn carried(&self, sign: f64, motion: KinematicState) -> f64 {
         self.rotations.as_ref().map_or(motion.acceleration, |rotations| rotations.carried(sign, motion))
-    }
-
-    /// The first tie, for those who know one; `None` without one.
-    pub fn tie(&self) -> Option<&Tie> {
-        self.ties().first()
     }
 
     /// The ties.

@@ -5,7 +5,6 @@ use super::force_law::RestoringForce;
 use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
-use super::tie::Tie;
 use super::ties::Ties;
 
 /// Share of F₀ below which a force counts as 0: at the end of a softening line only rounding is left of it.
@@ -42,11 +41,6 @@ impl Statics {
     /// Masses, geometry and the rigid force.
     pub fn body(&self) -> &Body {
         &self.body
-    }
-
-    /// The first tie, for those who know one; `None` without one.
-    pub fn tie(&self) -> Option<&Tie> {
-        self.ties().first()
     }
 
     /// The ties.

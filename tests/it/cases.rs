@@ -90,7 +90,7 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
             // at an impact on a row, the reference may have either velocity
             worst = worst.max(velocity_error / (10.0 * bound));
         }
-        if let (Some([force, positive, negative]), Some(tie)) = (row.tie, simulation.wall().tie()) {
+        if let (Some([force, positive, negative]), Some(tie)) = (row.tie, simulation.wall().ties().first()) {
             let outputs = simulation.outputs(Support::default());
             let elongation = outputs.tie_elongation;
             let length = tie.lever * u_ins;

@@ -169,7 +169,7 @@ impl Run {
         let wall = Wall::new(&self.parameters).unwrap();
         let ground = self.accelerations.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
         let reaction = wall.body().mass * (a + ground);
-        let tie = wall.tie().map_or(0.0, |tie| tie.stiffness * tie.lever * u);
+        let tie = wall.ties().first().map_or(0.0, |tie| tie.stiffness * tie.lever * u);
         [u, v, a, reaction, reaction, tie]
     }
 

@@ -22,7 +22,7 @@ pub(crate) fn yielding() -> impl Strategy<Value = Parameters> {
     let ultimate = prop_oneof![Just(0.0), 1e-3_f64..0.5, Just(10.0)];
     (tied(), 0.01_f64..1.0, ultimate).prop_map(|(parameters, strength, ultimate)| {
         let wall = Wall::new(&parameters).unwrap();
-        let (tie, u_ins) = (wall.tie().unwrap(), wall.body().instability.positive);
+        let (tie, u_ins) = (wall.ties().first().unwrap(), wall.body().instability.positive);
         Parameters {
             tie_strength: strength * tie.stiffness * tie.lever * 0.4 * u_ins,
             tie_ultimate: ultimate * tie.lever * u_ins,
@@ -150,7 +150,11 @@ fn ties_yield_and_break_as_by_a_return_mapping() {
             let (coarse, fine) = (coarse[index + 1], fine[index + 1]);
             let elongation = simulation.outputs(Support::default()).tie_elongation;
             let found = [simulation.progress().state.displacement, elongation.positive, elongation.negative];
-            let scales = [u_ins, wall.tie().unwrap().lever * u_ins, wall.tie().unwrap().lever * u_ins];
+            let scales = [
+                u_ins,
+                wall.ties().first().unwrap().lever * u_ins,
+                wall.ties().first().unwrap().lever * u_ins,
+            ];
             let changes = [0, 1, 2].map(|n| (fine[n] - coarse[n]).abs() / scales[n]);
             largest = changes.into_iter().fold(largest, f64::max);
             if largest > 1e-4 || simulation.progress().state.overturned {

@@ -269,7 +269,7 @@ fn the_example_by_hand_turns_where_its_tie_holds() {
     assert!((state.peaks.positive - 0.054_213_86).abs() <= 5e-9, "{state:?}");
     let elongation = simulation.outputs(Support::default()).tie_elongation;
     assert!((elongation.positive - 0.058_970_69).abs() <= 5e-9, "{elongation:?}");
-    let hold = simulation.wall().tie().unwrap().hold(1.0, &state.tie).unwrap();
+    let hold = simulation.wall().ties().first().unwrap().hold(1.0, &state.tie).unwrap();
     assert!((hold.onset - 0.045_560_01).abs() <= 5e-9, "{hold:?}");
 }
 
@@ -313,7 +313,7 @@ fn the_example_by_hand_overturns_where_its_tie_is_brittle() {
 fn a_tie_that_is_just_reached_has_broken() {
     for ultimate in [0.0, 0.05] {
         let wall = Wall::new(&by_hand(ultimate)).unwrap();
-        let breaks = wall.tie().and_then(Tie::fracture_displacement).unwrap();
+        let breaks = wall.ties().first().and_then(Tie::fracture_displacement).unwrap();
         for (u_start, time) in [(breaks, Some(0.0)), (breaks.next_down(), None)] {
             let simulation = start(&Parameters { u_start, ..by_hand(ultimate) });
             assert_eq!(simulation.progress().tie_break_time(), time, "{ultimate}");
@@ -327,7 +327,7 @@ fn a_tie_that_is_just_reached_has_broken() {
 fn a_tie_that_is_loaded_for_the_first_time_has_its_force() {
     let wall = |ultimate| Wall::new(&by_hand(ultimate)).unwrap();
     let (yielding, elastic) = (wall(0.05), wall(-1.0));
-    let [yields, elastic] = [&yielding, &elastic].map(|wall| wall.tie().unwrap());
+    let [yields, elastic] = [&yielding, &elastic].map(|wall| wall.ties().first().unwrap());
     let [u_y, u_f] = [yields.strength_displacement(), yields.fracture_displacement()].map(Option::unwrap);
     let departure = yielding.body().departure.positive;
     let middle = 0.5 * (yields.onset() + u_y);

@@ -173,7 +173,7 @@ fn check_side(
     let participation = wall.body().participation;
     let at = |u: f64| wall.capacity_at(sign, u / wall.body().instability.of(sign));
     let zero = wall.force_end().of(sign);
-    let tie = wall.tie().filter(|tie| tie.holds(sign));
+    let tie = wall.ties().first().filter(|tie| tie.holds(sign));
     let of_wall = fractions.displacement * zero;
     let ultimate = tie.and_then(Tie::strength_displacement).map_or(of_wall, |u| of_wall.min(u));
     let corners = wall.capacity_corners(sign);

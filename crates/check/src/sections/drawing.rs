@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use rocking_wall::variables::{EccentricityMode, Mechanism};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::{Parameters, Tie, Wall};
 use run::drawing::Words;
 
 use crate::words::{Language, Sentence, at_most, say, shown};
@@ -47,7 +47,7 @@ pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> 
     drawing.wall();
     drawing.hinges();
     drawing.loads();
-    drawing.tie();
+    drawing.ties();
     drawing.dimensions();
     let [width, height] = SIZE;
     // without an overburden nothing stands above the wall
@@ -242,10 +242,13 @@ impl Drawing<'_> {
         }
     }
 
-    fn tie(&mut self) {
-        let Some(tie) = self.of.tie() else { return };
-        let parameters = self.parameters;
-        let y = self.y(parameters.tie_height);
+    fn ties(&mut self) {
+        let of = self.of;
+        of.ties().iter().for_each(|tie| self.tie(tie));
+    }
+
+    fn tie(&mut self, tie: &Tie) {
+        let y = self.y(tie.height);
         let half = self.half();
         for sign in [1.0, -1.0] {
             if tie.holds(sign) {
@@ -297,8 +300,8 @@ impl Drawing<'_> {
         if let Some(hinge) = self.hinge() {
             self.height(INNER, hinge, "h₁");
         }
-        if self.of.tie().is_some() {
-            self.height(INNER, self.parameters.tie_height, "y");
+        for tie in self.of.ties().iter() {
+            self.height(INNER, tie.height, "y");
         }
         let (half, y) = (self.half(), FOOT + 24.0);
         self.dimension([AXIS - half, y], [AXIS + half, y]);

@@ -96,7 +96,7 @@ fn all(
     for (group, names) in GROUPS {
         for name in names {
             let matters = usage(parameters).any(|usage| usage.name == *name && usage.matters);
-            let no_tie = group == "tie" && wall.tie().is_none();
+            let no_tie = group == "tie" && wall.ties().is_empty();
             if matters && !no_tie && is_used(group, name) {
                 rows.extend(parameter(wall, parameters, origin, group, name));
             }

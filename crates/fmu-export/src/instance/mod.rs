@@ -18,7 +18,6 @@ use std::ffi::CString;
 use std::rc::Rc;
 
 /// What a state saves, and a reset restores.
-#[derive(Clone)]
 struct Snapshot<M> {
     model: M,
     phase: Phase,
@@ -27,6 +26,15 @@ struct Snapshot<M> {
     experiment: Experiment,
     /// Values were set that [`Model::calculate`] has not seen.
     stale: bool,
+}
+
+impl<M: Model> Clone for Snapshot<M> {
+    // once in the library, and not in each function that saves a state
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        let Self { model, phase, time, experiment, stale } = self;
+        Self { model: model.clone(), phase: *phase, time: *time, experiment: *experiment, stale: *stale }
+    }
 }
 
 /// What an instance is made for.

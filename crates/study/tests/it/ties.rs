@@ -85,7 +85,7 @@ fn directly(study: &Study, wall: usize, model: usize, level: f64) -> TieDemand {
         demand.elongation = outputs.tie_elongation.positive.max(outputs.tie_elongation.negative);
     }
     let (wall, state) = (simulation.wall(), simulation.progress().state);
-    demand.broken = [1.0, -1.0].iter().any(|sign| wall.tie().unwrap().is_broken(*sign, &state.tie));
+    demand.broken = [1.0, -1.0].iter().any(|sign| wall.ties().first().unwrap().is_broken(*sign, &state.tie));
     demand
 }
 

@@ -58,7 +58,7 @@ fn all(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<Stated> {
     if let Some(rocks) = statement.table.rocking {
         state(rocking(rocks, is_dynamic), &["rocking"]);
     }
-    if case.wall.tie().is_some() {
+    if !case.wall.ties().is_empty() {
         state(tie(statement.at_activation()), &["tie"]);
         if let Some(strain) = ultimate_strain(case) {
             state(strain, &["tie"]);

@@ -1,5 +1,7 @@
 //! A wall in the table of walls of a report.
 
+use rocking_wall::wall::Tie;
+
 use crate::circolare::outcome::Checked;
 use crate::circolare::statement::table::Activation;
 use crate::sections::inputs::overview;
@@ -19,9 +21,10 @@ pub(in crate::circolare) fn of(case: &Checked<'_>, language: Language) -> Vec<(S
     let held = if is_held { say!("held", "vincolata") } else { say!("free", "libera") };
     cell(say!("before rocking", "prima dell'attivazione").markup(language), held.markup(language));
     let elastic = || say!("elastic", "elastica").markup(language);
-    let tie = case.wall.tie();
-    let tie = tie.map(|tie| tie.strength.map_or_else(elastic, |strength| language.shown(1e-3 * strength)));
-    cell(say!("tie, N_y [kN]", "catena, N_y [kN]").markup(language), tie.unwrap_or_else(|| "–".to_owned()));
+    let strength = |tie: &Tie| tie.strength.map_or_else(elastic, |strength| language.shown(1e-3 * strength));
+    let ties: Vec<_> = case.wall.ties().iter().map(strength).collect();
+    let ties = if ties.is_empty() { "–".to_owned() } else { ties.join(" + ") };
+    cell(say!("tie, N_y [kN]", "catena, N_y [kN]").markup(language), ties);
     let Some(side) = case.governing() else { return cells };
     cell(formula("h_1/h"), some(side.curve.hinge));
     cell(formula("α0"), language.shown(side.curve.alpha0));

@@ -101,7 +101,7 @@ pub(in crate::circolare) fn of(case: &Checked<'_>) -> Vec<Sentence> {
             },
         ),
         (
-            case.wall.tie().is_some(),
+            !case.wall.ties().is_empty(),
             say! {
                 "A tie: actions that last until collapse are asked for d_0 only. `a(d)` is the curve as it \
                  is at d_SLV; at the rupture of the tie it is the value just before.",
