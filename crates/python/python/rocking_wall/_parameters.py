@@ -91,8 +91,8 @@ class Parameters(TypedDict, total=False):
       newmark; default 0.001.
     - tie_height: Height of the tie above the base, at most height [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.
-    - tie_stiffness: Stiffness of the tie between a wall of one body and its support; 0 for none [N/m], at
-      least 0, at most 1e+15; default 0.0.
+    - tie_stiffness: Stiffness of the tie between wall and support; 0 for none [N/m], at least 0, at most
+      1e+15; default 0.0.
     - tie_slack: Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.
     - tie_strength: Force at which the tie yields, or a limit state of an elastic one; 0 where none is given
@@ -253,8 +253,8 @@ class Tie(TypedDict, total=False):
     - tie_side: Side on which the tie holds the wall; where tie_stiffness is not 0; default "positive".
     - tie_slack: Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; where
       tie_stiffness is not 0; default 0.0.
-    - tie_stiffness: Stiffness of the tie between a wall of one body and its support; 0 for none [N/m], at
-      least 0, at most 1e+15; default 0.0.
+    - tie_stiffness: Stiffness of the tie between wall and support; 0 for none [N/m], at least 0, at most
+      1e+15; default 0.0.
     - tie_strength: Force at which the tie yields, or a limit state of an elastic one; 0 where none is given
       [N], at least 0, at most 1e+12; where tie_stiffness is not 0; default 0.0.
     - tie_ultimate: Plastic elongation at which the tie breaks; it yields at tie_strength; -1: elastic [m], at
