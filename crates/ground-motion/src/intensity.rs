@@ -21,6 +21,10 @@ use crate::unit::STANDARD_GRAVITY;
 /// Shortest and longest period of [Housner's intensity](Spectrum::housner_intensity), in hundredths of a
 /// second.
 const HOUSNER_PERIODS: [u32; 2] = [10, 250];
+/// Parts of ∫ a² dt between which the duration is significant.
+const SIGNIFICANT: [f64; 2] = [0.05, 0.95];
+/// Halvings of a step that leave no more than a rounding of it.
+const HALVINGS: usize = 53;
 
 impl GroundMotion {
     /// Computes the velocity of the ground at the samples (m/s), from rest.
@@ -84,6 +88,46 @@ impl GroundMotion {
         self.step() * self.samples().windows(2).map(area).sum::<f64>() / 2.0
     }
 
+    /// Computes the significant duration (s): the time from 5 % to 95 % of ∫ a² dt, also between samples. It
+    /// does not depend on the scale; a motion of zeros has none, 0 s.
+    ///
+    /// M. D. Trifunac, A. G. Brady: A study on the duration of strong earthquake ground motion. Bulletin of
+    /// the Seismological Society of America 65(3), 1975, 581–626.
+    ///
+    /// ```
+    /// use ground_motion::GroundMotion;
+    ///
+    /// // of a constant acceleration, 90 % of its 4 s
+    /// let motion = GroundMotion::new(1.0, vec![2.0; 5])?;
+    /// assert!((motion.significant_duration() - 3.6).abs() < 1e-12);
+    /// # Ok::<(), ground_motion::GroundMotionError>(())
+    /// ```
+    pub fn significant_duration(&self) -> f64 {
+        let whole: f64 = self.samples().windows(2).map(|pair| square_up_to(pair, 1.0)).sum();
+        let [from, to] = SIGNIFICANT.map(|part| self.time_of_square(part * whole));
+        to - from
+    }
+
+    /// Returns the time (s) at which ∫ a² dt, in units of the step, reaches a value; 0 for 0.
+    fn time_of_square(&self, value: f64) -> f64 {
+        let mut sum = 0.0;
+        for (index, pair) in self.samples().windows(2).enumerate().filter(|_| value > 0.0) {
+            let next = sum + square_up_to(pair, 1.0);
+            if next >= value {
+                // it rises with the part of the step
+                let [mut low, mut high] = [0.0, 1.0];
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (low + high);
+                    let end = if sum + square_up_to(pair, middle) < value { &mut low } else { &mut high };
+                    *end = middle;
+                }
+                return self.step() * (index as f64 + high);
+            }
+            sum = next;
+        }
+        0.0
+    }
+
     /// Returns velocity and displacement at every sample.
     fn states(&self) -> impl Iterator<Item = [f64; 2]> {
         std::iter::once([0.0; 2]).chain(self.pieces().map(|piece| piece.at(1.0)))
@@ -118,6 +162,12 @@ impl Spectrum {
         }
         Ok(sum / 100.0)
     }
+}
+
+/// Returns ∫ a² dt over a first part of a step, in units of the step.
+fn square_up_to(pair: &[f64], part: f64) -> f64 {
+    let [a0, a1] = [pair[0], pair[0] + part * (pair[1] - pair[0])];
+    part * (a0 * a0 + a0 * a1 + a1 * a1) / 3.0
 }
 
 /// The motion of the ground between two samples.
