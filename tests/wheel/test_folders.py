@@ -255,6 +255,36 @@ def test_uncertain_parameters_are_samples(program, tmp_path):
     program("study", "merge", tmp_path / "out")
 
 
+def test_measures_are_compared(program, tmp_path, monkeypatch):
+    """A study of objects compares measures as its file does; the table of records stays where it is."""
+    walls = {"low": rw.Wall(2, 0.3), "3": rw.Wall(3, 0.3)}
+    records = {str(seed): rw.synthetic_record(seed, duration=9.0 + seed) for seed in range(1, 6)}
+    rows = "".join(f"{name},{5.0 + 0.3 * place}\n" for place, name in enumerate(records))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "flatfile.csv").write_text("record,magnitude\n" + rows, encoding="utf-8")
+    names = ["PGA", "PGV", "Arias", "Sa(0.5)"]
+    intensity = {"measure": "PGA", "compare": names, "records_table": "flatfile.csv"}
+    levels = {"method": "hunt", "first": 0.1, "increase": 0.1, "top": 4}
+    options = {"intensity": intensity, "report": {"resamples": 100}}
+    study = rw.Study(walls=walls, records=records, models=["CR"], levels=levels, **options)
+    found = study.run(tmp_path / "python", progress=False).measures
+    assert found["wall"].tolist() == ["low"] * 4 + ["3"] * 4 + ["all walls"] * 4
+    assert found["measure"].tolist() == ["PGA", "PGV", "Arias", "Sa(0.5 s)"] * 3
+    assert (found["records"] == [5] * 8 + [10] * 4).all() and (found["b"] > 0.4).all()
+    probabilities = [found[f"p_{y}_{z}"] for y in ("theta", "d") for z in ("duration", "magnitude")]
+    assert all(((p > 0) & (p <= 1)).all() for p in probabilities) and "p_d_distance" not in found
+    (tmp_path / "elsewhere").mkdir()
+    study.to_toml(tmp_path / "elsewhere" / "study.toml")
+    program("study", "ida", tmp_path / "elsewhere" / "study.toml", "-o", tmp_path / "program")
+    assert files(tmp_path / "program") == files(tmp_path / "python")
+    options["intensity"] = {"measure": "PGA"}
+    plain = rw.Study(walls=walls, records=records, models=["CR"], levels=levels, **options)
+    assert plain.run(tmp_path / "python", progress=False).measures is None
+    with pytest.raises(ValueError, match='flatfile.csv has no record "x"; add a row'):
+        more = records | {"x": records["1"] * 2}
+        rw.Study(walls=walls, records=more, models=["CR"], levels=levels, intensity=intensity)
+
+
 def test_what_is_no_folder(tmp_path):
     with pytest.raises(FileNotFoundError, match="expected a folder that"):
         rw.read_results(tmp_path)

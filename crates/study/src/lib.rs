@@ -10,6 +10,7 @@
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`hazard`] | hazard curves, and the annual rate of a fragility |
 //! | [`uncertain`] | samples of uncertain parameters, and which of them explains θ |
+//! | [`measures`] | which intensity measure to choose |
 //! | [`codes`] | what a study asks of building codes |
 //! | [`document`] | study files |
 //! | [`loaded`] | studies read from files, with their scenes and records |
@@ -29,6 +30,7 @@ pub mod fragility;
 pub mod hazard;
 pub mod ida;
 pub mod loaded;
+pub mod measures;
 pub mod results;
 pub mod spectrum;
 pub mod tie;

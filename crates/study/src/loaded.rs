@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use files::{FileError, read_text};
+use files::{FileError, Place, read_text};
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
@@ -12,7 +12,7 @@ use run::wall_text::{wall_of_text, wall_text};
 use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::codes::Codes;
-use crate::document::{ReportOptions, StudyFile, WallClass};
+use crate::document::{CompareEntry, ReportOptions, StudyFile, WallClass};
 use crate::fragility::FEWEST_RECORDS;
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use crate::uncertain::Uncertain;
@@ -77,7 +77,9 @@ impl LoadedStudy {
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
         warnings.extend(open_hazard(&mut file, folder, &mut inputs)?);
+        let compare = file.compare.take();
         let study = Self::assemble(&name, text, file, all, records)?;
+        let study = study.comparing(compare, &name, folder, &mut inputs)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings: [study.warnings, warnings].concat(), ..study })
     }
@@ -95,7 +97,9 @@ impl LoadedStudy {
         let name = "the study";
         let mut file = StudyFile::parse(name, &text, codes)?;
         let warnings = open_hazard(&mut file, Path::new(""), &mut Vec::new())?;
+        let compare = file.compare.take();
         let study = Self::assemble(name, text, file, walls, records)?;
+        let study = study.comparing(compare, name, Path::new(""), &mut Vec::new())?;
         Ok(Self { warnings: [warnings, study.warnings].concat(), ..study })
     }
 
@@ -140,6 +144,20 @@ impl LoadedStudy {
         // they were told where it was sent
         let study = Self::assemble(name, sent.text, file, walls, records)?;
         Ok(Self { warnings: Vec::new(), ..study })
+    }
+
+    /// Takes the records in the measures that the study compares, for its report.
+    fn comparing(
+        self,
+        entry: Option<CompareEntry>,
+        name: &str,
+        folder: &Path,
+        inputs: &mut Vec<PathBuf>,
+    ) -> Result<Self, FileError> {
+        let Some(entry) = entry else { return Ok(self) };
+        let (compared, told) = entry.open(&self.study, &Place::new(name, &self.text), folder, inputs)?;
+        let report = ReportOptions { compared: Some(compared), ..self.report };
+        Ok(Self { report, warnings: [self.warnings, told].concat(), ..self })
     }
 
     fn assemble(

@@ -122,7 +122,7 @@ fn files_are_opened_where_the_heads_say() {
         ),
         (
             "study",
-            &["document/hazard.rs", "loaded.rs"],
+            &["document/compare.rs", "document/hazard.rs", "loaded.rs"],
             "Only [`document`], [`loaded`] and [`folder`] open files",
         ),
         ("evidence", &["validation/case.rs"], "Only [`validation`] opens files"),

@@ -65,6 +65,10 @@ class StudyResults(Tabular):
     cloud: Table | None
     """The regression of every wall and damping model, ln(u_max/u_ins) = a + b ln IM with the standard
     deviation sigma; None for levels of another method than "cloud"."""
+    measures: Table | None
+    """The intensity measures that the study compares, of every wall and damping model, then of all walls: σ
+    of ln θ at collapse, the regression ln D = a + b ln IM with its σ, and p-values of the slopes of residuals
+    over duration, magnitude and distance. None without `compare` in `intensity`."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -199,10 +203,20 @@ def read_table(path: Path) -> Table | None:
     return Table({name: column_of(name, cells) for name, cells in zip(head, columns)})
 
 
-TABLES = ("rates", "rate_shares", "vulnerability", "losses", "samples", "sensitivity", "cloud", "ties")
+TABLES = (
+    "rates",
+    "rate_shares",
+    "vulnerability",
+    "losses",
+    "samples",
+    "sensitivity",
+    "cloud",
+    "measures",
+    "ties",
+)
 """Tables that only some studies have."""
 
-NAMES = {"wall", "of", "model", "record", "parameter"}
+NAMES = {"wall", "of", "model", "record", "parameter", "measure", "unit"}
 """Columns of words, even where a name is a number."""
 
 

@@ -93,7 +93,7 @@ class Study:
             "cloud"}` runs each record once, and takes a regression.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
             Others are PGA, PGV, PGD, Arias, CAV and Housner; `{"measure": "code"}` is a_g of the site that
-            `check` states.
+            `check` states. `"compare": ["PGA", "PGV", "Sa(0.5)"]` compares measures by the runs.
         :param tail: Free vibration after each record [s]; by default 10.
         :param collapse_is: Which runs have collapsed: those that exceed u_ins ("exceeds", the default), or
             those that do not come back ("falls").
@@ -360,7 +360,13 @@ def read(record: object) -> object:
 def anchored(text: str) -> str:
     """Returns options with absolute paths of the files that they name."""
     options = tomllib.loads(text)
-    for *tables, key in (("hazard", "file"), ("check", "site", "grid"), ("check", "spectrum")):
+    files = (
+        ("hazard", "file"),
+        ("intensity", "records_table"),
+        ("check", "site", "grid"),
+        ("check", "spectrum"),
+    )
+    for *tables, key in files:
         table = options
         for name in tables:
             table = table.get(name, {})

@@ -299,16 +299,20 @@ class Hazard(TypedDict, total=False):
 class Intensity(TypedDict, total=False):
     """Intensity measure by which records are scaled; spectral ones at 5 % damping.
 
+    - compare: Measures that the runs compare, by the names of measure; Sa has its period in s, as "Sa(0.5)".
     - measure: The measure.
     - period: Period of Sa [s].
     - periods: Periods of AvgSA and of code [s]; by default 0.2, 0.4 to 1.4 s, and 0.2, 0.3 to 2 s.
+    - records_table: With compare: a table (CSV) with a column record, and magnitude, distance_km or both.
     - select: With code: takes so many of the records, those whose spectra fit that of the site best, at least
       1.
     """
 
+    compare: Sequence[str]
     measure: Required[Literal["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"]]
     period: float
     periods: Sequence[float]
+    records_table: str
     select: int
 
 

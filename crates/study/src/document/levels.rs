@@ -1,5 +1,7 @@
 //! The tables `[intensity]` and `[levels]`.
 
+use std::ops::Range;
+
 use toml::Spanned;
 
 use crate::codes::Codes;
@@ -8,7 +10,8 @@ use files::{FileError, Place, TomlFile, tables};
 use rocking_wall::scene::SceneError;
 
 /// Names of the intensity measures.
-const MEASURES: [&str; 9] = ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
+pub(super) const MEASURES: [&str; 9] =
+    ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
 /// Names of the ways to choose levels.
 const METHODS: [&str; 4] = ["hunt", "step", "grid", "cloud"];
 /// Resolution and gap of a hunt that states none.
@@ -21,7 +24,7 @@ tables! {
     pub(super) struct IntensityTable {
         /// The measure.
         #[key(enum = MEASURES.to_vec())]
-        measure: Spanned<String>,
+        pub(super) measure: Spanned<String>,
         /// Period of Sa \[s\].
         period: Option<f64>,
         /// Periods of AvgSA and of code \[s\]; by default 0.2, 0.4 to 1.4 s, and 0.2, 0.3 to 2 s.
@@ -29,6 +32,11 @@ tables! {
         /// With code: takes so many of the records, those whose spectra fit that of the site best.
         #[key(minimum = 1)]
         pub(super) select: Option<Spanned<usize>>,
+        /// Measures that the runs compare, by the names of measure; Sa has its period in s, as "Sa(0.5)".
+        #[key(minItems = 1)]
+        pub(super) compare: Option<Spanned<Vec<Spanned<String>>>>,
+        /// With compare: a table (CSV) with a column record, and magnitude, `distance_km` or both.
+        pub(super) records_table: Option<Spanned<String>>,
     }
 
     /// Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
@@ -76,16 +84,7 @@ pub(super) fn measure(
         return Err(place.error(select.span(), message).into());
     }
     let name = spec.measure.get_ref().as_str();
-    let without_periods = [
-        ("PGA", IntensityMeasure::Pga),
-        ("PGV", IntensityMeasure::Pgv),
-        ("PGD", IntensityMeasure::Pgd),
-        ("Arias", IntensityMeasure::Arias),
-        ("CAV", IntensityMeasure::Cav),
-        // it has periods of its own
-        ("Housner", IntensityMeasure::Housner),
-    ];
-    if let Some((_, measure)) = without_periods.into_iter().find(|(own, _)| *own == name) {
+    if let Some(measure) = without_periods(name) {
         if spec.period.is_some() || spec.periods.is_some() {
             return refuse(&format!("{name} takes no periods; leave them out"));
         }
@@ -97,10 +96,7 @@ pub(super) fn measure(
         ("AvgSA", None, None) => Ok(IntensityMeasure::default()),
         ("AvgSA", None, Some(periods)) => Ok(IntensityMeasure::AvgSa { periods: periods.clone() }),
         ("AvgSA", ..) => refuse("AvgSA takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
-        ("code", None, periods) => {
-            let usual = || (2..=20).map(|tenth| f64::from(tenth) / 10.0).collect();
-            of_code(periods.clone().unwrap_or_else(usual), table, codes, file)
-        }
+        ("code", None, periods) => of_code(periods.clone(), table.span(), codes, file),
         ("code", ..) => refuse("code takes a list of periods in s, such as periods = [0.2, 0.4, 0.6]"),
         (other, ..) => {
             let message = format!("measure = {other:?} is not one of {}", MEASURES.join(", "));
@@ -109,22 +105,36 @@ pub(super) fn measure(
     }
 }
 
-/// The ground acceleration of the spectrum that the table `[check]` states.
-fn of_code(
-    periods: Vec<f64>,
-    table: &Spanned<IntensityTable>,
+/// Returns the measure of a name that takes no periods.
+pub(super) fn without_periods(name: &str) -> Option<IntensityMeasure> {
+    match name {
+        "PGA" => Some(IntensityMeasure::Pga),
+        "PGV" => Some(IntensityMeasure::Pgv),
+        "PGD" => Some(IntensityMeasure::Pgd),
+        "Arias" => Some(IntensityMeasure::Arias),
+        "CAV" => Some(IntensityMeasure::Cav),
+        // it has periods of its own
+        "Housner" => Some(IntensityMeasure::Housner),
+        _ => None,
+    }
+}
+
+/// The ground acceleration of the spectrum that the table `[check]` states, over periods, by default 0.2, 0.3
+/// to 2 s; `span` is where the study asks for it.
+pub(super) fn of_code(
+    periods: Option<Vec<f64>>,
+    span: Range<usize>,
     codes: &dyn Codes,
     file: &TomlFile<'_>,
 ) -> Result<IntensityMeasure, SceneError> {
     let place = file.place();
+    let periods = periods.unwrap_or_else(|| (2..=20).map(|tenth| f64::from(tenth) / 10.0).collect());
     if let Some(period) = periods.iter().find(|period| !(**period > 0.0 && period.is_finite())) {
-        return Err(place.error(table.span(), format!("periods: {period} s must be above 0")).into());
+        return Err(place.error(span, format!("periods: {period} s must be above 0")).into());
     }
     let missing = || {
-        place.error(
-            table.span(),
-            "measure = \"code\" needs the spectrum of the site: ag, F0 and TC of SLV in [check]",
-        )
+        place
+            .error(span, "measure = \"code\" needs the spectrum of the site: ag, F0 and TC of SLV in [check]")
     };
     let shape = codes.spectral_shape(file, &periods)?;
     let shape = shape.filter(|shape| !shape.is_empty()).ok_or_else(missing)?;

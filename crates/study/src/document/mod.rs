@@ -16,6 +16,7 @@
 //! # Ok::<(), rocking_wall::scene::SceneError>(())
 //! ```
 
+mod compare;
 mod hazard;
 mod levels;
 mod model;
@@ -34,12 +35,14 @@ use crate::codes::Codes;
 use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity};
 use crate::uncertain::Uncertain;
 
+use compare::compare;
 use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, TARGET, report};
 use uncertain::{UncertainTable, uncertain};
 
+pub use compare::CompareEntry;
 pub use hazard::HazardEntry;
 pub use report::{ReportOptions, WallClass};
 
@@ -58,6 +61,8 @@ pub struct StudyFile {
     pub measure: IntensityMeasure,
     /// How many of the records are taken, those that fit the spectrum of the site best; all where `None`.
     pub select: Option<usize>,
+    /// The measures that it compares.
+    pub compare: Option<CompareEntry>,
     /// Levels, in the SI unit of the measure.
     pub levels: Levels,
     /// Free vibration after each record \[s\].
@@ -177,6 +182,7 @@ impl StudyFile {
                 .map(|table| records(table, place))
                 .transpose()?
                 .unwrap_or_default(),
+            compare: compare(document.intensity.as_ref(), &measure, codes, file)?,
             select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
             tail: document.tail.unwrap_or(DEFAULT_TAIL),
             collapse: document.collapse_is.map(Spanned::into_inner).unwrap_or_default(),

@@ -6,6 +6,7 @@ use toml::Spanned;
 use crate::fragility::Dispersion;
 use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
+use crate::measures::Compared;
 use crate::uncertain::Samples;
 
 use files::{FileError, Place, fraction, positive, suggestion, tables};
@@ -51,6 +52,9 @@ pub struct ReportOptions {
     /// Samples of uncertain parameters: what the walls of the study are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<Samples>,
+    /// The records in the measures that the study compares.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compared: Option<Compared>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -221,6 +225,7 @@ pub(super) fn report(
         hazard: None,
         loss_ratios: spec.loss_ratios.as_ref().map(|ratios| ratios.get_ref().clone()),
         samples: None,
+        compared: None,
     })
 }
 

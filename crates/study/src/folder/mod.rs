@@ -27,6 +27,7 @@
 //! | `rates` | annual rates of walls and classes |
 //! | `losses` | losses of walls and classes |
 //! | `samples` | samples of uncertain parameters, and what they explain |
+//! | `measures` | which intensity measure to choose |
 //! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
@@ -39,6 +40,7 @@ mod curves;
 mod error;
 mod legend;
 mod losses;
+mod measures;
 mod merge;
 mod nrml;
 mod page;

@@ -206,6 +206,7 @@ mod tests {
             hazard: None,
             loss_ratios: None,
             samples: None,
+            compared: None,
         };
         assert_eq!(report.rising(), [1, 0, 2]);
         let names = report.rising().into_iter().map(|place| state_name(report.fractions[place]));

@@ -15,6 +15,7 @@ use super::contents::Manifest;
 use super::curves::each_wall;
 use super::error::FolderError;
 use super::legend;
+use super::measures::Measures;
 use super::page;
 use super::plots::{SIZE, panel};
 use super::population::Population;
@@ -74,6 +75,7 @@ struct Output<'a> {
     tables: Vec<(Kind, Rows)>,
     risk: Risk<'a>,
     sampled: Option<Sampled<'a>>,
+    measures: Option<Measures<'a>>,
     sections: String,
     comparison: Comparison,
     panels: Vec<(String, String)>,
@@ -107,6 +109,7 @@ impl<'a> Output<'a> {
             tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.manifest()),
+            measures: Measures::new(folder.manifest()),
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
@@ -129,6 +132,7 @@ impl<'a> Output<'a> {
         }
         self.risk.add(wall, results)?;
         self.sampled.iter_mut().for_each(|sampled| sampled.add(results));
+        self.measures.iter_mut().for_each(|measures| measures.add(wall, results));
         for tie in results.all_curves().iter().flat_map(Curve::runs).filter_map(|run| run.tie) {
             self.tied[0] += 1;
             self.tied[1] += usize::from(tie.elongation > 0.0);
@@ -175,13 +179,19 @@ impl<'a> Output<'a> {
         let together =
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
-        let summary = self.summary(manifest, is_large);
+        let mut summary = self.summary(manifest, is_large);
         let warnings: Vec<_> = self.warning(manifest).into_iter().chain(self.risk.warnings()).collect();
         let (mut files, about_risk, rates) = self.risk.finish()?;
         if let Some(sampled) = self.sampled {
             let (paths, section) = sampled.finish(self.folder.path())?;
             files.extend(paths);
             self.sections.insert_str(0, &section);
+        }
+        if let Some(measures) = self.measures {
+            let (path, words, section) = measures.finish(self.folder.path())?;
+            files.push(path);
+            self.sections.insert_str(0, &section);
+            summary.push_str(&words);
         }
         self.sections.insert_str(0, &rates);
         for (_, rows) in self.tables {

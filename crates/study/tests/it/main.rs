@@ -14,6 +14,7 @@ mod estimators;
 mod folders;
 mod fragility;
 mod ida;
+mod measures;
 mod messages;
 mod polarity;
 mod record_files;
