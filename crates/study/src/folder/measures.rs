@@ -88,7 +88,7 @@ impl<'a> Measures<'a> {
             let _ = write!(html, "<details><summary>Wall by wall</summary>{table}</details>");
         }
         html.push_str("</section>\n");
-        Ok((path, format!("{}\n{}", words.join("\n"), table.text()), html))
+        Ok((path, format!("intensity measures: {}\n{}", words.join("\n"), table.text()), html))
     }
 
     /// Explains the numbers, in lines for the terminal.
@@ -96,8 +96,8 @@ impl<'a> Measures<'a> {
         let names: Vec<_> = self.compared.features.iter().map(|feature| feature.name.as_str()).collect();
         let squares = self.compared.measures.iter().any(|measure| measure.name == "Arias");
         [
-            "intensity measures: σ of ln θ at collapse, without censored records; b and σ of \
-             ln D = a + b ln IM over runs that stand, D = u_max/u_ins"
+            "σ of ln θ at collapse, without censored records; b and σ of ln D = a + b ln IM over runs that \
+             stand, D = u_max/u_ins"
                 .to_owned(),
             format!(
                 "p: of the slope of ln θ, and of the residuals of ln D, over {}; a small p says that the \
@@ -105,7 +105,7 @@ impl<'a> Measures<'a> {
                 names.join(", ")
             ),
             format!(
-                "runs of one record are not independent: where it has several, p of ln D is too small{}",
+                "p of ln D is too small where a record has several runs, which are not independent{}",
                 if squares { "; halve σ of ln θ by Arias, a square, to compare it" } else { "" }
             ),
         ]
