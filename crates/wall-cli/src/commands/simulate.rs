@@ -5,7 +5,7 @@ mod records;
 
 use anyhow::Result;
 use rocking_wall::response::Response;
-use rocking_wall::wall::Wall;
+use rocking_wall::wall::{Parameters, Wall};
 
 use run::demands;
 
@@ -24,6 +24,10 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
     console.warn(wall.warnings());
     console.warn(wall.start_warning(scene.parameters.u_start));
+    let Parameters { u_start, u_dot_start, .. } = scene.parameters;
+    if scene.excitation.is_none() && [u_start, u_dot_start] == [0.0; 2] {
+        console.warn(["nothing moves the wall, which starts upright: give --record, --synthetic or u_start"]);
+    }
     let response = arguments.scene.named(Response::of(&scene))?;
     console.warn(scene.floors.iter().flat_map(|floors| floors.warnings(&wall)));
     if response.summary.put_to_rest {
