@@ -7,8 +7,8 @@ const rectangle = v => v.shape === "rectangle";
 const parapet = v => v.mechanism === "parapet";
 const bar = v => parapet(v) && v.tie_given === "bar";
 const numbers = v => parapet(v) && v.tie_given === "numbers";
-const code = v => rectangle(v) && v.code === "circolare-2019";
-const fractions = v => rectangle(v) && v.code === "fractions";
+const code = v => v.code === "circolare-2019";
+const fractions = v => v.code === "fractions";
 const high = v => code(v) && v.place === "building";
 // parts of shapes that are no rectangle, as tables of a scene file
 const SHAPES = {
@@ -121,7 +121,7 @@ const GROUPS = [
     { name: "channel", label: "Channel, if several", start: "", more: true, when: v => v.kind === "record" },
   ]],
   [CHECK, [
-    { name: "code", label: "Code", start: "circolare-2019", when: rectangle,
+    { name: "code", label: "Code", start: "circolare-2019",
       names: { "circolare-2019": "Circolare 7/2019", "fractions": "Capacity at fractions", "": "none" } },
     { name: "spectrum", label: "Spectrum: [[T, Sa], ...], T in s from 0 on",
       start: "[[0, 2], [0.1, 5], [0.5, 5], [1, 2.5], [2, 1.25], [4, 0.6]]", when: fractions },
@@ -148,6 +148,7 @@ const GROUPS = [
     { name: "building.period", label: "Period T₁", unit: "s", start: "0.3", range: [0.05, 1.5, 0.01],
       when: high },
     { name: "building.height_ratio", label: "Height z/H", start: "1", range: [0, 1, 0.05], when: high },
+    { name: "target", label: "Target of ζ_E", start: "1", range: [0.1, 1, 0.05], when: code },
     { name: "confidence_factor", label: "Confidence factor FC", start: "1.35", range: [1, 1.35, 0.05],
       when: code },
     { name: "compression_considered", label: "Hinges set back for compression", start: "false",

@@ -52,6 +52,24 @@ fn the_check_has_the_numbers_of_the_code() {
     }
 }
 
+/// A façade with floors and a thrust is checked as its scene file is, against a target.
+#[test]
+fn a_facade_is_checked() {
+    let parts = "[[geometry.part]]\nheight = 9.6\nthickness = 0.6\ndensity = 1800\n\
+                 [[geometry.load]]\nforce = 12e3\nheight = 6.4\ninside = 0.5\nmoving_mass = 1.0\n\
+                 [[geometry.load]]\nforce = 8e3\nheight = 9.6\ninside = 0.4\nmoving_mass = 1.0\nthrust = 1000\n";
+    let mut inputs = run_and_check(&json!({}), &json!({ "target": "0.6", "SLV.ag": "0.25" }));
+    inputs["run"]["parts"] = parts.into();
+    let answer = ask(&mut Session::default(), &inputs)["answer"].clone();
+    let toml = answer["toml"].as_str().unwrap_or_else(|| panic!("{answer}"));
+    let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
+    let code = check::read(&check::CheckFile::parse("scene.toml", toml).unwrap()).unwrap();
+    let again = code.check((&scene).into()).unwrap();
+    assert_eq!(answer["check"]["zeta"], again.zeta);
+    assert_eq!(answer["check"]["passed"], again.zeta >= 0.6);
+    assert!(again.zeta > 0.6 && again.zeta < 1.0, "{}", again.zeta);
+}
+
 /// The report of the last run's check is that of its scene file, but for the fingerprint of the language.
 #[test]
 fn the_report_of_a_check_opens() {
