@@ -22,7 +22,7 @@ pub(super) const BODY: &str = "body";
 pub const BODIES: [&str; 2] = [PART, BODY];
 
 /// The parameters of a rigid body, which `[geometry.body]` states.
-pub(super) const OF_BODY: [&str; 13] = [
+pub const OF_BODY: [&str; 13] = [
     "body_mass",
     "centroid_height",
     "inertia",

@@ -27,7 +27,7 @@ use crate::variables::{BooleanVariable, Mechanism, RealVariable};
 use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usage};
 
 pub use crate::variables::GROUPS;
-pub use body::{BODIES, BodyTable, LoadTable, OpeningTable, PartTable};
+pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};

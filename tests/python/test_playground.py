@@ -154,7 +154,7 @@ def test_a_tie_shows_what_it_does(browser, page):
     """Slack, pulling, yielding and broken, in words and in the picture; its charts come and go with it."""
     tie = "tie_stiffness=200000&tie_height=3&tie_slack=0.01&tie_strength=1000&tie_ultimate=0.02&pga=4"
     visit(browser, page, tie)
-    states = browser.execute_script("return playground.shown().frames.tie.sides[0].state")
+    states = browser.execute_script("return playground.shown().frames.ties[0].sides[0].state")
     for state, name in enumerate(["slack", "pulls", "yields", "broken"]):
         browser.execute_script("pose(arguments[0])", states.index(state))
         assert f"tie: {name}, " in text_of(browser, "tie_now")
@@ -264,7 +264,7 @@ def test_a_shape_fills_in_its_parts(browser, page, wall, tmp_path):
     visit(browser, page)
     Select(browser.find_element(By.ID, "field_shape")).select_by_value("facade")
     shown = answered(browser)
-    assert shown["wall"]["height"] == 9.6 and shown["check"] is None
+    assert shown["wall"]["height"] == 9.6 and shown["check"]["governs"] == "SLV"
     assert not browser.find_element(By.ID, "field_thickness").is_displayed()
     assert len(browser.find_elements(By.CSS_SELECTOR, "#wall .force")) == 4
     compare_with_command_line(browser, wall, tmp_path, shown["toml"])

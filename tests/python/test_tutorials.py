@@ -23,10 +23,14 @@ def test_a_tutorial_does_what_it_says(path, wall, tmp_path):
         elif kind == "sh":
             printed = ""
             for line in text.splitlines():
-                command = shlex.split(line, comments=True)
+                command, _, file = line.partition(" > ")
+                command = shlex.split(command, comments=True)
                 run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
                 assert run.returncode == 0, f"{line}\n{run.stderr}"
-                printed += run.stdout + run.stderr
+                if file:
+                    (tmp_path / file).write_text(run.stdout)
+                else:
+                    printed += run.stdout + run.stderr
                 commands += 1
         elif kind == "text":
             for line in text.splitlines():

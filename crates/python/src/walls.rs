@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, MotionTable, POINTS, Scene, StoreyTable, SupportsTable, parameter_text,
-    set_names, to_toml,
+    Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable, SupportsTable,
+    parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
@@ -152,7 +152,8 @@ impl Wall {
         let Parameters { profile, further_ties, .. } = &self.scene.parameters;
         let (has_parts, has_ties) = (profile.is_some(), !further_ties.is_empty());
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
-        let names = names.filter(|name| !(has_parts && OF_RECTANGLE.contains(name)));
+        let of_others = |name: &str| OF_RECTANGLE.contains(&name) || OF_BODY.contains(&name);
+        let names = names.filter(|name| !(has_parts && of_others(name)));
         let names = names.filter(|name| !(has_ties && name.starts_with("tie_")));
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
     }
