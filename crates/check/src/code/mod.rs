@@ -136,13 +136,13 @@ impl<'a> Subject<'a> {
     /// [`CheckError::Wall`] of a wall that is no rectangle, which the codes here do not check.
     pub(crate) fn check_shape(&self) -> Result<(), CheckError> {
         if !self.parameters.further_ties.is_empty() {
-            return Err(CheckError::wall("a check counts one tie: leave the others out"));
+            return Err(CheckError::wall("this check counts one tie: leave the others out"));
         }
         if self.parameters.is_rectangle() {
             return Ok(());
         }
         Err(CheckError::wall(
-            "a check takes rectangles: state the wall by height, thickness, width and density, without \
+            "this check takes rectangles: state the wall by height, thickness, width and density, without \
              [[geometry.part]] and [geometry.body]",
         ))
     }
