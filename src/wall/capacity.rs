@@ -82,13 +82,14 @@ impl Wall {
     }
 
     /// Returns the |u| of the unstable equilibrium that yielding ties move outwards on the side of `sign`, of
-    /// one tie u₃ + ℓ `N_y`/k₀ with parallel softening \[m\]; `None` where no tie yields there.
+    /// one tie u₃ + `N_y`/k₀ dF/dN with parallel softening, the nearest of several \[m\]; `None` where no tie
+    /// yields there.
     pub fn yielding_equilibrium(&self, sign: f64) -> Option<f64> {
         let yielding = self.branches().iter().filter(|branch| branch.yielding_side() == Some(sign));
         let falling = yielding.filter(|branch| branch.stiffness < 0.0);
         let zeros = falling.map(|branch| (branch.anchor - branch.force / branch.stiffness, branch));
-        let mut within = zeros.filter(|(u, branch)| (branch.lower..branch.upper).contains(u));
-        within.next().map(|(u, _)| u.abs())
+        let within = zeros.filter(|(u, branch)| (branch.lower..branch.upper).contains(u));
+        within.map(|(u, _)| u.abs()).reduce(f64::min)
     }
 
     /// Returns a point of the curve on which the ties take the part `pull` of |F| \[N\].

@@ -122,7 +122,11 @@ impl Tie {
             return Ok(None);
         }
         if parameters.kinematics == Kinematics::Trigonometric {
-            return Err(conflict("tie_stiffness", &stiffness, "tie_stiffness = 0"));
+            return Err(conflict(
+                "tie_stiffness",
+                &stiffness,
+                "tie_stiffness = 0 (of a list: leave its ties out)",
+            ));
         }
         if !(tie_height > 0.0 && tie_height <= height) {
             return Err(ParameterError::TieHeight { tie_height, height });

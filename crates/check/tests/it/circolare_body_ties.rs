@@ -49,6 +49,38 @@ fn equal_ties_are_one_of_twice_their_strength() {
     }
 }
 
+/// A wall of two storeys with these ties and levels, held before it rocks.
+fn tied(ties: &str, levels: &str) -> String {
+    format!(
+        "{ties}[[geometry.part]]\nheight = 3.3\nthickness = 0.6\ndensity = 1800\n\
+         [[geometry.part]]\nheight = 6.3\nthickness = 0.6\ndensity = 1800\n\
+         [force_law]\nforce_law = \"rigid_linear\"\n\
+         [check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+         confidence_factor = 1.35\nhinge_levels = {levels}\nSLV = {{ ag = 0.2, F0 = 2.4, TC = 0.35 }}\n"
+    )
+}
+
+/// A side that the first tie holds may be free of others: it is checked by itself, in any order of the ties,
+/// and a tie below the level that opens counts nowhere.
+#[test]
+fn ties_count_on_their_sides_in_any_order_and_above_their_levels() {
+    let both = tie(6.4, 2e6, 2e4, 0.02).replace("\"positive\"", "\"both\"");
+    let positive = tie(3.0, 3e6, 1.5e4, 0.05);
+    let zeta = |text: &str, side: &str| number(&json(text)["sides"][side], &["SLV", "zeta_E"]);
+    let orders = [both.clone() + &positive, positive.clone() + &both].map(|ties| tied(&ties, "[0]"));
+    for side in ["positive", "negative"] {
+        near(zeta(&orders[0], side), zeta(&orders[1], side), side);
+    }
+    assert!(zeta(&orders[0], "negative") < zeta(&orders[0], "positive"));
+    // the tie at 3 m holds nothing above 3.3 m
+    let upper = tie(6.4, 2e6, 2e4, 0.02);
+    let [with, without] = [positive + &upper, upper].map(|ties| tied(&ties, "[3.3]"));
+    for side in ["positive", "negative"] {
+        near(zeta(&with, side), zeta(&without, side), side);
+    }
+    assert!(zeta(&with, "negative") < zeta(&with, "positive"));
+}
+
 /// One tie yields on where another is broken: a(d) has those that hold, and their levers are y/z_G.
 #[test]
 fn a_tie_holds_on_where_another_is_broken() {

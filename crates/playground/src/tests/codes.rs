@@ -57,7 +57,8 @@ fn the_check_has_the_numbers_of_the_code() {
 fn a_facade_is_checked() {
     let parts = "[[geometry.part]]\nheight = 9.6\nthickness = 0.6\ndensity = 1800\n\
                  [[geometry.load]]\nforce = 12e3\nheight = 6.4\ninside = 0.5\nmoving_mass = 1.0\n\
-                 [[geometry.load]]\nforce = 8e3\nheight = 9.6\ninside = 0.4\nmoving_mass = 1.0\nthrust = 1000\n";
+                 [[geometry.load]]\nforce = 8e3\nheight = 9.6\ninside = 0.4\nmoving_mass = 1.0\n\
+                 thrust = 1000\n";
     let mut inputs = run_and_check(&json!({}), &json!({ "target": "0.6", "SLV.ag": "0.2" }));
     inputs["run"]["parts"] = parts.into();
     let answer = ask(&mut Session::default(), &inputs)["answer"].clone();

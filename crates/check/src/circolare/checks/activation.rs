@@ -42,7 +42,7 @@ pub(super) fn required(
     // N = max(0, [ζ FC S_L/C_L − a_y] s1 e*/(g A))
     let demand = demand.acceleration(given.state, curve.period_beside(std::iter::once(tie)), xi)?;
     let lacking = statement.target * statement.confidence_factor * demand / factor - curve.ay;
-    Ok(Some((lacking / curve.of_force(tie.lever)).max(0.0)))
+    Ok(Some((lacking / curve.of_force(tie.pull)).max(0.0)))
 }
 
 /// The wall at its activation, with the tie where it counts there.
@@ -116,5 +116,5 @@ fn strength_at_activation(curve: &Curve, index: usize, tie: &Tie) -> Result<f64,
              {limit} mm; state \"none\", or a stiffer tie"
         ));
     }
-    Ok(tie.lever * strength)
+    Ok(tie.pull * strength)
 }

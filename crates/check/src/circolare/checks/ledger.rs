@@ -239,7 +239,7 @@ impl DisplacementCheck {
         let Names { pushed, lever, .. } = curve.names();
         ledger.know(&[("N", 1e-3 * force)]);
         let u = self.d / curve.d_per_u;
-        let pulls = curve.ties().map(|tie| tie.lever * tie::force(tie, u));
+        let pulls = curve.ties().map(|tie| tie.pull * tie::force(tie, u));
         let pull: f64 = pulls.sum();
         let several = curve.has_several_ties();
         let pulled = if several { format!("Σ ({lever}) N") } else { format!("({lever}) N") };

@@ -66,8 +66,7 @@ impl Curve {
 
     /// a just beyond u, with the ties that hold, with FC \[m/s²\].
     pub(super) fn beyond(&self, u: f64) -> f64 {
-        let pull =
-            self.holding(u).map(|own| own.lever * tie::force(own, u)).fold(0.0, |sum, pull| sum + pull);
+        let pull = self.holding(u).map(|own| own.pull * tie::force(own, u)).fold(0.0, |sum, pull| sum + pull);
         self.of_force(self.own_force(u) + pull) / self.confidence_factor
     }
 }

@@ -69,7 +69,7 @@ impl<'a> Case<'a> {
         let hinge_ratio = if is_given { parameters.hinge_ratio } else { 0.5 };
         let body = Statics::new(&Parameters { hinge_ratio, ..parameters.clone() })?;
         let body = body.body();
-        let one_tied = parameters.tie_stiffness > 0.0 && parameters.tie_side != TieSide::Both;
+        let one_tied = parameters.ties().any(|tie| tie.stiffness > 0.0 && tie.side != TieSide::Both);
         let alike = body.strength.positive == body.strength.negative
             && parameters.rocking == Rocking::TwoSided
             && !one_tied

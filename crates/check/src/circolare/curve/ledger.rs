@@ -92,6 +92,16 @@ impl Curve {
     /// Adds the numbers of one side, from the force to the curve.
     pub(in crate::circolare) fn add_to(&self, of: OfSide<'_>, ledger: &mut Ledger) {
         ledger.begin("", "curve");
+        if let Some(tie) = self.tie() {
+            // of several, those of this side
+            ledger.know(&[
+                ("K", 1e-3 * tie.stiffness),
+                ("N_y", 1e-3 * tie.strength.unwrap_or(0.0)),
+                ("g_0", 1e3 * tie.slack),
+                ("e_p", 1e3 * tie.ultimate.unwrap_or(-1e-3)),
+                ("y", tie.height),
+            ]);
+        }
         if let Some(at) = self.hinge {
             let words = say!("Place of the hinge", "Posizione della cerniera");
             ledger.add(Quantity::new("hinge_ratio", "h_1/h", Unit::NONE, at, words).unlisted());

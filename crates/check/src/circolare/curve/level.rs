@@ -35,15 +35,22 @@ pub(crate) fn above(parameters: &Parameters, level: f64) -> Result<Parameters, C
     };
     let mut above = parameters.clone();
     above.set_profile(body);
-    let ties: Vec<_> = parameters.ties().map(|tie| lowered(tie, level, parameters.height)).collect();
+    let lowered = parameters.ties().map(|tie| lowered(tie, level, parameters.height));
+    let mut ties: Vec<_> = lowered.filter(|tie| tie.stiffness > 0.0).collect();
+    // without a tie the parameters have one of no stiffness
+    ties.extend(parameters.ties().next().filter(|_| ties.is_empty()).map(untied));
     let [first, further @ ..] = &ties[..] else { return Ok(above) };
     Ok(Parameters { further_ties: further.into(), ..above.tied_by(*first) })
+}
+
+fn untied(tie: TieNumbers) -> TieNumbers {
+    TieNumbers { stiffness: 0.0, bar: None, ..tie }
 }
 
 /// A tie as it holds the body above a level; one at the level or below holds what does not turn.
 fn lowered(tie: TieNumbers, level: f64, height: f64) -> TieNumbers {
     if tie.height <= level + SAME * height {
-        return TieNumbers { stiffness: 0.0, bar: None, ..tie };
+        return untied(tie);
     }
     TieNumbers { height: tie.height - level, ..tie }
 }

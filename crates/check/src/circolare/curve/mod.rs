@@ -138,7 +138,7 @@ impl Curve {
             tied,
             gravity,
             zero,
-            anchors: tie::anchors(&parameters),
+            anchors: tie::anchors(&parameters, sign),
             hinge,
             set_back,
             a3,
@@ -212,7 +212,7 @@ impl Curve {
 
     /// a at u with the tie up to and including where it breaks, with FC \[m/s²\].
     pub(super) fn tied(&self, u: f64) -> f64 {
-        let pulls = self.ties().map(|tie| tie.lever * tie::force(tie, u));
+        let pulls = self.ties().map(|tie| tie.pull * tie::force(tie, u));
         let pull = pulls.fold(0.0, |sum, pull| sum + pull);
         self.of_force(self.own_force(u) + pull) / self.confidence_factor
     }

@@ -71,9 +71,11 @@ impl TieAtLimit {
     }
 }
 
-/// How many bars, each with its anchors, hold the width of the wall, of a tie that is given by its bar \[-\].
-pub(crate) fn anchors(parameters: &Parameters) -> Option<f64> {
-    let bar = parameters.bar.filter(|_| parameters.weaker_part().is_some())?;
+/// How many bars, each with its anchors, hold the width of the wall, of the first tie on the side of `sign`
+/// where that is given by its bar \[-\].
+pub(crate) fn anchors(parameters: &Parameters, sign: f64) -> Option<f64> {
+    let tie = parameters.ties().find(|tie| tie.stiffness > 0.0 && tie.holds(sign))?;
+    let bar = tie.bar.filter(|_| tie.weaker_part(parameters.width).is_some())?;
     Some(bar.spacing.map_or(1.0, |spacing| parameters.width / spacing))
 }
 

@@ -66,7 +66,8 @@ fn use_coefficient(statement: &Statement) -> Option<Sentence> {
 
 /// A tie whose force masonry hardly anchors.
 pub(super) fn of_tie(case: &Case<'_>, curve: &Curve) -> Option<Sentence> {
-    let ratio = curve.tie()?.strength? / load(&case.parameters);
+    let largest = curve.ties().filter_map(|tie| tie.strength).reduce(f64::max)?;
+    let ratio = largest / load(&case.parameters);
     (ratio > LARGE).then(|| {
         say! {
             "the tie has {ratio} of W + O: a large force for an anchor in masonry",

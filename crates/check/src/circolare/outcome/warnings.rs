@@ -273,7 +273,7 @@ fn of_curve(case: &Case<'_>, curve: &Curve) -> Vec<Sentence> {
 
 /// A side that the tie of the wall does not hold, and whether it governs.
 fn of_untied_side(case: &Case<'_>, sides: &SideVerdicts, governs: Side) -> Option<Sentence> {
-    let has_tie = case.parameters.tie_stiffness > 0.0;
+    let has_tie = case.parameters.ties().any(|tie| tie.stiffness > 0.0);
     let (untied, _) = sides.iter().find(|(_, side)| has_tie && side.tie.is_none())?;
     let which = if untied == governs {
         say!("; the side without a tie governs", "; è determinante il verso senza catena")

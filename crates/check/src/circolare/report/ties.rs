@@ -1,7 +1,8 @@
 //! The tie: what its bar makes of it, where it yields and breaks, and the forces of its anchors.
 
 use super::{SideLedger, by_side};
-use crate::circolare::curve::tie::{TieState, add_bar, anchors};
+use crate::circolare::checks::sides::SideVerdict;
+use crate::circolare::curve::tie::{TieState, add_bar};
 use crate::circolare::outcome::Checked;
 use crate::words::ledger::Ledger;
 use crate::words::markup::{heads, paragraph, table};
@@ -73,20 +74,20 @@ fn of_several(one: &SideLedger<'_>, language: Language) -> String {
 }
 
 /// A force of the tie in all and per metre, and of each anchor where the bar is known: cells of a row.
-fn cells(case: &Checked<'_>, force: f64, language: Language) -> String {
-    let of_anchor = anchors(&case.parameters).map(|anchors| force / anchors);
+fn cells(case: &Checked<'_>, side: &SideVerdict, force: f64, language: Language) -> String {
+    let of_anchor = side.curve.anchors.map(|anchors| force / anchors);
     let all = [force, force / case.parameters.width].into_iter().chain(of_anchor);
     all.map(|force| language.shown(1e-3 * force)).collect::<Vec<_>>().join("</td><td>")
 }
 
 /// The headings of those cells between others.
-fn between(case: &Checked<'_>, before: &[Sentence], after: &[Sentence], language: Language) -> Vec<String> {
+fn between(side: &SideVerdict, before: &[Sentence], after: &[Sentence], language: Language) -> Vec<String> {
     let forces = [
         Sentence::same("`N` [kN]"),
         Sentence::same("`N/l` [kN/m]"),
         say!("one anchor [kN]", "un ancoraggio [kN]"),
     ];
-    let count = if anchors(&case.parameters).is_some() { 3 } else { 2 };
+    let count = if side.curve.anchors.is_some() { 3 } else { 2 };
     let all = before.iter().chain(&forces[..count]).chain(after);
     all.map(|head| head.markup(language)).collect()
 }
@@ -99,7 +100,7 @@ fn forces(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> Strin
     }
     let mut row = |place: Sentence, d: Option<f64>, force: f64, state: Sentence| {
         let d = language.or_dash(d.map(|d| 1e3 * d));
-        rows.push([place.markup(language), d, cells(case, force, language), state.markup(language)]);
+        rows.push([place.markup(language), d, cells(case, side, force, language), state.markup(language)]);
     };
     if side.activation.force > 0.0 {
         let place = say!("Activation", "Attivazione del meccanismo");
@@ -111,30 +112,31 @@ fn forces(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> Strin
         let place = say!("Demand of {state}, S_d", "Domanda allo {state}, S_d", state);
         row(place, Some(check.demand), tie.force_at_demand, tie.state_at_demand.words());
     }
-    if case.parameters.tie_strength > 0.0 {
+    if let Some(strength) = side.curve.tie().and_then(|tie| tie.strength) {
         let place = say!("Strength of the tie", "Resistenza della catena");
-        row(place, None, case.parameters.tie_strength, Sentence::default());
+        row(place, None, strength, Sentence::default());
     }
     let before = [
         say!("force of the tie, of anchor and bar", "tiro della catena, di ancoraggio e barra"),
         Sentence::same("`d` [mm]"),
     ];
-    table(&between(case, &before, &[say!("state", "stato")], language), &rows)
+    table(&between(side, &before, &[say!("state", "stato")], language), &rows)
 }
 
 /// The strength that brings `ζ_E` of the checks at the activation to 1.
 fn required(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> String {
-    let checks = one.verdict.checks;
+    let side = one.verdict;
+    let checks = side.checks;
     let all = [(Deciding::Sld, checks.sld), (Deciding::SlvWithQ, checks.slv_q)].into_iter();
     let rows: Vec<_> = all
         .filter_map(|(check, found)| {
             let name = say!("{check}", "{check}", check).markup(language);
-            Some([name, cells(case, found?.required?, language)])
+            Some([name, cells(case, side, found?.required?, language)])
         })
         .collect();
     if rows.is_empty() {
         return String::new();
     }
     let before = [say!("required force, at the activation", "tiro richiesto, all'attivazione")];
-    table(&between(case, &before, &[], language), &rows)
+    table(&between(side, &before, &[], language), &rows)
 }

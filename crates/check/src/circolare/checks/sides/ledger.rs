@@ -120,7 +120,7 @@ impl SideVerdict {
         let stiffness = curve.of_force(slope) / curve.d_per_u;
         let Names { pushed, lever, .. } = curve.names();
         let sum = if curve.has_several_ties() { "Σ " } else { "" };
-        let pulls = curve.ties().map(|tie| tie.lever * tie.strength.unwrap_or(0.0));
+        let pulls = curve.ties().map(|tie| tie.pull * tie.strength.unwrap_or(0.0));
         ledger.know(&[(&format!("Σ ({lever}) N_y"), 1e-3 * pulls.sum::<f64>())]);
         let tied = &*format!("{sum}({lever})² K g/({pushed} e* d/u)");
         ledger.begin("activation", "tie");
