@@ -241,7 +241,14 @@ impl<'a> CheckFile<'a> {
 
     /// Returns whether the file states a value.
     pub(crate) fn states(&self, keys: &[&str]) -> bool {
-        self.file.get(keys).is_some()
+        let of_list = || match self.file.get(&keys[..1]).map(Spanned::get_ref) {
+            // of several ties, any
+            Some(DeValue::Array(tables)) => tables.iter().any(|table| {
+                keys[1..].iter().try_fold(table, |value, key| value.get_ref().get(*key)).is_some()
+            }),
+            _ => false,
+        };
+        self.file.get(keys).is_some() || of_list()
     }
 
     /// Returns the parameters that decide verdicts, and that the file leaves to their start values; `set`
@@ -254,7 +261,7 @@ impl<'a> CheckFile<'a> {
 
     /// Returns whether the body of the scene states a parameter of a rectangle: its shape, and its density
     /// where every part states it.
-    fn body_states(&self, name: &str) -> bool {
+    pub(crate) fn body_states(&self, name: &str) -> bool {
         if !OF_RECTANGLE.contains(&name) {
             return false;
         }

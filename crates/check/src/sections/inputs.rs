@@ -36,7 +36,7 @@ impl Origin<'_> {
                 say!("file", "file dei dati")
             }
             None if self.set.iter().any(is_set) => say!("command line", "riga di comando"),
-            None if self.file.states(keys) => say!("file", "file dei dati"),
+            None if self.file.states(keys) || self.file.body_states(name) => say!("file", "file dei dati"),
             _ => say!("default", "valore predefinito"),
         }
     }
@@ -93,13 +93,28 @@ fn all(
     is_used: &dyn Fn(&str, &str) -> bool,
 ) -> Vec<Shown> {
     let mut rows = Vec::new();
-    for (group, names) in GROUPS {
-        for name in names {
-            let matters = usage(parameters).any(|usage| usage.name == *name && usage.matters);
-            let no_tie = group == "tie" && wall.ties().is_empty();
-            if matters && !no_tie && is_used(group, name) {
-                rows.extend(parameter(wall, parameters, origin, group, name));
+    let of_group = |parameters: &Parameters, group: &str, names: &[&str]| {
+        let matters = |name: &str| usage(parameters).any(|usage| usage.name == name && usage.matters);
+        let names = names.iter().filter(|name| matters(name) && is_used(group, name));
+        names.filter_map(|name| parameter(wall, parameters, origin, group, name)).collect::<Vec<_>>()
+    };
+    let has_several = wall.ties().len() > 1;
+    for (group, names) in GROUPS.into_iter().filter(|(group, _)| *group != "tie") {
+        rows.extend(of_group(parameters, group, names));
+    }
+    let of_ties = GROUPS.into_iter().filter(|(group, _)| *group == "tie" && !wall.ties().is_empty());
+    for (group, names) in of_ties {
+        let ties = parameters.ties().filter(|tie| tie.stiffness > 0.0);
+        for (number, tie) in ties.enumerate() {
+            let alone = parameters.tied_by(tie);
+            let mut own = of_group(&alone, group, names);
+            if has_several {
+                own.extend(bar(&alone, origin));
+                let tie = say!("Tie {number}", "Catena {number}", number = number + 1);
+                let tie = tie.markup(origin.report.language);
+                own.iter_mut().for_each(|row| row.what = format!("{tie}: {}", row.what));
             }
+            rows.extend(own);
         }
     }
     let language = origin.report.language;
@@ -112,7 +127,9 @@ fn all(
         let (what, value) = (name.markup(language), points.join(" "));
         rows.push(Shown { what, key: "points".to_owned(), value, from });
     }
-    rows.extend(bar(parameters, origin));
+    if !has_several {
+        rows.extend(bar(parameters, origin));
+    }
     rows
 }
 
