@@ -21,7 +21,8 @@ pub struct Outputs {
     pub restoring_force: f64,
     /// C u̇ \[N\].
     pub damping_force: f64,
-    /// Forces of the supports on the wall \[N\]; those of a parapet's ties are part of the bottom one.
+    /// Forces of the supports on the wall \[N\]; those of ties are in them, of a strip by the law of the
+    /// lever.
     pub reactions: Ends,
     /// Force N of the tie, of several their sum, tension positive \[N\].
     pub tie_force: f64,

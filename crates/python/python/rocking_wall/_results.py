@@ -128,7 +128,7 @@ class RockingSpectrum(Tabular):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TieStudy(Tabular):
-    """Demands on a parapet's tie and displacement of the wall over a parameter of the tie.
+    """Demands on a tie and displacement of the wall over a parameter of the tie.
 
     Arrays of two dimensions have a row for each value and a column for each motion; with both polarities the
     motions of the other sign come last.

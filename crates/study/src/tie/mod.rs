@@ -1,4 +1,4 @@
-//! Demands on a parapet's tie and displacement of the wall over the stiffness, strength, slack, height or
+//! Demands on a tie and displacement of the wall over the stiffness, strength, slack, height or
 //! ultimate elongation of the tie, or the diameter of its bar.
 //!
 //! ```

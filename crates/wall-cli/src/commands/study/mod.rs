@@ -21,7 +21,7 @@ pub(crate) enum Command {
     /// Rocking spectra: `u_max/u_ins` over walls, or over pulses
     #[command(allow_negative_numbers = true)]
     Spectrum(Box<spectrum::Arguments>),
-    /// Force of a parapet's tie over the tie's stiffness
+    /// Force of a tie over its stiffness
     Tie(tie::Arguments),
     /// Match viscous damping to restitution, as section 5 of the paper
     Calibrate(calibrate::Arguments),

@@ -1,4 +1,4 @@
-//! `wall study tie`: demands on a parapet's tie and displacement of the wall over a parameter of the tie.
+//! `wall study tie`: demands on a tie and displacement of the wall over a parameter of the tie.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
