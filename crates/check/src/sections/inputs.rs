@@ -112,7 +112,9 @@ fn all(
                 own.extend(bar(&alone, origin));
                 let tie = say!("Tie {number}", "Catena {number}", number = number + 1);
                 let tie = tie.markup(origin.report.language);
-                own.iter_mut().for_each(|row| row.what = format!("{tie}: {}", row.what));
+                for row in &mut own {
+                    row.what = format!("{tie}: {}", row.what);
+                }
             }
             rows.extend(own);
         }

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use report::table::significant;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::{Fact, Parameters, TiePart, Wall, usage};
+use rocking_wall::wall::{Fact, Parameters, TieNumbers, TiePart, Wall, usage};
 
 use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
@@ -60,10 +60,6 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let facts = wall.facts();
     let warnings = wall.warnings().iter().map(ToString::to_string).chain(disagreement(parameters, &wall));
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
-    let weaker = parameters.weaker_part().map(|part| match part {
-        TiePart::Bar => "of its bar, which yields first",
-        TiePart::Anchor => "of its anchor, which breaks before the bar yields",
-    });
     let words = [
         ("title", scene.title.clone()),
         ("mechanism", parameters.mechanism.name().to_owned()),
@@ -73,9 +69,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         ("impact", parameters.impact.name().to_owned()),
         ("solver", method_name(&method).to_owned()),
     ];
-    let words = words.into_iter().chain(weaker.map(|words| ("tie", words.to_owned())));
+    let words = words.map(|(name, value)| (name.to_owned(), value)).into_iter().chain(ties(parameters));
     if arguments.json {
-        let words = words.map(|(name, value)| (name.to_owned(), value.into()));
+        let words = words.map(|(name, value)| (name, value.into()));
         let facts = facts.iter().map(|fact| (fact.name.to_string(), fact.value.into()));
         let mut object: serde_json::Map<_, _> = words.chain(facts).collect();
         let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
@@ -100,6 +96,25 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     }
     text += &output::written("\nwritten ", arguments.outputs());
     console.print(&text)
+}
+
+/// Says which part of a tie gives way first, and of several ties which side each holds.
+fn ties(parameters: &Parameters) -> Vec<(String, String)> {
+    let weaker = |tie: &TieNumbers| {
+        tie.weaker_part(parameters.width).map(|part| match part {
+            TiePart::Bar => "of its bar, which yields first",
+            TiePart::Anchor => "of its anchor, which breaks before the bar yields",
+        })
+    };
+    let ties: Vec<_> = parameters.ties().collect();
+    if let [one] = &ties[..] {
+        return weaker(one).map(|words| ("tie".to_owned(), words.to_owned())).into_iter().collect();
+    }
+    let words = |(tie, number): (&TieNumbers, usize)| {
+        let side = std::iter::once(tie.side.name()).chain(weaker(tie)).collect::<Vec<_>>();
+        (format!("tie_{number}_side"), side.join(", "))
+    };
+    ties.iter().zip(1..).map(words).collect()
 }
 
 /// Says where a formula of restitution that counts is far from the impulses of the impact.
