@@ -109,7 +109,8 @@ impl Tie {
     /// Returns the tie that its numbers ask for; `None` for a stiffness of 0.
     ///
     /// # Errors
-    /// [`ParameterError::Conflict`], [`ParameterError::TieHeight`], [`ParameterError::NotGiven`].
+    /// [`ParameterError::Conflict`] in full rotations, [`ParameterError::TieHeight`],
+    /// [`ParameterError::TieAtTop`] of a strip, [`ParameterError::NotGiven`].
     pub(super) fn new(
         numbers: &TieNumbers,
         parameters: &Parameters,

@@ -31,7 +31,7 @@ impl Ties {
     ///
     /// # Errors
     /// Those of a tie: [`ParameterError::Conflict`], [`ParameterError::TieHeight`],
-    /// [`ParameterError::NotGiven`], and those of a bar.
+    /// [`ParameterError::TieAtTop`], [`ParameterError::NotGiven`], and those of a bar.
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         let mut ties = Vec::new();
         for numbers in parameters.ties() {
