@@ -161,20 +161,28 @@ impl Parameters {
         self.ties().next()?.weaker_part(self.width)
     }
 
+    /// Replaces the ties. Without one the first has no stiffness.
+    pub fn set_ties(&mut self, ties: &[TieNumbers]) {
+        let Some((tie, further)) = ties.split_first() else {
+            (self.tie_stiffness, self.bar, self.further_ties) = (0.0, None, Arc::default());
+            return;
+        };
+        self.tie_height = tie.height;
+        self.tie_stiffness = tie.stiffness;
+        self.tie_slack = tie.slack;
+        self.tie_strength = tie.strength;
+        self.tie_ultimate = tie.ultimate;
+        self.tie_side = tie.side;
+        self.bar = tie.bar;
+        self.further_ties = further.into();
+    }
+
     /// Returns the wall with this tie alone.
     #[must_use]
     pub fn tied_by(&self, tie: TieNumbers) -> Self {
-        Self {
-            tie_height: tie.height,
-            tie_stiffness: tie.stiffness,
-            tie_slack: tie.slack,
-            tie_strength: tie.strength,
-            tie_ultimate: tie.ultimate,
-            tie_side: tie.side,
-            bar: tie.bar,
-            further_ties: Arc::default(),
-            ..self.clone()
-        }
+        let mut alone = self.clone();
+        alone.set_ties(&[tie]);
+        alone
     }
 
     /// Gives each tie the stiffness, strength and ultimate elongation of its bar; leaves those without a bar
@@ -183,12 +191,8 @@ impl Parameters {
     /// # Errors
     /// Those of [`Bar::tie`].
     pub fn apply_bars(&mut self) -> Result<(), ParameterError> {
-        let mut ties = self.ties().map(|tie| tie.with_bar(self.width)).collect::<Result<Vec<_>, _>>()?;
-        let first = ties.remove(0);
-        self.tie_stiffness = first.stiffness;
-        self.tie_strength = first.strength;
-        self.tie_ultimate = first.ultimate;
-        self.further_ties = ties.into();
+        let ties = self.ties().map(|tie| tie.with_bar(self.width)).collect::<Result<Vec<_>, _>>()?;
+        self.set_ties(&ties);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! A quantity that may differ between u > 0 and u < 0.
 
-use crate::choices::Rocking;
+use crate::choices::{Rocking, TieSide};
 
 /// One quantity on the sides u > 0 and u < 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,5 +61,16 @@ impl Rocking {
     /// Returns whether a wall can rock to the side of `sign`.
     pub(super) fn allows(self, sign: f64) -> bool {
         self.free_side().is_none_or(|free| free == sign)
+    }
+}
+
+impl TieSide {
+    /// Returns whether a tie of this side resists displacements of a sign.
+    pub(super) fn holds(self, sign: f64) -> bool {
+        match self {
+            Self::Positive => sign > 0.0,
+            Self::Negative => sign < 0.0,
+            Self::Both => true,
+        }
     }
 }

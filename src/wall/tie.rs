@@ -160,11 +160,7 @@ impl Tie {
 
     /// Returns whether the tie resists displacements of a sign.
     pub fn holds(&self, sign: f64) -> bool {
-        match self.side {
-            TieSide::Positive => sign > 0.0,
-            TieSide::Negative => sign < 0.0,
-            TieSide::Both => true,
-        }
+        self.side.holds(sign)
     }
 
     /// Returns the |u| at which the tie first begins to pull, g₀ over the lever \[m\].

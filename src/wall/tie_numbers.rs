@@ -28,11 +28,7 @@ pub struct TieNumbers {
 impl TieNumbers {
     /// Returns whether the tie holds the side of `sign`.
     pub fn holds(&self, sign: f64) -> bool {
-        match self.side {
-            TieSide::Both => true,
-            TieSide::Positive => sign > 0.0,
-            TieSide::Negative => sign < 0.0,
-        }
+        self.side.holds(sign)
     }
 
     /// Returns the numbers with those that follow from the bar, of a wall of a width \[m\].

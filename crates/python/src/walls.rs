@@ -277,9 +277,8 @@ fn set_tables(scene: &mut Scene, assumed: &mut Vec<&'static str>, tables: Option
         let profile = profile.clone();
         *own = Parameters { height, thickness, width, density, profile, ..own.clone() };
     }
-    let mut ties = given.ties();
-    if let (true, Some(first)) = (file.get(&["tie"]).is_some(), ties.next()) {
-        *own = Parameters { further_ties: ties.collect(), ..own.tied_by(first) };
+    if file.get(&["tie"]).is_some() {
+        own.set_ties(&given.ties().collect::<Vec<_>>());
         own.apply_bars().map_err(refused)?;
     }
     Ok(())

@@ -35,24 +35,12 @@ pub(crate) fn above(parameters: &Parameters, level: f64) -> Result<Parameters, C
     };
     let mut above = parameters.clone();
     above.set_profile(body);
-    let lowered = parameters.ties().map(|tie| lowered(tie, level, parameters.height));
-    let mut ties: Vec<_> = lowered.filter(|tie| tie.stiffness > 0.0).collect();
-    // without a tie the parameters have one of no stiffness
-    ties.extend(parameters.ties().next().filter(|_| ties.is_empty()).map(untied));
-    let [first, further @ ..] = &ties[..] else { return Ok(above) };
-    Ok(Parameters { further_ties: further.into(), ..above.tied_by(*first) })
-}
-
-fn untied(tie: TieNumbers) -> TieNumbers {
-    TieNumbers { stiffness: 0.0, bar: None, ..tie }
-}
-
-/// A tie as it holds the body above a level; one at the level or below holds what does not turn.
-fn lowered(tie: TieNumbers, level: f64, height: f64) -> TieNumbers {
-    if tie.height <= level + SAME * height {
-        return untied(tie);
-    }
-    TieNumbers { height: tie.height - level, ..tie }
+    // one at the level or below holds what does not turn
+    let holds = |tie: &TieNumbers| tie.stiffness > 0.0 && tie.height > level + SAME * parameters.height;
+    let lowered = parameters.ties().filter(holds);
+    let lowered = lowered.map(|tie| TieNumbers { height: tie.height - level, ..tie });
+    above.set_ties(&lowered.collect::<Vec<_>>());
+    Ok(above)
 }
 
 /// Makes the ties brittle that have a strength and no plastic elongation: the check has no others.
@@ -62,9 +50,7 @@ pub(crate) fn make_brittle(parameters: &mut Parameters) {
         TieNumbers { ultimate, ..tie }
     };
     let ties: Vec<_> = parameters.ties().map(brittle).collect();
-    let [first, further @ ..] = &ties[..] else { return };
-    parameters.tie_ultimate = first.ultimate;
-    parameters.further_ties = further.into();
+    parameters.set_ties(&ties);
 }
 
 fn rectangle(parameters: &Parameters) -> Part {
