@@ -1,14 +1,19 @@
 //! Histories, peaks and demands of a run.
 
+mod shock;
+
 use std::borrow::Cow;
 use std::fmt::Write;
 
 use serde::{Serialize, Serializer};
 
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{Outputs, Simulation, segment_of};
+use crate::simulation::{Excitation, Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
 use crate::wall::{Sides, Support, Warning};
+
+pub use shock::Shock;
+use shock::Shocks;
 
 /// One line of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +44,8 @@ pub struct Response {
     pub summary: Summary,
     /// Demands of the motion on the wall and on its supports, up to overturning.
     pub demands: Demands,
+    /// The shocks of a sequence of records; none of a single motion.
+    pub shocks: Vec<Shock>,
     /// What each tie does at each sample.
     pub ties: Vec<Vec<TieSample>>,
     /// u at the end of the run \[m\].
@@ -61,9 +68,11 @@ impl Serialize for Response {
             #[serde(flatten)]
             summary: &'a Summary,
             demands: AndResidual<'a>,
+            #[serde(skip_serializing_if = "<[Shock]>::is_empty")]
+            shocks: &'a [Shock],
         }
-        let Self { summary, demands, residual, .. } = self;
-        Named { summary, demands: AndResidual { demands, residual: *residual } }.serialize(serializer)
+        let Self { summary, demands, residual, shocks, .. } = self;
+        Named { summary, demands: AndResidual { demands, residual: *residual }, shocks }.serialize(serializer)
     }
 }
 
@@ -190,12 +199,17 @@ impl Response {
         let mut ties: Vec<_> =
             simulation.wall().ties().iter().map(|_| Vec::with_capacity(count + 1)).collect();
         add_ties(&mut ties, &simulation);
-        let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
+        let mut shocks = Shocks::new(simulation.demands(support_at(0.0), &scene.thresholds));
+        let mut later = scene.excitation.iter().flat_map(Excitation::later_shocks).peekable();
         let mut put_to_rest = false;
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
-            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?;
+            while let Some(start) = later.next_if(|start| *start <= time) {
+                put_to_rest |= simulation.advance_to(start, excitation, Some(&mut shocks.demands))?;
+                shocks.begin_next(&simulation, support_at(start), &scene.thresholds);
+            }
+            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut shocks.demands))?;
             samples.push(sample(&simulation, support_at(time)));
             add_ties(&mut ties, &simulation);
         }
@@ -220,7 +234,8 @@ impl Response {
         let wall = simulation.wall();
         let of_start = wall.start_warning(scene.parameters.u_start);
         let warnings = wall.warnings().iter().cloned().chain(of_start).collect();
-        Ok(Self { samples, summary, demands, ties, residual, warnings })
+        let (shocks, demands) = shocks.finish(&simulation);
+        Ok(Self { samples, summary, demands, shocks, ties, residual, warnings })
     }
 
     /// Returns the columns of the history. Those of ties follow where there are some: their force, and the

@@ -13,6 +13,7 @@ mod keys;
 mod motion;
 mod parameter;
 mod schema;
+mod shocks;
 mod storeys;
 
 use std::borrow::Cow;
@@ -30,9 +31,10 @@ pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
-pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
-pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
+pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};
+pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable};
 pub use parameter::{input_names, parameter_text, set_names};
+pub use shocks::{RecordProblem, RecordTable, Shocks, fingerprint};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
 use body::profile_text;

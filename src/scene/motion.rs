@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 
 use files::{Place, tables};
 use ground_motion::{
-    Acceleration, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion,
-    Unit, read,
+    Acceleration, DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape,
+    SyntheticMotion, Unit,
 };
 use toml::Spanned;
 
 use crate::simulation::Excitation;
 
 use super::error::SceneError;
+use super::shocks::{RecordProblem as Problem, RecordTable, Shocks, scaled};
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -23,8 +24,12 @@ tables! {
     /// The motion: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
     #[derive(Debug, Default)]
     pub struct MotionTable {
-        /// Record file, beside the scene file: in any format the library reads.
-        pub record: Option<PathBuf>,
+        /// Record file, beside the scene file, in any format the library reads; or a sequence of records,
+        /// each a file or a table with options of its own.
+        pub record: Option<Shocks>,
+        /// Time between the records of a sequence (s).
+        #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_PAUSE)]
+        pub pause: Option<f64>,
         /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
         pub unit: Option<Unit>,
         /// Time between samples (s), for a record that does not state it.
@@ -58,31 +63,8 @@ tables! {
         pub tail: Option<f64>,
         /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
         pub fingerprint: Option<String>,
-        /// Another record for the top support (a wall in an upper storey).
-        pub top: Option<TopTable>,
-    }
-
-    /// The record of the top support; trimmed and timed like the bottom one.
-    #[derive(Debug)]
-    pub struct TopTable {
-        /// Record file, beside the scene file.
-        pub record: PathBuf,
-        /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
-        pub unit: Option<Unit>,
-        /// Time between samples (s), for a record that does not state it.
-        pub step: Option<f64>,
-        /// Column of a table (CSV or text).
-        pub column: Option<String>,
-        /// Channel of a record with several, by its number.
-        pub channel: Option<String>,
-        /// Format of the record, found from its content if none is given.
-        pub format: Option<Format>,
-        /// Factor on the motion (-).
-        pub scale: Option<f64>,
-        /// Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
-        pub pga: Option<Acceleration>,
-        /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
-        pub fingerprint: Option<String>,
+        /// Another record for the top support (a wall in an upper storey), trimmed like the bottom one.
+        pub top: Option<RecordTable>,
     }
 
     /// Ricker pulse a = A (1 − 2z²) exp(−z²), z = π f (t − t₀).
@@ -157,26 +139,13 @@ pub(super) fn load(
     })
 }
 
-/// What is wrong with a motion: something in the table itself, or in the record.
-#[derive(Debug, thiserror::Error)]
-enum Problem {
-    #[error("{0}")]
-    Table(String),
-    #[error(transparent)]
-    Motion(#[from] GroundMotionError),
-}
-
 fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded, Problem> {
     let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
     let mut notes = Vec::new();
-    let bottom = scale(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
+    let bottom = scaled(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
     let top = spec.top.as_ref().map(|top| {
-        let TopTable { unit, step, format, .. } = *top;
-        let (column, channel) = (top.column.clone(), top.channel.clone());
-        let options = RecordOptions { unit, step, column, channel, format };
-        let fingerprint = top.fingerprint.as_deref();
-        let record = read_record(&top.record, &options, fingerprint, folder, &mut notes)?;
-        scale(trim(record, spec)?, top.scale, top.pga)
+        let record = read_record(top, &RecordOptions::default(), None, folder, &mut notes)?;
+        top.scaled(trim(record, spec)?)
     });
     let top = top.transpose()?;
     let peak = match &top {
@@ -188,8 +157,8 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
     };
     let excitation = Excitation::new(bottom, top);
     notes.push(format!("{peak}, {} s", (1e4 * excitation.duration()).round() / 1e4));
-    let files = spec.record.iter().chain(spec.top.as_ref().map(|top| &top.record));
-    let records = files.map(|file| folder.join(file)).collect();
+    let files = spec.record.iter().flat_map(|shocks| shocks.iter()).chain(&spec.top);
+    let records = files.map(|file| folder.join(&file.record)).collect();
     Ok(Loaded { excitation, tail, notes, records })
 }
 
@@ -198,9 +167,10 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
     let MotionTable { unit, step, format, .. } = *spec;
     let (column, channel) = (spec.column.clone(), spec.channel.clone());
     let options = RecordOptions { unit, step, column, channel, format };
-    if let Some(path) = &spec.record {
-        let fingerprint = spec.fingerprint.as_deref();
-        found.push(("record", read_record(path, &options, fingerprint, folder, notes)));
+    if let Some(shocks) = &spec.record {
+        found.push(("record", sequence(spec, shocks, &options, folder, notes)));
+    } else if spec.pause.is_some() {
+        return Err(Problem::Table(NO_SEQUENCE.into()));
     } else if options != RecordOptions::default() {
         let message = "unit, step, column, channel and format belong to a record; \
                        add record = \"FILE\" or leave them out";
@@ -247,36 +217,54 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
     motion
 }
 
-fn read_record(
-    file: &Path,
+/// What is wrong with a pause where there is no sequence.
+const NO_SEQUENCE: &str = "pause is the time between the records of a sequence; give record = [\"MAIN\", \
+                           \"AFTER\"] or leave it out";
+
+/// Reads the record of a scene, or its sequence of several.
+fn sequence(
+    spec: &MotionTable,
+    shocks: &Shocks,
     options: &RecordOptions,
-    expected: Option<&str>,
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<GroundMotion, Problem> {
-    let path = folder.join(file);
-    let record = read(&path, options)?;
-    if let Some(expected) = expected {
-        let bytes =
-            std::fs::read(&path).map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
-        let found = fingerprint(&bytes);
-        if found != *expected {
-            let file = path.display();
-            return Err(Problem::Table(format!(
-                "{file} has the fingerprint {found}, not {expected}: \
-                 it is not the record this scene was made with"
-            )));
-        }
+    let is_one = shocks.len() == 1;
+    let of_one = [
+        ("from", spec.from.is_some(), "cut the file of its record"),
+        ("to", spec.to.is_some(), "cut the file of its record"),
+        ("fingerprint", spec.fingerprint.is_some(), "give it in the table of its record"),
+        ("top", spec.top.is_some(), "a sequence moves both supports alike: leave it out"),
+    ];
+    if let Some((key, _, remedy)) = of_one.iter().find(|(_, is_given, _)| *is_given && !is_one) {
+        return Err(Problem::Table(format!("{key} does not go with a sequence of records; {remedy}")));
     }
-    let name = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    notes.push(format!("record {name} ({})", record.format.description()));
-    notes.extend(record.check().warnings.iter().map(ToString::to_string));
-    Ok(record.motion)
+    if is_one && spec.pause.is_some() {
+        return Err(Problem::Table(NO_SEQUENCE.into()));
+    }
+    let mut motions = Vec::with_capacity(shocks.len());
+    for own in shocks.iter() {
+        let motion = read_record(own, options, spec.fingerprint.as_deref(), folder, notes)?;
+        motions.push(own.scaled(motion)?);
+    }
+    let pause = spec.pause.unwrap_or(DEFAULT_PAUSE);
+    let motion = GroundMotion::sequence(&motions, pause)?;
+    notes.extend((!is_one).then(|| format!("{pause} s between them, in steps of {} s", motion.step())));
+    Ok(motion)
 }
 
-/// Returns the fingerprint of a record file in the form that a scene states.
-pub fn fingerprint(bytes: &[u8]) -> String {
-    format!("{:032x}", fmu_export::fnv1a_128(bytes.iter().copied()))
+/// Reads a record and notes what it is.
+fn read_record(
+    table: &RecordTable,
+    common: &RecordOptions,
+    fingerprint: Option<&str>,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<GroundMotion, Problem> {
+    let record = table.read(common, fingerprint, folder)?;
+    notes.push(format!("record {} ({})", table.name(), record.format.description()));
+    notes.extend(record.check().warnings.iter().map(ToString::to_string));
+    Ok(record.motion)
 }
 
 fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, GroundMotionError> {
@@ -285,19 +273,4 @@ fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, Ground
     }
     let to = spec.to.unwrap_or_else(|| motion.duration());
     motion.trimmed(spec.from.unwrap_or(0.0), to)
-}
-
-fn scale(
-    motion: GroundMotion,
-    factor: Option<f64>,
-    pga: Option<Acceleration>,
-) -> Result<GroundMotion, Problem> {
-    match (factor, pga) {
-        (None, None) => Ok(motion),
-        (Some(factor), None) => Ok(motion.checked_scaled(factor)?),
-        (None, Some(pga)) => Ok(motion.scaled_to_peak(pga.0)?),
-        (Some(_), Some(_)) => {
-            Err(Problem::Table("scale and pga exclude each other; give one of them".into()))
-        }
-    }
 }

@@ -47,6 +47,7 @@ mod record_path;
 mod refusals;
 mod return_mapping;
 mod runge_kutta;
+mod sequences;
 mod several_ties;
 mod ties;
 mod trigonometric;

@@ -34,7 +34,8 @@
 //! | `fields`, `options`, `times`, `vertical`, [`columns`] | numbers in texts; what the user states |
 //! | `parsed`, `readers` | one channel as a reader returns it; a reader for each format |
 //! | `companion`, `record`, `check` | record files, and how they are checked |
-//! | `pulse`, `synthetic`, [`spectrum`], `storeys`, `intensity`, `spectrum_file` | motions and their effect |
+//! | `sequence`, `pulse`, `synthetic` | motions made of records, of formulas and of noise |
+//! | [`spectrum`], `storeys`, `intensity`, `spectrum_file` | the effect of motions |
 
 mod acceleration;
 mod check;
@@ -52,6 +53,7 @@ mod pulse;
 mod quantity;
 mod readers;
 mod record;
+mod sequence;
 pub mod spectrum;
 mod spectrum_file;
 mod storeys;
@@ -72,6 +74,7 @@ pub use options::RecordOptions;
 pub use pulse::{Pulse, Shape};
 pub use readers::CSV_HEADER;
 pub use record::{Record, parse, parse_channels, read, read_channels};
+pub use sequence::DEFAULT_PAUSE;
 pub use spectrum::{Maxima, Spectrum};
 pub use spectrum_file::SpectrumFile;
 pub use storeys::{FloorMotion, Storey, Storeys};

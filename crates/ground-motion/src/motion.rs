@@ -1,5 +1,6 @@
 //! Ground motions: accelerations at a uniform step.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::error::GroundMotionError;
@@ -22,6 +23,8 @@ use crate::error::GroundMotionError;
 pub struct GroundMotion {
     step: f64,
     samples: Arc<[f64]>,
+    /// First samples of the shocks of a sequence after the first one; `None` of a single record.
+    later: Option<Arc<[usize]>>,
 }
 
 impl GroundMotion {
@@ -40,7 +43,7 @@ impl GroundMotion {
         if let Some(index) = samples.iter().position(|a| !is_possible(*a)) {
             return Err(GroundMotionError::NotFinite { index, value: samples[index] });
         }
-        Ok(Self { step, samples: samples.into() })
+        Ok(Self { step, samples: samples.into(), later: None })
     }
 
     /// Returns the time between samples (s).
@@ -51,6 +54,26 @@ impl GroundMotion {
     /// Returns the samples (m/s²).
     pub fn samples(&self) -> &[f64] {
         &self.samples
+    }
+
+    /// Takes the motion as a sequence whose later shocks begin at these samples: between 0 and the last
+    /// one, in rising order.
+    ///
+    /// # Errors
+    /// If they are not.
+    pub fn with_later(self, later: &[usize]) -> Result<Self, GroundMotionError> {
+        let last = self.samples.len() - 1;
+        if ![&[0], later, &[last]].concat().is_sorted_by(|a, b| a < b) {
+            return Err(GroundMotionError::Shocks { found: later.to_vec(), last });
+        }
+        Ok(Self { later: (!later.is_empty()).then(|| later.into()), ..self })
+    }
+
+    /// Returns the samples of each shock of a sequence, with the pause after it; of a single record all.
+    pub fn shocks(&self) -> Vec<Range<usize>> {
+        let later = self.later.as_deref().unwrap_or_default();
+        let ends = later.iter().copied().chain([self.samples.len()]);
+        [0].iter().chain(later).zip(ends).map(|(&start, end)| start..end).collect()
     }
 
     /// Returns the time of the last sample (s).
@@ -92,7 +115,7 @@ impl GroundMotion {
     /// If the factor is not finite, or a scaled sample beyond 10⁶ m/s².
     pub fn checked_scaled(&self, factor: f64) -> Result<Self, GroundMotionError> {
         self.check_factor(factor)?;
-        Ok(Self { step: self.step, samples: self.samples.iter().map(|a| factor * a).collect() })
+        Ok(Self { samples: self.samples.iter().map(|a| factor * a).collect(), ..self.clone() })
     }
 
     /// Checks that every sample may be multiplied by `factor`.
@@ -135,7 +158,7 @@ impl GroundMotion {
             return Err(GroundMotionError::Trim { from, to, duration: self.duration() });
         }
         let samples = &self.samples[floor_index(first)..=floor_index(end)];
-        Ok(Self { step: self.step, samples: samples.into() })
+        Ok(Self { step: self.step, samples: samples.into(), later: None })
     }
 }
 

@@ -11,16 +11,18 @@ use run::records::NamedRecord;
 
 use crate::errors::of_motion;
 
-/// A motion, which Python has as the time between samples \[s\] and the samples \[m/s²\].
+/// A motion, which Python has as the time between samples \[s\], the samples \[m/s²\], and the first samples of
+/// the shocks of a sequence after the first one.
 pub(crate) struct Motion(pub(crate) GroundMotion);
 
 impl<'py> FromPyObject<'_, 'py> for Motion {
     type Error = PyErr;
-    const INPUT_TYPE: PyStaticExpr = <(f64, Bound<'py, PyAny>)>::INPUT_TYPE;
+    const INPUT_TYPE: PyStaticExpr = <(f64, Bound<'py, PyAny>, Vec<usize>)>::INPUT_TYPE;
 
     fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let (step, given): (f64, Bound<'py, PyAny>) = given.extract()?;
-        GroundMotion::new(step, samples(&given)?).map(Self).map_err(of_motion)
+        let (step, given, later): (f64, Bound<'py, PyAny>, Vec<usize>) = given.extract()?;
+        let motion = GroundMotion::new(step, samples(&given)?).and_then(|motion| motion.with_later(&later));
+        motion.map(Self).map_err(of_motion)
     }
 }
 
@@ -28,10 +30,11 @@ impl<'py> IntoPyObject<'py> for Motion {
     type Target = PyTuple;
     type Output = Bound<'py, PyTuple>;
     type Error = PyErr;
-    const OUTPUT_TYPE: PyStaticExpr = <(f64, Numbers<'py>)>::OUTPUT_TYPE;
+    const OUTPUT_TYPE: PyStaticExpr = <(f64, Numbers<'py>, Bound<'py, PyTuple>)>::OUTPUT_TYPE;
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        (self.0.step(), PyArray1::from_slice(py, self.0.samples())).into_pyobject(py)
+        let later = PyTuple::new(py, self.0.shocks()[1..].iter().map(|shock| shock.start))?;
+        (self.0.step(), PyArray1::from_slice(py, self.0.samples()), later).into_pyobject(py)
     }
 }
 

@@ -54,7 +54,7 @@ mod _native {
         many::simulate_many,
         motions::{
             average_sa, displacement, housner, in_si, intensities, picture, pulse, read_channels, scaled,
-            scaled_to, spectrum, synthetic, trimmed, velocity, warnings_of,
+            scaled_to, sequence, spectrum, synthetic, trimmed, velocity, warnings_of,
         },
         responses::picture_of_response,
         studies::Study,

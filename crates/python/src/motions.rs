@@ -97,6 +97,13 @@ pub(crate) fn scaled_to(given: Motion, pga: f64) -> PyResult<Motion> {
     made(given.0.scaled_to_peak(pga))
 }
 
+/// Joins motions to a sequence, with a pause \[s\] between them.
+#[pyfunction]
+pub(crate) fn sequence(given: Vec<Motion>, pause: f64) -> PyResult<Motion> {
+    let shocks: Vec<_> = given.into_iter().map(|Motion(shock)| shock).collect();
+    made(GroundMotion::sequence(&shocks, pause))
+}
+
 /// Cuts out the part of a motion between two times.
 #[pyfunction]
 pub(crate) fn trimmed(given: Motion, start: f64, end: f64) -> PyResult<Motion> {

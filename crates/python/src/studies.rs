@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use files::FileError;
-use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -25,8 +24,8 @@ pub(crate) struct Study {
     contents: OnceLock<(Contents, String)>,
 }
 
-/// A study as values that pickle can send: its text, its walls, and its records with steps and samples.
-type Values<Samples> = (String, Vec<(String, String, Vec<String>)>, Vec<(String, f64, Samples)>);
+/// A study as values that pickle can send: its text, its walls, and its records by their names.
+type Values = (String, Vec<(String, String, Vec<String>)>, Vec<(String, Motion)>);
 
 #[pymethods]
 impl Study {
@@ -61,18 +60,17 @@ impl Study {
 
     /// Makes a study of its values on another machine.
     #[staticmethod]
-    fn received(py: Python<'_>, values: Values<Vec<f64>>) -> PyResult<Self> {
+    fn received(py: Python<'_>, values: Values) -> PyResult<Self> {
         let (text, walls, records) = values;
-        let sent = Sent { text, walls, records };
+        let sent = Sent { text, walls, records: named_records(records) };
         let loaded = py.detach(|| LoadedStudy::received(sent, &Codes)).map_err(of_scene)?;
         Ok(Self { loaded, contents: OnceLock::new() })
     }
 
     /// Returns the values of the study, to send them.
-    fn sent<'py>(&self, py: Python<'py>) -> Values<Bound<'py, PyArray1<f64>>> {
+    fn sent(&self) -> Values {
         let Sent { text, walls, records } = self.loaded.sent(&Codes);
-        let array = |(name, dt, samples)| (name, dt, PyArray1::from_vec(py, samples));
-        (text, walls, records.into_iter().map(array).collect())
+        (text, walls, records.into_iter().map(|record| (record.name, Motion(record.motion))).collect())
     }
 
     /// Counts the parts.

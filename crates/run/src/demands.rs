@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use report::counted;
 
-use rocking_wall::response::{Fate, Response, Summary};
+use rocking_wall::response::{Fate, Response, Shock, Summary};
 use rocking_wall::scene::Scene;
 use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands, Work, Yielding};
 use rocking_wall::variables::Mechanism;
@@ -99,7 +99,26 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     lines.push(("half cycles".to_owned(), demands.half_cycles.to_string()));
     let fallen = if response.summary.fate.falls() { ", fallen" } else { "" };
     lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
+    let shocks = response.shocks.iter().zip(1..);
+    lines.extend(shocks.map(|(shock, number)| (format!("shock {number}"), of_shock(shock))));
     lines
+}
+
+/// What a shock did to the wall, and to its ties up to then.
+fn of_shock(shock: &Shock) -> String {
+    let Shock { start, u_max, u_ratio_max, residual, .. } = shock;
+    let largest = format!("|u| {:.2} mm, {u_ratio_max:.4} u_ins", 1000.0 * u_max);
+    let largest = if shock.demands.is_some() { largest } else { "overturned before".to_owned() };
+    let end = if shock.falls {
+        "falls".to_owned()
+    } else {
+        format!("u at its end {} mm", figure(1000.0 * residual))
+    };
+    let mut text = format!("from {start:.3} s: {largest}, {end}");
+    for yielding in shock.demands.iter().flat_map(|demands| &demands.ties).filter_map(|tie| tie.yielding) {
+        let _ = write!(text, ", tie stretched {}", stretched(&yielding));
+    }
+    text
 }
 
 /// The largest force of a tie with the time at which it reached its strength, and how far it has yielded.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use files::{FileError, Place, read_text};
-use ground_motion::{GroundMotion, GroundMotionError};
+use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
@@ -52,8 +52,8 @@ pub struct Sent {
     pub text: String,
     /// Walls: names, parameters as the tables of a study file, and those that decide and nobody stated.
     pub walls: Vec<(String, String, Vec<String>)>,
-    /// Records: names, steps \[s\] and samples \[m/s²\].
-    pub records: Vec<(String, f64, Vec<f64>)>,
+    /// Records.
+    pub records: Vec<NamedRecord>,
 }
 
 impl LoadedStudy {
@@ -109,9 +109,6 @@ impl LoadedStudy {
             let assumed = wall.assumed.iter().map(|&name| name.to_owned()).collect();
             (wall.name.clone(), wall_text(wall), assumed)
         };
-        let record = |record: &NamedRecord| {
-            (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
-        };
         let name = self.inputs.first().map_or_else(String::new, |path| path.display().to_string());
         // the samples follow from the text
         let walls = if self.sampled.is_empty() { self.study.walls() } else { &self.sampled };
@@ -119,7 +116,7 @@ impl LoadedStudy {
             // a grid that has vanished since is named where the text is read
             text: codes.self_contained(&name, &self.text).unwrap_or_else(|_| self.text.clone()),
             walls: walls.iter().map(wall).collect(),
-            records: self.study.given_records().iter().map(record).collect(),
+            records: self.study.given_records(),
         }
     }
 
@@ -135,14 +132,8 @@ impl LoadedStudy {
             Ok::<_, SceneError>(NamedWall { assumed, ..wall_of_text(name, &text)? })
         };
         let walls = sent.walls.into_iter().map(wall).collect::<Result<_, _>>()?;
-        let record = |(name, step, samples)| {
-            let motion = GroundMotion::new(step, samples);
-            let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
-            Ok(NamedRecord { name, motion: motion.map_err(refused)? })
-        };
-        let records = sent.records.into_iter().map(record).collect::<Result<_, SceneError>>()?;
         // they were told where it was sent
-        let study = Self::assemble(name, sent.text, file, walls, records)?;
+        let study = Self::assemble(name, sent.text, file, walls, sent.records)?;
         Ok(Self { warnings: Vec::new(), ..study })
     }
 

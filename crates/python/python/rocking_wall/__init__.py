@@ -27,10 +27,11 @@ from ._records import (
     read_channels,
     read_record,
     ricker,
+    sequence,
     sine_cycle,
     synthetic_record,
 )
-from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
+from ._responses import Demands, Extremes, Instant, Peaks, Response, Shock, Threshold
 from ._results import Calibration, RockingSpectrum, TieStudy, Verdict, verify
 from ._studies import Study
 from ._tables import Table
@@ -52,6 +53,7 @@ __all__ = [
     "ReliabilityResults",
     "Response",
     "RockingSpectrum",
+    "Shock",
     "Storey",
     "Study",
     "StudyResults",
@@ -71,6 +73,7 @@ __all__ = [
     "read_record",
     "read_results",
     "ricker",
+    "sequence",
     "simulate_many",
     "sine_cycle",
     "synthetic_record",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Unit = Literal["m/s2", "cm/s2", "mm/s2", "g"]
-Motion = tuple[float, NDArray[np.float64]]
+Motion = tuple[float, NDArray[np.float64], tuple[int, ...]]
 Maxima = Literal["everywhere", "at_samples"]
 
 def is_number(value: object) -> bool:
@@ -61,6 +61,8 @@ class Record:
     """Name, for people."""
     warnings: tuple[str, ...]
     """Warnings from a quick check of the file."""
+    later: tuple[int, ...]
+    """First samples of the shocks of a `sequence` after the first one; empty of a single record."""
 
     # so that numpy leaves `2 * record` to `Record.__rmul__`
     __array_priority__ = 1000.0
@@ -90,17 +92,18 @@ class Record:
             remedy = "record.a" if isinstance(a, Record) else "Record.from_trace(trace, unit)"
             raise TypeError(f"samples are a {type(a).__name__}, which has a step of its own; use {remedy}")
         check_times(a, float(dt))
-        dt, samples = _native.in_si((float(dt), a), unit)
+        dt, samples, _ = _native.in_si((float(dt), a), unit)
         for warning in set(_native.warnings_of(dt, "")).difference(warnings):
             warn(f"{name}: {warning}", stacklevel=2)
             warnings = (*warnings, warning)
-        self.__setstate__({"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings)})
+        self.__setstate__({"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings), "later": ()})
 
     @classmethod
     def _of(cls, motion: Motion, name: str, warnings: Sequence[str] = ()) -> Record:
         """Makes a record of a motion whose step needs no warning."""
-        (dt, samples), record = _native.in_si(motion, "m/s2"), cls.__new__(cls)
-        record.__setstate__({"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings)})
+        (dt, samples, _), record = _native.in_si(motion[:2], "m/s2"), cls.__new__(cls)
+        state = {"dt": dt, "a": samples, "name": name, "warnings": tuple(warnings), "later": motion[2]}
+        record.__setstate__(state)
         return record
 
     @classmethod
@@ -144,10 +147,11 @@ class Record:
         self.a.flags.writeable = False
 
     def __eq__(self, other: object) -> bool:
-        """Whether both have the same step and samples; names do not count."""
+        """Whether both have the same step, samples and shocks; names do not count."""
         if not isinstance(other, Record):
             return NotImplemented
-        return self.dt == other.dt and np.array_equal(self.a, other.a)
+        is_like = self.dt == other.dt and self.later == other.later
+        return is_like and np.array_equal(self.a, other.a)
 
     def __hash__(self) -> int:
         # zeros of both signs are equal
@@ -166,7 +170,7 @@ class Record:
         start, stop, step = at.indices(len(self))
         if step < 0:
             raise ValueError(f"a slice of a record goes forward in time, found the stride {step}")
-        return self._with((self.dt * step, self.a[start:stop:step]))
+        return self._with((self.dt * step, self.a[start:stop:step], ()))
 
     def __mul__(self, factor: float) -> Record:
         """Returns `scaled(factor)`."""
@@ -186,7 +190,7 @@ class Record:
 
     @property
     def _motion(self) -> Motion:
-        return self.dt, self.a
+        return self.dt, self.a, self.later
 
     def _with(self, motion: Motion) -> Record:
         return Record._of(motion, self.name, self.warnings)
@@ -394,6 +398,24 @@ def read_record(
     for warning in records[0].warnings:
         warn(f"{fsdecode(path)}: {warning}", stacklevel=2)
     return records[0]
+
+
+def sequence(records: Sequence[Record], *, pause: float = 10.0, name: str | None = None) -> Record:
+    """Joins records to one, such as a main shock and an aftershock: a wall goes on from one to the next.
+
+    Each begins `pause` [s], in whole steps and at least one, after the last sample of the one before. The
+    step is the longest that divides those of all; a record is linear between its samples, so that it stays
+    the same motion. A `Response` has the `shocks`, each with its demands.
+
+    Raises `ValueError` for steps without a common part of at least a hundredth of the shortest.
+
+    >>> both = sequence([sine_cycle(2.0, 1.0), 0.5 * sine_cycle(2.0, 1.0)], pause=5)
+    >>> both.duration, len(both.later)
+    (7.0, 1)
+    """
+    given = listed(records)
+    motion = _native.sequence([motion_of(record, "records") for record in given], pause)
+    return Record._of(motion, " + ".join(record.name for record in given) if name is None else name)
 
 
 def synthetic_record(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, NotRequired, TypedDict
 
@@ -52,7 +53,7 @@ class TieDemands(TypedDict):
     tie_break_time_negative: NotRequired[float | None]
 
 
-class Demands(TypedDict):
+class ShockDemands(TypedDict):
     """Demands of a motion on a wall, up to overturning; in SI units.
 
     A wall with a tie has the peak of its force, and when that first reached the strength given. A tie that
@@ -67,7 +68,6 @@ class Demands(TypedDict):
     reaction_top: Extremes
     thresholds: list[Threshold]
     half_cycles: int
-    residual: float
     tie_force: NotRequired[Instant]
     tie_strength: NotRequired[Instant | None]
     tie_elongation: NotRequired[float]
@@ -75,6 +75,29 @@ class Demands(TypedDict):
     tie_break_time: NotRequired[float | None]
     tie_break_time_negative: NotRequired[float | None]
     ties: NotRequired[list[TieDemands]]
+
+
+class Demands(ShockDemands):
+    """Demands of a run, and u at its end [m]."""
+
+    residual: float
+
+
+class Shock(TypedDict):
+    """A shock of a sequence, from its first sample to that of the next or to the end of the run, in SI units.
+
+    `u_max` and `u_ratio_max` are those of this shock, up to overturning. `overturned` and `falls` tell of the
+    wall by its end, `residual` is u there. `demands` are None after the shock in which the wall overturns.
+    """
+
+    start: float
+    end: float
+    u_max: float
+    u_ratio_max: float
+    overturned: bool
+    falls: bool
+    residual: float
+    demands: ShockDemands | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -137,6 +160,8 @@ class Response:
     """Plastic elongation of the tie on u < 0 [m]; None without one that yields."""
     tie_forces: tuple[Array, ...] = ()
     """Force of each tie of a wall with several [N]; `tie_force` is their sum, elongations are the largest."""
+    shocks: Sequence[Shock] = ()
+    """The shocks of a sequence of records, each with its demands; none of a single motion."""
 
     def __repr__(self) -> str:
         fate = f"overturned at {self.overturn_time:.4g} s" if self.overturned else "standing"

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
 from ._given import Attribute
-from ._records import Record, listed, motion_of, read_record
+from ._records import Motion, Record, listed, motion_of, read_record
 from ._tables import Table, printable, toml, toml_lines
 from ._walls import Wall
 
@@ -343,7 +342,7 @@ def is_missing(value: Any) -> bool:
     return is_none or (np.ndim(value) == 0 and bool(value != value))
 
 
-def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
+def named_records(records: Any) -> list[tuple[str, Motion]]:
     """Returns names and motions of records, which are read where they are paths."""
     if isinstance(records, str | PathLike):
         records = [records]
@@ -379,7 +378,7 @@ def write_study(
     path: Path,
     text: str,
     walls: Sequence[tuple[str, str, Sequence[str]]],
-    records: Sequence[tuple[str, float, NDArray[np.float64]]],
+    records: Sequence[tuple[str, Motion]],
 ) -> None:
     """Writes a study file with its walls, without what nobody stated of them, and its records beside it."""
     tables = []
@@ -390,7 +389,10 @@ def write_study(
             raise ValueError(f"wall {name!r} stands on storeys, which this file would need for all walls")
         groups = wall.replace("\n[", "\n[walls.").replace("[", "[walls.", 1)
         tables.append(f"\n[[walls]]\nname = {toml(name)}\n{groups}")
-    steps = {step for _, step, _ in records}
+    sequences = [name for name, (_, _, later) in records if later]
+    if sequences:
+        raise ValueError(f"the record {sequences[0]!r} is a sequence, whose shocks a file of numbers has not")
+    steps = {step for _, (step, *_) in records}
     if len(steps) > 1:
         shown = " and ".join(f"{step:g} s" for step in sorted(steps)[:2])
         raise ValueError(f"the records have steps of {shown}, and those of a study file have one")
@@ -404,7 +406,7 @@ def write_study(
         raise FileExistsError(f"{folder}: exists; remove it, or write the study elsewhere")
     with open(path, "x", encoding="utf-8", newline="") as file:
         folder.mkdir()
-        for (_, _, samples), name in zip(records, files):
+        for (_, (_, samples, _)), name in zip(records, files):
             numbers = "".join(f"{sample!r}\n" for sample in samples.tolist())
             (path.parent / name).write_text(numbers, encoding="utf-8", newline="")
         file.write(f"{anchored(text)}records = {toml(described)}\n{''.join(tables)}")

@@ -1,0 +1,82 @@
+//! Sequences: records one after the other, such as a main shock and an aftershock.
+
+use crate::error::{GroundMotionError, check_parameter};
+use crate::motion::{GroundMotion, floor_index};
+
+/// Time between the shocks of a sequence that states none (s).
+pub const DEFAULT_PAUSE: f64 = 10.0;
+/// Most parts of the shortest step of a sequence.
+const MOST_PARTS: u32 = 100;
+/// Relative difference up to which steps are equal: single precision has 6e-8.
+const STEP_ROUNDING: f64 = 1e-6;
+/// Most samples of a sequence, of 8 bytes each.
+const MOST_SAMPLES: usize = 20_000_000;
+
+impl GroundMotion {
+    /// Joins shocks to one motion: each begins `pause` (s), in whole steps and at least one, after the last
+    /// sample of the one before.
+    ///
+    /// The step is the longest that divides those of all shocks. A record is linear between its samples, so
+    /// that it is the same motion at a shorter step. In a pause of two steps or more, a shock whose first or
+    /// last sample is not zero comes and goes within a step.
+    ///
+    /// ```
+    /// use ground_motion::GroundMotion;
+    ///
+    /// let main = GroundMotion::new(0.02, vec![0.0, 3.0, 0.0])?;
+    /// let after = GroundMotion::new(0.01, vec![0.0, 1.0, 0.0])?;
+    /// let both = GroundMotion::sequence(&[main, after], 0.02)?;
+    /// assert_eq!(both.samples(), [0.0, 1.5, 3.0, 1.5, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    /// assert_eq!(both.shocks(), [0..6, 6..9]);
+    /// # Ok::<(), ground_motion::GroundMotionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is no shock, if the pause is negative or not finite, if the steps have no common part of at
+    /// least a hundredth of the shortest one, or the sequence has more than 2·10⁷ samples.
+    pub fn sequence(shocks: &[Self], pause: f64) -> Result<Self, GroundMotionError> {
+        check_parameter(!shocks.is_empty(), "number of records in a sequence", 0.0, "at least 1")?;
+        check_parameter(pause >= 0.0 && pause.is_finite(), "pause", pause, "from 0 s on and finite")?;
+        let step = common_step(shocks)?;
+        let parts = |shock: &Self| (shock.step() / step).round();
+        let still = (pause / step - STEP_ROUNDING).ceil().max(1.0) - 1.0;
+        let length = |shock: &Self| parts(shock) * (shock.samples().len() - 1) as f64 + 1.0;
+        let found = shocks.iter().map(length).sum::<f64>() + still * (shocks.len() - 1) as f64;
+        if found > MOST_SAMPLES as f64 {
+            return Err(GroundMotionError::LongSequence { found, limit: MOST_SAMPLES, step });
+        }
+        let (mut samples, mut later) = (Vec::new(), Vec::new());
+        for shock in shocks {
+            if !samples.is_empty() {
+                samples.resize(samples.len() + floor_index(still), 0.0);
+                later.push(samples.len());
+            }
+            let (first, parts) = (samples.len(), parts(shock));
+            later.extend(shock.shocks()[1..].iter().map(|own| first + own.start * floor_index(parts)));
+            for pair in shock.samples().windows(2) {
+                let between = |part: usize| pair[0] + (pair[1] - pair[0]) * (part as f64 / parts);
+                samples.extend((0..floor_index(parts)).map(between));
+            }
+            samples.extend(shock.samples().last());
+        }
+        Self::new(step, samples)?.with_later(&later)
+    }
+}
+
+/// Returns the longest step that divides those of all shocks.
+fn common_step(shocks: &[GroundMotion]) -> Result<f64, GroundMotionError> {
+    let shortest = shocks.iter().map(GroundMotion::step).fold(f64::INFINITY, f64::min);
+    let misfit = |step: f64| {
+        let is_divided = |shock: &&GroundMotion| {
+            let parts = shock.step() / step;
+            (parts - parts.round()).abs() <= STEP_ROUNDING * parts
+        };
+        shocks.iter().find(|shock| !is_divided(shock))
+    };
+    let steps = || (1..=MOST_PARTS).map(|parts| shortest / f64::from(parts));
+    steps().find(|step| misfit(*step).is_none()).ok_or_else(|| GroundMotionError::Steps {
+        one: shortest,
+        other: misfit(shortest).map_or(shortest, GroundMotion::step),
+        limit: MOST_PARTS,
+    })
+}
