@@ -242,7 +242,8 @@ impl Demands {
         }
     }
 
-    /// Goes on from the demands of a motion up to here: an excursion that has not ended, ties that have broken.
+    /// Goes on from the demands of a motion up to here: an excursion that has not ended, ties that have
+    /// broken.
     pub(crate) fn go_on(&mut self, before: &Self) {
         self.excursion = before.excursion;
         for (tie, before) in self.ties.iter_mut().zip(&before.ties) {

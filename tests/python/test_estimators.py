@@ -207,3 +207,57 @@ def test_curves_and_rates_are_those_of_scipy(wall, tmp_path, levels, estimate):
         assert low < float(row["annual_rate"]) < high
         assert abs(float(row["return_period_years"]) * float(row["annual_rate"]) - 1) < 1e-12
         assert abs(float(row["probability"]) / -np.expm1(-50 * float(row["annual_rate"])) - 1) < 1e-12
+
+
+SEQUENCES = """
+models = ["CDC", "CDR"]
+intensity = { measure = "PGA" }
+levels = { method = "hunt", first = 0.1, increase = 0.1, top = 1.6, gap = 0.3, resolution = 0.1 }
+report = { fractions = [0.4, 1.0], resamples = 100 }
+sequence = { scale = "last", given = [0.1, 0.3] }
+
+[records]
+unit = "m/s2"
+pause = 8
+sequences = SHOCKS
+
+[[walls]]
+name = "tied"
+geometry = { height = 3, thickness = 0.3 }
+tie = { tie_height = 2.6, tie_stiffness = 2e6, tie_strength = 1e3, tie_ultimate = 0.01 }
+"""
+
+
+def test_fragilities_by_state_are_those_of_the_records_that_lead_to_it(wall, tmp_path):
+    random = np.random.default_rng(7)
+    for name in range(28):
+        time = np.arange(0.0, 10.0, 0.01)
+        noise = np.convolve(random.standard_normal(time.size), np.hanning(25), "same")
+        samples = noise / np.abs(noise).max() * np.sin(np.pi * time / 10) * (0.6 + 0.07 * (name % 14))
+        table = "\n".join(f"{t!r},{a!r}" for t, a in zip(time.tolist(), samples.tolist()))
+        (tmp_path / f"{name}.csv").write_text(f"t,a\n{table}\n", encoding="utf-8")
+    shocks = [[f"{name}.csv", f"{name + 14}.csv"] for name in range(14)]
+    study, results = tmp_path / "study.toml", tmp_path / "results"
+    study.write_text(SEQUENCES.replace("SHOCKS", str(shocks)), encoding="utf-8")
+    subprocess.run([wall, "study", "ida", study, "-o", results], check=True, capture_output=True)
+    levels, compared = rows(results / "levels.csv"), 0
+    collapses = rows(results / "collapses.csv")
+    for row in rows(results / "given.csv"):
+        states = {"any": lambda d, broken: True, "tie broken": lambda d, broken: broken}
+        states |= {"d <= 0.1": lambda d, broken: d <= 0.1 and not broken}
+        states |= {f"d > {fraction}": lambda d, broken, f=fraction: d > f for fraction in (0.1, 0.3)}
+        of_model = [one for one in collapses if one["model"] == row["model"]]
+        chosen = {
+            one["record"]
+            for one in of_model
+            if states[row["given"]](float(one["u_max_over_u_ins_before"]), one["tie_broken_before"] == "true")
+        }
+        assert int(row["records"]) == len(chosen)
+        if not row["theta_g"] or len(chosen) < 3:
+            continue
+        runs = [one for one in levels if one["model"] == row["model"] and one["record"] in chosen]
+        theta, beta = of_records(runs, float(row["u_max_over_u_ins"]))
+        assert theta == pytest.approx(float(row["theta_g"]), rel=1e-6)
+        assert beta == pytest.approx(float(row["beta"]), rel=1e-6)
+        compared += 1
+    assert compared >= 12

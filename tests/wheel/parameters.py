@@ -106,6 +106,7 @@ OPTIONS_OF_STUDY = (
     "models",
     "reliability",
     "report",
+    "sequence",
     "uncertain",
 )
 """Keys of a study that are typed."""
@@ -142,7 +143,8 @@ class Options:
             if all(each == tables[0] and each.get("type") == "object" for each in tables):
                 return f"Mapping[str, {self.table(INLINE[key], tables[0])}]"
             return self.table(INLINE[key], value)
-        return KINDS[value["type"]]
+        types = [value["type"]] if isinstance(value["type"], str) else value["type"]
+        return " | ".join(KINDS[each] for each in types)
 
     def table(self, name: str, table: dict[str, Any]) -> str:
         """Writes a class, if it is not yet there, and returns its name."""

@@ -63,6 +63,17 @@ impl GroundMotion {
     }
 }
 
+impl GroundMotion {
+    /// Splits off the last shock of a sequence, with the sample before it, which both parts have. `None` of a
+    /// single record, and where that sample is not zero.
+    pub fn split_last(&self) -> Option<[Self; 2]> {
+        let start = self.shocks().last()?.start.checked_sub(1)?;
+        let part = |samples: &[f64]| Self::new(self.step(), samples.to_vec()).ok();
+        let parts = [part(&self.samples()[..=start])?, part(&self.samples()[start..])?];
+        (self.samples()[start] == 0.0).then_some(parts)
+    }
+}
+
 /// Returns the longest step that divides those of all shocks.
 fn common_step(shocks: &[GroundMotion]) -> Result<f64, GroundMotionError> {
     let shortest = shocks.iter().map(GroundMotion::step).fold(f64::INFINITY, f64::min);

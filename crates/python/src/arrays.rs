@@ -11,8 +11,8 @@ use run::records::NamedRecord;
 
 use crate::errors::of_motion;
 
-/// A motion, which Python has as the time between samples \[s\], the samples \[m/s²\], and the first samples of
-/// the shocks of a sequence after the first one.
+/// A motion, which Python has as the time between samples \[s\], the samples \[m/s²\], and the first samples
+/// of the shocks of a sequence after the first one.
 pub(crate) struct Motion(pub(crate) GroundMotion);
 
 impl<'py> FromPyObject<'_, 'py> for Motion {

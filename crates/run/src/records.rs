@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use files::{FileError, Place, tables};
 use ground_motion::{
-    Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, escapes, is_listed, read,
+    DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, escapes,
+    is_listed, read,
 };
-use rocking_wall::scene::SceneError;
+use rocking_wall::scene::{LONGEST_TAIL, RecordProblem, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
 /// Most synthetic records of a study.
@@ -29,6 +30,10 @@ pub struct RecordsEntry {
     pub files: Vec<(String, usize)>,
     /// Options for reading them.
     pub options: RecordOptions,
+    /// Sequences of records after them, each with its line.
+    pub sequences: Vec<(Shocks, usize)>,
+    /// Time between the records of a sequence \[s\].
+    pub pause: f64,
     /// Synthetic records after them.
     pub synthetic: Vec<SyntheticMotion>,
 }
@@ -40,6 +45,13 @@ tables! {
         /// Files, folders and patterns with * and ?, relative to the study file.
         #[serde(default)]
         files: Vec<Spanned<String>>,
+        /// Sequences of records that follow each other, such as a main shock and an aftershock: each a list
+        /// of files, or of tables with options of their own.
+        #[serde(default)]
+        sequences: Vec<Spanned<Shocks>>,
+        /// Time between the records of a sequence \[s\].
+        #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_PAUSE)]
+        pause: Option<Spanned<f64>>,
         /// Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
         unit: Option<Unit>,
         /// Time between samples \[s\], likewise.
@@ -75,9 +87,22 @@ tables! {
 /// [`FileError`] with file, line, value and remedy.
 pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, FileError> {
     let spec = table.get_ref();
-    if spec.files.is_empty() && spec.synthetic.is_none() {
-        return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));
+    if spec.files.is_empty() && spec.sequences.is_empty() && spec.synthetic.is_none() {
+        let message =
+            "[records] needs files = [...], sequences = [[...], ...] or synthetic = { count = ... }";
+        return Err(place.error(table.span(), message));
     }
+    if let Some(single) = spec.sequences.iter().find(|shocks| shocks.get_ref().len() < 2) {
+        let message = "sequences: a sequence is a list of at least two records; put a single one in files";
+        return Err(place.error(single.span(), message));
+    }
+    if let (Some(pause), []) = (&spec.pause, &spec.sequences[..]) {
+        let message = "pause is the time between the records of sequences = [[...], ...]; leave it out";
+        return Err(place.error(pause.span(), message));
+    }
+    let sequences =
+        spec.sequences.iter().map(|one| (one.get_ref().clone(), place.line(one.span()))).collect();
+    let pause = spec.pause.as_ref().map_or(DEFAULT_PAUSE, |pause| *pause.get_ref());
     let RecordsTable { unit, step, format, .. } = *spec;
     let (column, channel) = (spec.column.clone(), spec.channel.clone());
     let options = RecordOptions { unit, step, column, channel, format };
@@ -94,7 +119,7 @@ pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<Recor
             ..default
         }));
     }
-    Ok(RecordsEntry { files, options, synthetic })
+    Ok(RecordsEntry { files, options, sequences, pause, synthetic })
 }
 
 /// A record file of a study.
@@ -129,13 +154,41 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
     Ok(listed)
 }
 
-/// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
+impl RecordsEntry {
+    /// Returns the files of the sequences.
+    pub fn sequence_files(&self, folder: &Path) -> Vec<PathBuf> {
+        let records = self.sequences.iter().flat_map(|(shocks, _)| shocks.iter());
+        records.map(|record| folder.join(&record.record)).collect()
+    }
+
+    /// Reads a sequence.
+    fn sequence(
+        &self,
+        shocks: &Shocks,
+        folder: &Path,
+        warnings: &mut Vec<String>,
+    ) -> Result<NamedRecord, RecordProblem> {
+        let mut motions = Vec::with_capacity(shocks.len());
+        for table in shocks.iter() {
+            let record = table.read(&self.options, None, folder)?;
+            let path = folder.join(&table.record);
+            warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
+            motions.push(table.scaled(record.motion)?);
+        }
+        let names: Vec<_> = shocks.iter().map(RecordTable::name).collect();
+        Ok(NamedRecord { name: names.join(" + "), motion: GroundMotion::sequence(&motions, self.pause)? })
+    }
+}
+
+/// Reads the records of a study, in `folder`. Vertical ones of a folder or a pattern are left out, with a
+/// warning.
 ///
 /// # Errors
 /// [`SceneError`] of a record that cannot be read, or if all are vertical.
 pub fn all_records(
     entry: &RecordsEntry,
     files: &[RecordFile],
+    folder: &Path,
     study: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedRecord>, SceneError> {
@@ -160,6 +213,10 @@ pub fn all_records(
         // files with equal names go by their whole paths
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
         records.push(NamedRecord { name, motion });
+    }
+    for (shocks, line) in &entry.sequences {
+        let refused = |problem: RecordProblem| FileError::on_line(study, *line, problem.to_string());
+        records.push(entry.sequence(shocks, folder, warnings).map_err(refused)?);
     }
     if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
         let reason = "records: all are vertical, and records shake walls sideways; name horizontal ones";

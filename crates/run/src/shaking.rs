@@ -8,8 +8,8 @@ use ground_motion::GroundMotion;
 use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
 use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::SolverError;
-use rocking_wall::wall::{Body, Support};
+use rocking_wall::solver::{SolverError, State};
+use rocking_wall::wall::{Body, Support, Wall};
 
 use crate::free_motion::peak_is_final;
 
@@ -56,13 +56,33 @@ pub struct Shaking<'a> {
     blocks: OnceLock<Blocks<'a>>,
     record: &'a GroundMotion,
     tail: f64,
+    /// The state from which its runs go on, instead of a start.
+    before: Option<State>,
 }
 
 impl<'a> Shaking<'a> {
     /// Prepares the runs of a wall through a record and, for `tail` \[s\] after it, in free vibration. The
     /// steps of `solver` are those of the record.
     pub fn new(solver: &'a RecordSolver<'a>, record: &'a GroundMotion, tail: f64) -> Self {
-        Self { solver, blocks: OnceLock::new(), record, tail }
+        Self { solver, blocks: OnceLock::new(), record, tail, before: None }
+    }
+
+    /// Returns the wall under another record of the same step, without free vibration.
+    pub fn under<'r>(&self, record: &'r GroundMotion) -> Shaking<'r>
+    where
+        'a: 'r,
+    {
+        Shaking::new(self.solver, record, 0.0)
+    }
+
+    /// Lets its runs go on from a state, such as the one that a motion before has left.
+    pub fn go_on_from(&mut self, state: State) {
+        self.before = Some(state);
+    }
+
+    /// Returns the wall.
+    pub fn wall(&self) -> &Wall {
+        self.solver.motion().wall()
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of
@@ -88,7 +108,8 @@ impl<'a> Shaking<'a> {
     fn start(&self, [u, v]: [f64; 2], factor: f64) -> RunStart {
         // p = −λ a_g
         let factor = factor * self.solver.motion().wall().body().forcing(Support::rigid(1.0));
-        RunStart { state: self.solver.motion().start_under(u, v, factor * self.record.samples()[0]), factor }
+        let upright = || self.solver.motion().start_under(u, v, factor * self.record.samples()[0]);
+        RunStart { state: self.before.unwrap_or_else(upright), factor }
     }
 
     /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
@@ -120,7 +141,7 @@ impl<'a> Shaking<'a> {
 pub struct Shaken<'s, 'a> {
     /// The wall and the record.
     pub shaking: &'s Shaking<'a>,
-    /// u \[m\] and u̇ \[m/s\] at the start of the record.
+    /// u \[m\] and u̇ \[m/s\] at the start of the record, of a wall that does not go on from a state.
     pub start: [f64; 2],
     /// Factor on the record \[-\].
     pub factor: f64,

@@ -74,8 +74,9 @@ impl LoadedStudy {
             all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
         let paths = record_files(&file.records, folder, &name)?;
-        let records = all_records(&file.records, &paths, &name, &mut warnings)?;
+        let records = all_records(&file.records, &paths, folder, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
+        inputs.extend(file.records.sequence_files(folder));
         warnings.extend(open_hazard(&mut file, folder, &mut inputs)?);
         let compare = file.compare.take();
         let study = Self::assemble(&name, text, file, all, records)?;
@@ -182,9 +183,9 @@ impl LoadedStudy {
         };
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(file.tail))
-            .map_err(|error| in_file(error.to_string()))?
-            .with_collapse(file.collapse)
-            .with_polarity(file.polarity);
+            .map(|study| study.with_collapse(file.collapse).with_polarity(file.polarity))
+            .and_then(|study| study.with_scaled(file.scaled))
+            .map_err(|error| in_file(error.to_string()))?;
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         warnings.extend(alike(&study));
         let given = study.given_records();

@@ -327,8 +327,9 @@ impl<'a> CheckFile<'a> {
         if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
             let entry = records(table, self.file.place())?;
             let found = record_files(&entry, &self.folder, self.name())?;
-            named = all_records(&entry, &found, self.name(), &mut warnings)?;
+            named = all_records(&entry, &found, &self.folder, self.name(), &mut warnings)?;
             files = found.into_iter().map(|file| file.path).collect();
+            files.extend(entry.sequence_files(&self.folder));
         }
         warnings.extend(copies(&named));
         let warnings = warnings.into_iter().map(Sentence::same).collect();

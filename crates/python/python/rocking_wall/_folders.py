@@ -69,6 +69,8 @@ class StudyResults(Tabular):
     """The intensity measures that the study compares, of every wall and damping model, then of all walls: σ
     of ln θ at collapse, the regression ln D = a + b ln IM with its σ, and p-values of the slopes of residuals
     over duration, magnitude and distance. None without `compare` in `intensity`."""
+    given: Table | None
+    """Fragilities of the last shock by the state of the wall before it; None without given in sequence."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -212,6 +214,7 @@ TABLES = (
     "sensitivity",
     "cloud",
     "measures",
+    "given",
     "ties",
 )
 """Tables that only some studies have."""

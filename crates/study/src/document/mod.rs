@@ -21,6 +21,7 @@ mod hazard;
 mod levels;
 mod model;
 mod report;
+mod sequence;
 mod uncertain;
 
 use files::{Schema, TomlFile, file_schema, names, tables, with};
@@ -32,7 +33,7 @@ use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
 use crate::codes::Codes;
-use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity};
+use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity, Scaled};
 use crate::uncertain::Uncertain;
 
 use compare::compare;
@@ -40,6 +41,7 @@ use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, TARGET, report};
+use sequence::{SequencesTable, sequence};
 use uncertain::{UncertainTable, uncertain};
 
 pub use compare::CompareEntry;
@@ -71,6 +73,8 @@ pub struct StudyFile {
     pub collapse: Collapse,
     /// The signs with which records are run.
     pub polarity: Polarity,
+    /// What the levels scale of records that are sequences.
+    pub scaled: Scaled,
     /// Options of the report, without the hazard.
     pub report: ReportOptions,
     /// Probability of a fall for which a study of reliability seeks the numbers of a code \[-\].
@@ -106,6 +110,8 @@ tables! {
         levels: Spanned<LevelsTable>,
         /// Records from files, and synthetic ones after them.
         records: Option<Spanned<RecordsTable>>,
+        /// Sequences of records: what the levels scale, and fragilities by the state of the walls.
+        sequence: Option<Spanned<SequencesTable>>,
         /// What the results show.
         report: Option<Spanned<ReportTable>>,
         /// What a study of reliability asks.
@@ -173,6 +179,9 @@ impl StudyFile {
                            such as \"hunt\"";
             return Err(place.error(word.span(), message).into());
         }
+        let (scaled, given) = sequence(document.sequence.as_ref(), &levels, place)?;
+        let mut report = report(document.report.as_ref(), &document.classes, &models, &levels, place)?;
+        report.given = given;
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -189,7 +198,8 @@ impl StudyFile {
             polarity: document.polarity.unwrap_or_default(),
             hazard: document.hazard.as_ref().map(|table| hazard(table, &measure, place)).transpose()?,
             uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
-            report: report(document.report.as_ref(), &document.classes, &models, &levels, place)?,
+            scaled,
+            report,
             target: document.reliability.and_then(|table| table.probability).unwrap_or(TARGET),
             levels,
             models,

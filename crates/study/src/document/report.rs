@@ -55,6 +55,9 @@ pub struct ReportOptions {
     /// The records in the measures that the study compares.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compared: Option<Compared>,
+    /// Fractions of `u_ins` that |u| has exceeded before the last shock, for fragilities of that shock.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<f64>,
 }
 
 /// A class of walls that risk engines see as one.
@@ -226,6 +229,7 @@ pub(super) fn report(
         loss_ratios: spec.loss_ratios.as_ref().map(|ratios| ratios.get_ref().clone()),
         samples: None,
         compared: None,
+        given: Vec::new(),
     })
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Levels, Polarity, Study};
+use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Levels, Polarity, Scaled, Study};
 use crate::results::Fitting;
 use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
@@ -36,6 +36,9 @@ pub struct Contents {
     /// The signs with which records are run.
     #[serde(default)]
     pub(crate) polarity: Polarity,
+    /// Whether the levels scale the last shock of each record alone.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) scales_last: bool,
     /// Combinations of each part; the last part may have fewer.
     pub part_size: usize,
     /// Damping models.
@@ -78,6 +81,9 @@ pub struct RecordNote {
     pub name: String,
     /// Fingerprint of the samples.
     pub fingerprint: String,
+    /// First samples of the shocks of a sequence after the first one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub later: Vec<usize>,
     /// Number of samples.
     pub points: usize,
     /// Step \[s\].
@@ -150,10 +156,16 @@ impl Contents {
             RecordNote {
                 name: record.name.clone(),
                 fingerprint: fingerprint(&bytes),
+                later: record.motion.shocks()[1..].iter().map(|shock| shock.start).collect(),
                 points: samples.len(),
                 step_s: record.motion.step(),
                 intensity: study.intensity(index),
-                ratios: study.measure().ratios(&record.motion).ok().flatten().unwrap_or_default(),
+                ratios: study
+                    .measure()
+                    .ratios(&study.scaled_motion(index))
+                    .ok()
+                    .flatten()
+                    .unwrap_or_default(),
             }
         });
         Self {
@@ -172,6 +184,7 @@ impl Contents {
             tail_s: study.tail(),
             collapse_is: study.collapse(),
             polarity: study.polarity(),
+            scales_last: study.scaled() == Scaled::Last,
             part_size: study.part_size(),
             walls: walls.collect(),
             models: models
@@ -230,7 +243,8 @@ impl Contents {
         let Self { program, sources, measure, measure_details, levels, grid, collapse_is, .. } = self;
         let how = (self.tail_s, collapse_is, self.polarity, self.part_size);
         let runs = (program, sources, measure, measure_details, levels, grid, how);
-        format!("{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
+        let scaled = if self.scales_last { "last shock\n" } else { "" };
+        format!("{scaled}{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
     }
 
     /// Describes the first line in which two contents differ.

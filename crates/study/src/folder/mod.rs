@@ -13,6 +13,7 @@
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `tables` | the rows of the tables of all studies |
+//! | `given` | fragilities of the last shock of sequences, by what was before |
 //! | `store` | the folder on disk |
 //! | `compute` | computes the parts that are not on disk yet |
 //! | `merge` | takes together the parts of several folders |
@@ -38,6 +39,7 @@ mod compute;
 mod contents;
 mod curves;
 mod error;
+mod given;
 mod legend;
 mod losses;
 mod measures;

@@ -207,6 +207,7 @@ mod tests {
             loss_ratios: None,
             samples: None,
             compared: None,
+            given: Vec::new(),
         };
         assert_eq!(report.rising(), [1, 0, 2]);
         let names = report.rising().into_iter().map(|place| state_name(report.fractions[place]));

@@ -14,6 +14,7 @@ use super::comparison::Comparison;
 use super::contents::Manifest;
 use super::curves::each_wall;
 use super::error::FolderError;
+use super::given::GIVEN;
 use super::legend;
 use super::measures::Measures;
 use super::page;
@@ -102,11 +103,19 @@ impl<'a> Output<'a> {
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
         let cloud = folder.contents().is_cloud.then_some(&CLOUD);
+        let given = (!folder.manifest().report.given.is_empty()).then_some(&GIVEN);
         let kinds = if folder.contents().count() <= MOST_LISTED { &KINDS[..] } else { &KINDS[2..] };
         Ok(Self {
             folder,
             runs,
-            tables: kinds.iter().chain(ties).chain(cloud).copied().map(begun).collect::<Result<_, _>>()?,
+            tables: kinds
+                .iter()
+                .chain(ties)
+                .chain(cloud)
+                .chain(given)
+                .copied()
+                .map(begun)
+                .collect::<Result<_, _>>()?,
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.manifest()),
             measures: Measures::new(folder.manifest()),
@@ -142,8 +151,12 @@ impl<'a> Output<'a> {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
             let has_tie = manifest.contents.walls[wall].has_yielding_tie;
             let regression = "Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM";
-            let tables =
-                [(manifest.contents.is_cloud, regression, CLOUD), (has_tie, "Ties, up to overturning", TIES)];
+            let before = "Fragilities of the last shock, given the largest |u|/u<sub>ins</sub> d before it";
+            let tables = [
+                (manifest.contents.is_cloud, regression, CLOUD),
+                (has_tie, "Ties, up to overturning", TIES),
+                (!manifest.report.given.is_empty(), before, GIVEN),
+            ];
             for (_, title, (_, table)) in tables.into_iter().filter(|(is_there, ..)| *is_there) {
                 let table = table(manifest, wall, results).html();
                 let _ = writeln!(self.sections, "<section><h3>{title}</h3>{table}</section>");

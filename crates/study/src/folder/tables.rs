@@ -148,7 +148,7 @@ pub(crate) fn collapses(manifest: &Manifest, wall: usize, curves: &[Curve]) -> T
         [_, f64::INFINITY] => None,
         [_, level] => Some(manifest.contents.unit.of(level)),
     };
-    contents
+    let mut table = contents
         .with_curves(wall, curves.iter().enumerate(), |(index, _)| *index)
         .value(manifest.contents.in_unit("collapse"), |(_, curve)| collapse(curve))
         .value(manifest.contents.in_unit("standing_below"), |(_, curve)| {
@@ -164,8 +164,13 @@ pub(crate) fn collapses(manifest: &Manifest, wall: usize, curves: &[Curve]) -> T
         // its error is up to 15 %
         .value("sensitivity", |(_, curve)| {
             curve.sensitivity().map(|s| format!("{s:.1e}").parse().unwrap_or(s))
-        })
-        .done()
+        });
+    if contents.scales_last {
+        table = table
+            .value("u_max_over_u_ins_before", |(_, curve)| curve.before().map(|before| before.demand))
+            .value("tie_broken_before", |(_, curve)| curve.before().map(|before| before.broken));
+    }
+    table.done()
 }
 
 /// The fragility of every model and limit state.
@@ -242,7 +247,7 @@ fn with_interval<'a>(
 
 impl Contents {
     /// Returns the name of a column of intensities, which ends with their unit.
-    fn in_unit(&self, name: &str) -> String {
+    pub(super) fn in_unit(&self, name: &str) -> String {
         format!("{name}{}", self.unit.ending())
     }
 

@@ -72,7 +72,9 @@ impl TieDemand {
         for (tie, sign) in yielding().flat_map(|tie| [(tie, 1.0), (tie, -1.0)]) {
             let limits = [tie.strength_displacement(), tie.fracture_displacement()];
             let ([Some(yields), Some(breaks)], true) = (limits, tie.holds(sign)) else { continue };
-            let reach = state.peaks.of(sign).min(wall.body().instability.of(sign));
+            // a sequence may have stretched it before the shock whose peaks these are
+            let reach =
+                state.peaks.of(sign).max(state.tie.yielded.of(sign)).min(wall.body().instability.of(sign));
             let force =
                 if reach < yields { tie.force(sign * reach) } else { tie.strength.unwrap_or_default() };
             demand.force = demand.force.max(force);
@@ -81,6 +83,15 @@ impl TieDemand {
         }
         Some(demand)
     }
+}
+
+/// A wall before the last shock of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Before {
+    /// Largest |u|/`u_ins` in the shocks before \[-\].
+    pub demand: f64,
+    /// A tie has broken.
+    pub broken: bool,
 }
 
 /// Intensity at which the demand exceeds a limit state.
@@ -174,6 +185,8 @@ pub struct Curve {
     runs: Vec<Run>,
     /// Number of runs below the collapse.
     below_collapse: usize,
+    /// The wall before the last shock, where that alone is scaled.
+    before: Option<Before>,
 }
 
 impl Curve {
@@ -181,7 +194,17 @@ impl Curve {
     pub fn new(mut runs: Vec<Run>) -> Self {
         runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
         let below_collapse = runs.iter().position(|run| run.overturning.is_some()).unwrap_or(runs.len());
-        Self { runs, below_collapse }
+        Self { runs, below_collapse, before: None }
+    }
+
+    /// Adds what the wall was before the last shock.
+    pub(crate) fn with_before(self, before: Option<Before>) -> Self {
+        Self { before, ..self }
+    }
+
+    /// Returns the wall before the last shock of a sequence, where that alone is scaled.
+    pub fn before(&self) -> Option<Before> {
+        self.before
     }
 
     /// Returns the runs in the order of their levels.

@@ -30,6 +30,7 @@ mod levels;
 mod measure;
 mod parts;
 mod polarity;
+mod sequence;
 mod unit;
 
 use std::borrow::Cow;
@@ -44,11 +45,12 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
 
-pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
+pub use curve::{Before, Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::{IntensityMeasure, Misfit, ToSi};
 pub use polarity::Polarity;
+pub use sequence::Scaled;
 pub use unit::IntensityUnit;
 
 /// Most combinations of a study whose runs and collapses are written as CSV too, with the sensitivity of each
@@ -69,7 +71,8 @@ pub struct Study {
     tail: f64,
     collapse: Collapse,
     polarity: Polarity,
-    /// Intensity of each unscaled record, in SI units.
+    scaled: Scaled,
+    /// Intensity of what the levels scale of each record, unscaled, in SI units.
     intensities: Vec<f64>,
 }
 
@@ -105,19 +108,11 @@ impl Study {
         for wall in &walls {
             models.iter().try_for_each(|model| motion(wall, model).map(drop))?;
         }
-        let intensity = |record: &NamedRecord| {
-            let name = || record.name.clone();
-            match measure.of(&record.motion) {
-                Ok(intensity) if intensity > 0.0 && intensity.is_finite() => Ok(intensity),
-                Ok(intensity) => {
-                    Err(IdaError::Unscalable { record: name(), intensity: measure.unit().shown(intensity) })
-                }
-                Err(source) => Err(IdaError::Record { record: name(), source: Box::new(source) }),
-            }
-        };
-        let intensities = records.iter().map(intensity).collect::<Result<_, _>>()?;
+        let of = |record: &NamedRecord| intensity(&measure, &record.name, &record.motion);
+        let intensities = records.iter().map(of).collect::<Result<_, _>>()?;
         let (tail, collapse, polarity) = (DEFAULT_TAIL, Collapse::Exceeds, Polarity::AsRecorded);
-        Ok(Self { walls, records, models, measure, levels, tail, collapse, polarity, intensities })
+        let scaled = Scaled::All;
+        Ok(Self { walls, records, models, measure, levels, tail, collapse, polarity, scaled, intensities })
     }
 
     /// Sets the free vibration after each record \[s\].
@@ -194,7 +189,12 @@ impl Study {
         self.collapse
     }
 
-    /// Returns the intensity of an unscaled record, in the SI unit of the measure.
+    /// Returns what the levels scale of records that are sequences.
+    pub fn scaled(&self) -> Scaled {
+        self.scaled
+    }
+
+    /// Returns the intensity of what the levels scale of a record, unscaled, in the SI unit of the measure.
     pub fn intensity(&self, record: usize) -> f64 {
         self.intensities[record]
     }
@@ -202,12 +202,11 @@ impl Study {
     /// Warns about accelerations that no record has. They are those of the strongest record at the highest
     /// level, or at the lowest one where levels go on to overturning.
     pub fn warning(&self) -> Option<Warning> {
-        let peaks = self.records.iter().enumerate();
-        let peak = |(index, record): (usize, &NamedRecord)| {
+        let peak = |index: usize| {
             let level = self.levels.certain(self.own_level(index));
-            record.motion.peak() * self.measure.factor(level / self.intensities[index])
+            self.scaled_motion(index).peak() * self.measure.factor(level / self.intensities[index])
         };
-        let peaks = peaks.map(peak);
+        let peaks = (0..self.records.len()).map(peak);
         peaks.max_by(f64::total_cmp).and_then(Warning::of_peak)
     }
 
@@ -277,7 +276,7 @@ impl Study {
         let (wall, record) = (&self.walls[case.wall], &self.records[case.record]);
         // only on floors the body counts
         if wall.floors.is_none() {
-            return Ok(Cow::Borrowed(&record.motion));
+            return Ok(self.scaled_motion(case.record));
         }
         let of_model = self.wall(case.wall, case.model);
         let motion = felt(wall.floors.as_ref(), of_model.body(), &record.motion, self.tail);
@@ -311,6 +310,18 @@ impl Study {
     /// Returns whether a run is the worse of those with both signs of the record.
     fn takes_the_worse(&self, motion: &Motion) -> bool {
         self.polarity == Polarity::Worst && !motion.wall().has_equal_sides()
+    }
+}
+
+/// Computes the intensity of a record of a name.
+fn intensity(measure: &IntensityMeasure, record: &str, motion: &GroundMotion) -> Result<f64, IdaError> {
+    let record = || record.to_owned();
+    match measure.of(motion) {
+        Ok(intensity) if intensity > 0.0 && intensity.is_finite() => Ok(intensity),
+        Ok(intensity) => {
+            Err(IdaError::Unscalable { record: record(), intensity: measure.unit().shown(intensity) })
+        }
+        Err(source) => Err(IdaError::Record { record: record(), source: Box::new(source) }),
     }
 }
 

@@ -183,7 +183,7 @@ impl ComparedMeasure {
         let exponent = 0.5 * libm::log2(measure.ratio(study.measure().factor(4.0)));
         let at_one = study.records().iter().enumerate().map(|(place, record)| {
             let own = libm::pow(study.intensity(place), exponent);
-            match measure.of(&record.motion) {
+            match measure.of(&study.scaled_motion(place)) {
                 Ok(found) if found > 0.0 && found.is_finite() => Ok(found / own),
                 Ok(found) => Err(format!(
                     "record {:?} has a {name} of {found}, and no logarithm of it; leave out the record, or \

@@ -20,6 +20,7 @@ mod polarity;
 mod record_files;
 mod rocking_spectrum;
 mod sensitivity;
+mod sequences;
 mod storeys;
 mod ties;
 mod uncertain;
