@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 use super::before::Before;
 use super::row::Row;
 use crate::error::CheckError;
-use crate::sections::inputs::{overview, the_wall};
+use crate::sections::drawing;
+use crate::sections::inputs::{of_wall, overview};
 use crate::sections::origin::{Figure, Origin};
 use crate::words::entry::Entry;
 use crate::words::ledger::Ledger;
@@ -105,7 +106,9 @@ pub trait Details {
     /// Those of [`figure`](Self::figure).
     fn sections(&self, origin: &Origin<'_>) -> Result<Vec<Section>, CheckError> {
         let language = origin.report.language;
-        let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
+        let (wall, parameters) = (self.wall(), self.parameters());
+        let drawn = drawing::figure(wall, parameters, language);
+        let wall = drawn + &of_wall(wall, parameters, origin, &|_, _| true);
         let ledgers = self.ledgers();
         let head = |side| if ledgers.len() > 1 { side_head(side, None, language) } else { String::new() };
         let numbers = ledgers.iter().map(|(side, ledger)| head(*side) + &ledger.markup("", language));

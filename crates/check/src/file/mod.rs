@@ -6,7 +6,7 @@ pub(crate) mod site;
 use std::path::{Path, PathBuf};
 
 use files::{Described, Fault, FileError, TomlFile, overlay, read_text};
-use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::scene::{OF_BODY, Scene, SceneError};
 use rocking_wall::wall::OF_RECTANGLE;
 use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
 use run::walls::{NamedWall, assumed, read_walls};
@@ -259,11 +259,11 @@ impl<'a> CheckFile<'a> {
         assumed(|group, name| self.states(&[group, name]) || self.body_states(name) || is_set(name))
     }
 
-    /// Returns whether the body of the scene states a parameter of a rectangle: its shape, and its density
-    /// where every part states it.
+    /// Returns whether the body of the scene states a parameter: its integrals, or of a rectangle its shape,
+    /// and its density where every part states it.
     pub(crate) fn body_states(&self, name: &str) -> bool {
         if !OF_RECTANGLE.contains(&name) {
-            return false;
+            return OF_BODY.contains(&name) && self.states(&["geometry", "body"]);
         }
         match self.file.get(&["geometry", "part"]).map(Spanned::get_ref) {
             Some(DeValue::Array(parts)) if name == "density" => {

@@ -1,11 +1,10 @@
-//! The wall of a report: its drawing, and its parameters with where they come from.
+//! The parameters of the wall of a report, with where they come from.
 
 use ::report::escaped;
 use rocking_wall::scene::{GROUPS, parameter_text, variable};
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::{Bar, BarNumber, Damping, Parameters, Wall, is_computable, usage};
 
-use super::drawing;
 use super::origin::Origin;
 use crate::words::formulas::formula;
 use crate::words::ledger::Unit;
@@ -54,8 +53,8 @@ struct Shown {
     from: Sentence,
 }
 
-/// The wall to scale, and its parameters that matter to the check: of these groups and names.
-pub(crate) fn the_wall(
+/// The parameters of the wall that matter to the check: of these groups and names.
+pub(crate) fn of_wall(
     wall: &Wall,
     parameters: &Parameters,
     origin: &Origin<'_>,
@@ -65,8 +64,7 @@ pub(crate) fn the_wall(
     let all = all(wall, parameters, origin, is_used).into_iter();
     let rows: Vec<_> = all.map(|one| [one.what, one.value, one.from.markup(language)]).collect();
     let parts = [say!("parameter", "parametro"), say!("value", "valore"), say!("from", "provenienza")];
-    let rows = table(&heads(parts, language), &rows);
-    format!("{}<div class=\"from\">{rows}</div>", drawing::figure(wall, parameters, language))
+    format!("<div class=\"from\">{}</div>", table(&heads(parts, language), &rows))
 }
 
 /// The keys by which a file states the parameters of the wall: what each is, its key, and its origin.
@@ -158,6 +156,7 @@ fn unit_for_people(unit: &'static str) -> Unit {
         "N/m" => Unit::KILONEWTONS_PER_METRE,
         "Pa" => Unit::MEGAPASCALS,
         "m/s2" => Unit::ACCELERATION,
+        "kg.m2" => Unit { name: "kg m²", factor: 1.0 },
         "kg/m3" => Unit { name: "kg/m³", factor: 1.0 },
         "1" => Unit::NONE,
         name => Unit { name, factor: 1.0 },

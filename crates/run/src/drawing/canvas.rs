@@ -59,8 +59,12 @@ impl Canvas {
         // a white edge keeps it apart from lines behind it
         let edge = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
         let place = format!("x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\"");
-        let text = if self.words.has_commas { with_commas(text) } else { text.to_owned() };
-        let _ = writeln!(self.svg, "<text {place} {edge}>{}</text>", escaped(&text));
+        let _ = writeln!(self.svg, "<text {place} {edge}>{}</text>", self.written(text));
+    }
+
+    /// A text as markup, its numbers as the words have them.
+    fn written(&self, text: &str) -> String {
+        escaped(&if self.words.has_commas { with_commas(text) } else { text.to_owned() })
     }
 
     /// An arrow whose tip is at a place, from `[dx, dy]` away, along an axis.
@@ -96,8 +100,8 @@ impl Canvas {
         self.line([x, y0], [x, y1], INK);
         self.strokes([[x, y0], [x, y1]]);
         let place = format!("translate({:.1} {:.1}) rotate(-90)", x + 15.0, 0.5 * (y0 + y1));
-        let _ =
-            writeln!(self.svg, "<text transform=\"{place}\" text-anchor=\"middle\">{}</text>", escaped(text));
+        let text = self.written(text);
+        let _ = writeln!(self.svg, "<text transform=\"{place}\" text-anchor=\"middle\">{text}</text>");
     }
 
     fn strokes(&mut self, ends: [[f64; 2]; 2]) {

@@ -89,23 +89,29 @@ impl Section<'_> {
         if self.shape.hinge.is_some() {
             self.canvas.rect([AXIS - SUPPORT, AXIS + SUPPORT], [top - 9.0, top], STONE);
         }
-        let [left, right] = self.sides();
+        // as far as the thinnest place of the wall, which is drawn on it
+        let [outer, inner] = self.shape.thinnest().map(|x| self.x(x));
         match wall.free_side() {
-            Some(side) if side > 0.0 => self.canvas.rect([AXIS - SUPPORT, left], [top, foot], STONE),
-            Some(_) => self.canvas.rect([right, AXIS + SUPPORT], [top, foot], STONE),
+            Some(side) if side > 0.0 => self.canvas.rect([AXIS - SUPPORT, inner], [top, foot], STONE),
+            Some(_) => self.canvas.rect([outer, AXIS + SUPPORT], [top, foot], STONE),
             None => {}
         }
     }
 
     fn parts(&mut self) {
         let few = self.shape.parts.len() <= MOST_LABELS;
+        let mut density = 0.0;
         for part in &self.shape.parts {
             let Some(corners) = Shape::corners(part, [part.base, part.top()]) else { continue };
             let corners = corners.map(|corner| self.at(corner));
             self.canvas.polygon(&corners, &super::masonry(part.density));
             if few {
                 let y = self.y(part.base + 0.72 * part.height);
-                self.label(true, y, of_part(part, self.canvas.words.to));
+                let text = of_part(part, self.canvas.words.to);
+                let is_other = part.density != density;
+                density = part.density;
+                let text = if is_other { format!("{text}, {} kg/m³", number(density, 5)) } else { text };
+                self.label(true, y, text);
             }
         }
         if self.shape.parts.is_empty() {
@@ -248,7 +254,7 @@ impl Section<'_> {
         self.canvas.text([AXIS + SUPPORT + 6.0, foot + 8.0], Anchor::Start, self.canvas.words.outside);
         let y = foot + 61.0;
         bar(self.canvas, [12.0, y], self.scale);
-        let x = 250.0;
+        let x = 210.0;
         self.canvas.line(
             [x, y - 3.0],
             [x + 34.0, y - 3.0],
@@ -260,10 +266,16 @@ impl Section<'_> {
     }
 }
 
-/// Thickness and density of a part.
+/// Thickness of a part; of a wedge with its tip below also the angle of its inner face from the vertical.
 fn of_part(part: &Part, to: &str) -> String {
     let [bottom, top] = part.thickness;
-    let thickness =
-        if bottom == top { metres(bottom) } else { format!("{} {to} {}", number(bottom, 4), metres(top)) };
-    format!("{thickness}, {} kg/m³", number(part.density, 5))
+    if bottom == top {
+        return metres(bottom);
+    }
+    let thickness = format!("{} {to} {}", number(bottom, 4), metres(top));
+    if bottom > 0.0 {
+        return thickness;
+    }
+    let angle = ((top + part.outer[1] - part.outer[0]) / part.height).atan().to_degrees();
+    format!("{thickness}, β = {}°", number(angle, 3))
 }

@@ -125,6 +125,14 @@ impl Shape {
         faces.fold(self.toes, |[outer, inner], section| [outer.min(section.outer), inner.max(section.inner)])
     }
 
+    /// Returns the innermost outer face and the outermost inner face of all parts \[m\]; of a body without
+    /// parts the toes.
+    pub fn thinnest(&self) -> [f64; 2] {
+        let faces = self.parts.iter().flat_map(|part| [part.base, part.top()].map(|z| part.section(z)));
+        let faces = faces.map(|section| [section.outer, section.inner]);
+        faces.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]).unwrap_or(self.toes)
+    }
+
     /// Returns the outer and the inner face at a height \[m\]; the axis of a body without parts.
     pub fn faces(&self, z: f64) -> (f64, f64) {
         if let ([], [centroid]) = (&self.parts[..], &self.centroids[..]) {

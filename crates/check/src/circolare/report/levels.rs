@@ -5,8 +5,9 @@ use serde_json::{Map, Value, json};
 use crate::circolare::checks::sides::SideVerdict;
 use crate::circolare::outcome::Checked;
 use crate::circolare::statement::resultants::Resultants;
+use crate::sections::drawing;
 use crate::words::names::Side;
-use crate::words::{Sentence, above, say};
+use crate::words::{Language, Sentence, above, say};
 
 impl Checked<'_> {
     /// The sides that differ of this level.
@@ -48,6 +49,16 @@ impl Checked<'_> {
             }
         }
         warnings
+    }
+
+    /// The bodies above all levels to scale, the lowest first.
+    pub(super) fn drawn(&self, language: Language) -> String {
+        let figure = |level: &Self| {
+            let head = level.stated_level().map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z));
+            let head = head.map_or_else(String::new, |head| format!("<h3>{}</h3>\n", head.markup(language)));
+            head + &drawing::figure(&level.wall, &level.parameters, language)
+        };
+        self.levels().into_iter().map(figure).collect()
     }
 
     /// Which resultants the weights have.

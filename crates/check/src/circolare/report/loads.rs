@@ -1,7 +1,9 @@
 //! The loads of the wall, and its materials with the level of knowledge.
 
+use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Load, Opening, Parameters, Part};
 
+use crate::circolare::curve::level;
 use crate::circolare::outcome::Checked;
 use crate::circolare::statement::table::KnowledgeLevel;
 use crate::words::formulas::formula;
@@ -13,12 +15,22 @@ type Row = [String; 3];
 
 /// The loads: own weight, overburden, parts, openings, loads and thrusts.
 pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
-    let Parameters { height, thickness, width, density, gravity, .. } = case.parameters;
+    let Parameters { height, thickness, width, density, gravity, mechanism, .. } = case.parameters;
     let mut rows = Vec::new();
     if let Some(profile) = &case.parameters.profile {
         rows.extend(profile.parts().iter().map(|part| of_part(part, gravity, language)));
         rows.extend(profile.openings().iter().map(|opening| of_opening(opening, language)));
-        rows.extend(profile.loads().iter().map(|load| of_load(load, language)));
+    } else if mechanism == Mechanism::RigidBody {
+        let mass = case.parameters.body_mass;
+        let how =
+            format!("{} = {} · {} · 10⁻³", formula("m g"), language.stated(mass), language.stated(gravity));
+        rows.push(row(
+            &say!("Own weight `W`", "Peso proprio `W`"),
+            how,
+            1e-3 * mass * gravity,
+            "kN",
+            language,
+        ));
     } else {
         let [h, b, l, rho] = [height, thickness, width, density].map(|value| language.stated(value));
         let weight = 1e-3 * density * gravity * height * thickness * width;
@@ -29,6 +41,7 @@ pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
         );
         rows.push(row(&say!("Own weight `W`", "Peso proprio `W`"), how, weight, "kN", language));
     }
+    rows.extend(level::loads(&case.parameters).iter().map(|load| of_load(load, language)));
     let overburden = case.wall.body().overburden;
     if overburden > 0.0 && case.parameters.profile.is_none() {
         let per_metre = 1e-3 * overburden / width;
@@ -103,13 +116,12 @@ fn of_load(load: &Load, language: Language) -> Row {
 pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
     let (table_of_check, parameters) = (&case.statement.table, &case.parameters);
     let stated = || say!("stated", "dichiarato").markup(language);
-    let mut rows = vec![row(
-        &say!("Specific weight of the masonry", "Peso specifico della muratura"),
-        formula("ρ g"),
-        1e-3 * parameters.density * parameters.gravity,
-        "kN/m³",
-        language,
-    )];
+    let mut rows = Vec::new();
+    if parameters.mechanism != Mechanism::RigidBody {
+        let words = say!("Specific weight of the masonry", "Peso specifico della muratura");
+        let weight = 1e-3 * parameters.density * parameters.gravity;
+        rows.push(row(&words, formula("ρ g"), weight, "kN/m³", language));
+    }
     if let Some(strength) = table_of_check.masonry_strength {
         let words = say!("Compressive strength f_m", "Resistenza a compressione f_m");
         rows.push(row(&words, stated(), 1e-6 * strength, "MPa", language));

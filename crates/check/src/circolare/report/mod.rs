@@ -15,12 +15,14 @@ pub(super) mod site;
 pub(super) mod symbols;
 mod ties;
 
+use rocking_wall::wall::COMPUTED;
+
 use super::checks::sides::SideVerdict;
 use super::outcome::Checked;
 use super::statement::table::{Activation, Hinge};
 use crate::code::verdict::Section;
 use crate::error::CheckError;
-use crate::sections::inputs::{keys, the_wall};
+use crate::sections::inputs::{keys, of_wall};
 use crate::sections::origin::Origin;
 use crate::words::ledger::Ledger;
 use crate::words::markup::{as_paragraph, heads, side_head, table};
@@ -89,6 +91,9 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
         // a wall that is rigid or a beam before it rocks has no elastic branch of its law
         let is_left_out = case.parameters.a3 == 1.0 && matches!(name, "force_law" | "a3" | "softening");
         let replaced = (name == "a1" || is_left_out) && !is_dynamic && !is_law;
+        // the loads have their section
+        let is_sum = name.starts_with("load_") || name.starts_with("thrust");
+        let replaced = replaced || is_sum || name == "arm_inner" && case.parameters.arm_inner == COMPUTED;
         // a hinge that is searched has a section of its own
         let replaced =
             replaced || name == "hinge_ratio" && case.rule.is_some_and(|rule| rule != Hinge::Given);
@@ -109,7 +114,10 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
             say!("Loads", "Analisi dei carichi"),
             loads::loads(case, language) + &text(origin.report.loads.as_ref()),
         ),
-        Section::new(say!("The wall", "La parete"), the_wall(&case.wall, &case.parameters, origin, &is_used)),
+        Section::new(
+            say!("The wall", "La parete"),
+            case.drawn(language) + &of_wall(&case.wall, &case.parameters, origin, &is_used),
+        ),
         Section::new(say!("Demand at the wall", "Domanda alla parete"), site::at_wall(case, language)?),
     ];
     let mut add = |heading: Sentence, markup: String| {
