@@ -15,7 +15,9 @@ pub(crate) fn run() -> Result<()> {
     let mut prepare = program("python3");
     prepare.arg("xtask/book/prepare.py").arg(programs.join("wall"));
     succeed(prepare.arg(repository()?).arg(folder.join("src")), "see its message above")?;
-    copy("xtask/book/book.toml", folder.join("book.toml"))?;
+    for name in ["book.toml", "book.css"] {
+        copy(format!("xtask/book/{name}"), folder.join(name))?;
+    }
     succeed(program(mdbook()?).arg("build").arg(&folder), "see its message above")?;
     println!("{}", folder.join("book/index.html").display());
     Ok(())
