@@ -44,13 +44,16 @@ impl Profile {
     /// [`ProfileError`] of an item without size or mass, of parts that float or overlap, of an opening that
     /// is not within the parts or as wide as they are, and of a load beyond the wall.
     pub fn new(parts: Vec<Part>, openings: Vec<Opening>, loads: Vec<Load>) -> Result<Self, ProfileError> {
-        let profile = Self::of_checked(parts, openings, loads);
-        profile.check_count()?;
-        profile.check_parts()?;
-        profile.check_openings()?;
-        profile.parts.iter().try_for_each(|part| profile.check_left(part))?;
-        profile.check_loads()?;
-        Ok(profile)
+        Self::of_checked(parts, openings, loads).checked()
+    }
+
+    fn checked(self) -> Result<Self, ProfileError> {
+        self.check_count()?;
+        self.check_parts()?;
+        self.check_openings()?;
+        self.parts.iter().try_for_each(|part| self.check_left(part))?;
+        self.check_loads()?;
+        Ok(self)
     }
 
     /// Takes what has been checked: an FMU's library does without the checks and their words.
@@ -67,6 +70,14 @@ impl Profile {
     #[must_use]
     pub fn with_loads(&self, loads: Vec<Load>) -> Self {
         Self { loads, ..self.clone() }
+    }
+
+    /// Other parts with the same openings and loads, on the same edges.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn with_parts(&self, parts: Vec<Part>) -> Result<Self, ProfileError> {
+        Self { parts, ..self.clone() }.checked()
     }
 
     /// Its parts, the lowest first.

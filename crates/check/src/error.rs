@@ -45,18 +45,12 @@ impl CheckError {
 
     /// Says with which hinge of a strip the check is impossible.
     pub(crate) fn at_hinge(self, ratio: f64) -> Self {
-        let at = |message: String| format!("with the hinge at hinge_ratio = {ratio}: {message}");
-        match self {
-            Self::Value { keys, message } => Self::Value { keys, message: at(message) },
-            Self::Wall { message } => Self::Wall { message: at(message) },
-            Self::Parameters(error) => Self::Wall { message: at(error.to_string()) },
-            error => error,
-        }
+        self.within(&format!("with the hinge at hinge_ratio = {ratio}"))
     }
 
-    /// Says above which level the check is impossible \[m\].
-    pub(crate) fn at_level(self, level: f64) -> Self {
-        let at = |message: String| format!("above the level {level} m: {message}");
+    /// Says where the check is impossible.
+    pub(crate) fn within(self, place: &str) -> Self {
+        let at = |message: String| format!("{place}: {message}");
         match self {
             Self::Value { keys, message } => Self::Value { keys, message: at(message) },
             Self::Wall { message } => Self::Wall { message: at(message) },

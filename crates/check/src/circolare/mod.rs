@@ -81,6 +81,7 @@ pub const ENTRY: Entry = Entry {
         "young_modulus",
         "overburden_mass",
         "hinge_levels",
+        "crack_angles",
         "resultants",
         "hinge",
         "hinge_range",

@@ -35,6 +35,7 @@ impl Unit {
     pub const TONNES: Self = Self { name: "t", factor: 1e-3 };
     pub const SECONDS: Self = Self { name: "s", factor: 1.0 };
     pub const ACCELERATION: Self = Self { name: "m/s²", factor: 1.0 };
+    pub const DEGREES: Self = Self { name: "°", factor: 1.0 };
     pub const GRAVITY: Self = Self { name: "g", factor: 1.0 };
 }
 

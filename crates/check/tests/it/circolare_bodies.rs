@@ -16,7 +16,7 @@ pub(crate) fn near(found: f64, expected: f64, what: &str) {
     assert!((found - expected).abs() <= ROUNDING * expected.abs(), "{what}: {found}, expected {expected}");
 }
 
-fn check(more: &str) -> String {
+pub(crate) fn check(more: &str) -> String {
     format!(
         "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
          SLD = {{ ag = 0.05, F0 = 2.45, TC = 0.28 }}\nSLV = {{ ag = 0.1, F0 = 2.4, TC = 0.32 }}\n{more}\n"
@@ -24,12 +24,12 @@ fn check(more: &str) -> String {
 }
 
 /// A part by thickness and height, 1 m wide.
-fn part(thickness: f64, height: f64) -> String {
+pub(crate) fn part(thickness: f64, height: f64) -> String {
     format!("[[geometry.part]]\nheight = {height}\nthickness = {thickness}\ndensity = 1800\n")
 }
 
 /// A load by force, height, place, share of its mass that moves, and thrust.
-fn load(force: f64, height: f64, inside: f64, share: f64, thrust: &str) -> String {
+pub(crate) fn load(force: f64, height: f64, inside: f64, share: f64, thrust: &str) -> String {
     format!(
         "[[geometry.load]]\nforce = {force:?}\nheight = {height}\ninside = {inside}\nmoving_mass = {share}\n\
          {thrust}\n"

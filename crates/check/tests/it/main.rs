@@ -13,6 +13,7 @@ mod circolare_dynamic;
 mod circolare_edges;
 mod circolare_hinge_cases;
 mod circolare_hinges;
+mod circolare_mechanisms;
 mod circolare_messages;
 mod circolare_properties;
 mod circolare_ranges;

@@ -24,6 +24,7 @@ class Check(TypedDict, total=False):
     - code: The code: Circolare 7/2019 to NTC 2018.
     - compression_considered: Whether the hinges are set back for compression; default False.
     - confidence_factor: FC (-); below 1.35 only with compression_considered, at least 1; default 1.35.
+    - crack_angles: Range in which the crack of wedges of transverse walls is searched [° from the vertical].
     - height_demand: Whether accelerations at a height up to T₁ are at least a_g S; default
       "not_below_ground".
     - hinge: Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or
@@ -68,6 +69,7 @@ class Check(TypedDict, total=False):
     code: Required[Literal["circolare-2019"]]
     compression_considered: bool
     confidence_factor: float
+    crack_angles: Sequence[float]
     height_demand: Literal["not_below_ground", "printed"]
     hinge: Literal["least_alpha0", "worst", "given"]
     hinge_levels: Sequence[float]

@@ -1,6 +1,7 @@
 //! The static checks of a side.
 
 mod activation;
+pub(crate) mod crack;
 pub(super) mod ledger;
 pub(crate) mod sides;
 mod spectrum;

@@ -258,8 +258,10 @@ fn least_alpha0(case: &Case<'_>, sign: f64) -> Result<f64, CheckError> {
         Curve::new(case, sign, Some(x), true).map(|curve| curve.alpha0).map_err(|error| error.at_hinge(x))
     };
     let range @ [from, to] = case.statement.hinge_range;
-    // F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r = O (b + 2c)/[2 (W + O) b]
-    if case.statement.masonry.is_none() && !has_plateau(&case.parameters) {
+    // of a rectangle F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r,
+    // r = O (b + 2c)/[2 (W + O) b]
+    let is_plain = case.statement.masonry.is_none() && !has_plateau(&case.parameters);
+    if is_plain && case.parameters.is_rectangle() {
         let curve = Curve::new(case, sign, Some(0.5 * (from + to)), true)?;
         let Body { weight, overburden, height, .. } = *curve.body();
         let first = 2.0 * (weight + overburden) * case.parameters.thickness;
@@ -271,7 +273,8 @@ fn least_alpha0(case: &Case<'_>, sign: f64) -> Result<f64, CheckError> {
         alpha0(to)?;
         return Ok(if ratio <= 0.0 { to } else { (1.0 / (1.0 + ratio.sqrt())).clamp(from, to) });
     }
-    Ok(hinge::least(hinge::FINE, range, |x, _| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
+    let jumps = hinge::jumps(&case.parameters);
+    Ok(hinge::least(hinge::FINE, range, &jumps, |x, _| Ok::<_, CheckError>([alpha0(x)?]))?[0].unwrap_or(to))
 }
 
 /// The checks of a side by a rule on the hinge, searched as finely as stated, and the curve with the hinge of
@@ -289,7 +292,7 @@ fn by_rule(
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
-            let places = hinge::least(search, range, |x, which| {
+            let places = hinge::least(search, range, &hinge::jumps(&case.parameters), |x, which| {
                 let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
                 let mut zetas = Checks::of_these(case, sign, Some(x), true, wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {

@@ -33,6 +33,8 @@ pub(crate) struct Case<'a> {
     pub(crate) young_modulus: Option<f64>,
     /// Where the hinge of a strip is; a parapet has none.
     pub(crate) rule: Option<Hinge>,
+    /// Angle of the cracks of wedges, where it is searched \[°\].
+    pub(crate) crack: Option<f64>,
     /// Whether both sides are alike.
     pub(crate) alike: bool,
     /// The demands, where they do not depend on the hinge.
@@ -84,6 +86,7 @@ impl<'a> Case<'a> {
             moved,
             young_modulus,
             rule,
+            crack: None,
             alike,
             shared,
         };

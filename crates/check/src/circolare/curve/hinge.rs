@@ -1,7 +1,12 @@
-//! The hinge of a strip, searched.
+//! The hinge of a strip, searched; and the angle of a crack alike.
 //!
-//! ζ(x) of a check, its `ζ_E` with the hinge at x h, has several minima, and corners where periods meet those
-//! of the spectrum. Equal points find the valleys; a golden section goes down each.
+//! ζ(x) of a check, its `ζ_E` with the hinge at x h, has several minima, corners where periods meet those of
+//! the spectrum, and jumps where the thickness has a step or a load rests. Equal points find the valleys,
+//! with both sides of each jump among them; a golden section goes down each.
+
+use rocking_wall::wall::Parameters;
+
+use super::level::loads;
 
 /// How finely a range is searched.
 #[derive(Clone, Copy, Debug)]
@@ -27,22 +32,37 @@ pub(crate) const COARSE: Search = Search { points: 101, width: 1e-7 };
 const NEAR: f64 = 0.05;
 /// Values that are equal \[-\]: of these the smallest x is taken.
 const EQUAL: f64 = 1e-9;
+/// How far from a jump its sides are looked at, of h: nearer than 1e-9 h is at the end of a part \[-\].
+const BESIDE: f64 = 4e-9;
 /// (√5 − 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Returns the x of a range at which each of some functions is least; infinite ones are left out. Of a jump
-/// the lower side counts. `values` takes an x and which function is asked for, `None` for all; what it gives
-/// for the others has no part.
+/// Where ζ(x) of a strip may jump: at the ends of its parts and at its loads, of h \[-\].
+pub(crate) fn jumps(parameters: &Parameters) -> Vec<f64> {
+    let Some(profile) = &parameters.profile else { return Vec::new() };
+    let ends = profile.parts().iter().flat_map(|part| [part.base, part.top()]);
+    let heights = ends.chain(loads(parameters).iter().map(|load| load.height));
+    heights.map(|height| height / profile.height()).collect()
+}
+
+/// Returns the x of a range at which each of some functions is least; infinite ones are left out. Of jumps,
+/// which are known, the function counts at the jump and on both sides; of others the lower side. `values`
+/// takes an x and which function is asked for, `None` for all; what it gives for the others has no part.
 ///
 /// # Errors
 /// That of the functions.
 pub(crate) fn least<const N: usize, E>(
     Search { points: count, width }: Search,
     [from, to]: [f64; 2],
+    jumps: &[f64],
     mut values: impl FnMut(f64, Option<usize>) -> Result<[f64; N], E>,
 ) -> Result<[Option<f64>; N], E> {
-    let x = |index: u32| from + (to - from) * (f64::from(index) / f64::from(count - 1));
-    let points = (0..count).map(|index| Ok((x(index), values(x(index), None)?)));
+    let equal = (0..count).map(|index| from + (to - from) * (f64::from(index) / f64::from(count - 1)));
+    let sides = jumps.iter().flat_map(|x| [x - BESIDE, *x, x + BESIDE]);
+    let mut places: Vec<f64> = equal.chain(sides.filter(|x| (from..=to).contains(x))).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let points = places.into_iter().map(|x| Ok((x, values(x, None)?)));
     let points = points.collect::<Result<Vec<_>, E>>()?;
     let mut found = [None; N];
     for (which, found) in found.iter_mut().enumerate() {
@@ -121,7 +141,7 @@ mod tests {
                 f64::INFINITY,
             ])
         };
-        let found = least(FINE, [0.1, 0.9], functions).unwrap();
+        let found = least(FINE, [0.1, 0.9], &[], functions).unwrap();
         // a smooth valley is flat within √(2 ε) of its bottom
         for (found, expected, tolerance) in [
             (found[0], 0.3456, 1e-7),
@@ -134,8 +154,8 @@ mod tests {
         }
         assert!(found[4].is_none() && found[2].unwrap() < 0.6172);
         // of equal valleys the first
-        let twice =
-            least(FINE, [0.1, 0.9], |x: f64, _| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap()[0].unwrap();
+        let twice = least(FINE, [0.1, 0.9], &[], |x: f64, _| Ok::<_, ()>([2.0 + (25.0 * x).cos()])).unwrap();
+        let twice = twice[0].unwrap();
         assert!((twice - std::f64::consts::PI / 25.0).abs() < 1e-7, "{twice}");
     }
 }

@@ -13,7 +13,7 @@ use crate::circolare::statement::Statement;
 use crate::circolare::statement::table::Activation;
 use crate::words::ledger::{Ledger, Quantity, Unit};
 use crate::words::names::Side;
-use crate::words::say;
+use crate::words::{at_most, say};
 
 pub(in crate::circolare) use body::Names;
 
@@ -105,6 +105,15 @@ impl Curve {
         if let Some(at) = self.hinge {
             let words = say!("Place of the hinge", "Posizione della cerniera");
             ledger.add(Quantity::new("hinge_ratio", "h_1/h", Unit::NONE, at, words).unlisted());
+        }
+        if let (Some(angle), Some(range)) = (self.crack, of.statement.table.crack_angles) {
+            let [from, to] = range.map(|angle| at_most(angle, 4));
+            let words = say! {
+                "Crack from the vertical, at the least α0 from {from}° to {to}°",
+                "Lesione rispetto alla verticale, di minimo α0 tra {from}° e {to}°", from, to
+            };
+            let crack = Quantity::new("crack_angle", "β", Unit::DEGREES, angle, words);
+            ledger.add(crack.at("C8.7.1.2.1.1"));
         }
         if self.is_plain() {
             self.add_rectangle(of, ledger);

@@ -59,6 +59,8 @@ pub struct Curve {
     pub anchors: Option<f64>,
     /// Where the hinge of a strip is, of h \[-\].
     pub hinge: Option<f64>,
+    /// Angle of the crack of a wedge from the vertical, where it is searched \[°\].
+    pub crack: Option<f64>,
     /// Set-backs of the hinges; 0 without a compressive strength.
     pub set_back: SetBack,
     /// F0'/F0 of hinges that are set back \[-\].
@@ -140,6 +142,7 @@ impl Curve {
             zero,
             anchors: tie::anchors(&parameters, sign),
             hinge,
+            crack: case.crack,
             set_back,
             a3,
             pushed,

@@ -5,6 +5,7 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use super::warnings;
 use super::{Checked, Governs, Outcome};
+use crate::circolare::checks::crack;
 use crate::circolare::checks::sides::SideVerdicts;
 use crate::circolare::curve::case::Case;
 use crate::circolare::runs::dynamic::{self, DynamicCheck};
@@ -52,7 +53,7 @@ impl Statement {
         let level = |index| {
             self.check_body(subject, index).map_err(|error| match self.hinge_levels.len() {
                 1 => error,
-                _ => error.at_level(self.hinge_levels[index]),
+                _ => error.within(&format!("above the level {} m", self.hinge_levels[index])),
             })
         };
         let mut levels = (0..self.hinge_levels.len()).map(level).collect::<Result<Vec<_>, _>>()?;
@@ -66,7 +67,7 @@ impl Statement {
     }
 
     fn check_body<'a>(&'a self, subject: Subject<'a>, level: usize) -> Result<Checked<'a>, CheckError> {
-        let case = Case::new(self, subject, level)?;
+        let case = crack::searched(Case::new(self, subject, level)?)?;
         let sides = SideVerdicts::new(&case)?;
         let dynamic = dynamic::check(subject.parameters, &case, &sides)?;
         let governs = governing(&case, &sides, dynamic.as_ref())?;

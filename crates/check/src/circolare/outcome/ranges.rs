@@ -22,6 +22,28 @@ pub(super) fn of_statement(statement: &Statement) -> Vec<Sentence> {
     of_mechanism.chain(of_building).chain(use_coefficient(statement)).collect()
 }
 
+/// Where the least α0 is at an end of the angles in which a crack is searched.
+pub(super) fn of_crack(case: &Case<'_>) -> Option<Sentence> {
+    let ([from, to], angle) = (case.statement.table.crack_angles?, case.crack?);
+    let is_at = |end: f64| (angle - end).abs() < 1e-6;
+    let end = at_most(if is_at(from) { from } else { to }, 4);
+    if is_at(from) {
+        Some(say! {
+            "the least alpha0 is at the smallest angle of the crack, {end}°: it falls with the wedge; \
+             without one it is simple overturning, to be checked unless the walls are well connected",
+            "il minimo α0 è alla minima inclinazione della lesione, {end}°: α0 diminuisce con il cuneo; in \
+             sua assenza è il ribaltamento semplice, da verificare se l'ammorsamento non è efficace", end
+        })
+    } else {
+        is_at(to).then(|| {
+            say! {
+                "the least alpha0 is at the largest angle of the crack, {end}°: beyond it may be lower",
+                "il minimo α0 è alla massima inclinazione della lesione, {end}°: oltre può essere minore", end
+            }
+        })
+    }
+}
+
 fn damping(given: &StateStatement) -> Option<Sentence> {
     let (state, of_code) = (given.state, given.state.damping());
     (state != LimitState::Sld && given.damping != of_code).then(|| {

@@ -32,7 +32,7 @@ pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) ->
         of_states(statement, floors),
         of_statement(statement, parameters, floors, wall),
         loads::warnings(case, outcome.dynamic.is_some()),
-        ranges::of_statement(statement),
+        ranges::of_statement(statement).into_iter().chain(ranges::of_crack(case)).collect(),
         of_demands(statement, demands),
         differing().flat_map(|(side, verdict)| of_hinges(case, side, verdict)).collect(),
         differing().flat_map(|(_, verdict)| of_side(verdict, statement, demands)).collect(),

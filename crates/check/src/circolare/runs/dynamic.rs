@@ -124,6 +124,9 @@ fn divided(
 ) -> Result<(Parameters, Option<f64>), CheckError> {
     let whole = case.statement.with_bar(parameters)?;
     let mut parameters = level::above(&whole, case.statement.hinge_levels[case.level])?;
+    if let (Some(_), Some(profile)) = (case.crack, &case.parameters.profile) {
+        parameters.set_profile(profile.as_ref().clone());
+    }
     let least = |state: LimitState| {
         let found = sides.iter().filter_map(|(_, side)| side.displacement(state));
         found.min_by(|a, b| a.zeta.total_cmp(&b.zeta)).map(|check| check.hinge)

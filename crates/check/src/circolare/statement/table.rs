@@ -45,6 +45,8 @@ tables! {
         /// Where the hinge of a strip is: at the least α0, for each check where it is least favourable, or as
         /// given; by default at the least α0 where the scene has no `hinge_ratio`.
         pub hinge: Option<Hinge>,
+        /// Range in which the crack of wedges of transverse walls is searched \[° from the vertical\].
+        pub crack_angles: Option<[f64; 2]>,
         /// Heights above the base at which a façade may open \[m\]: the body above each is checked.
         #[key(minItems = 1, default = vec![0.0])]
         pub hinge_levels: Option<Vec<f64>>,

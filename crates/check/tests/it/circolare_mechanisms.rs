@@ -1,0 +1,227 @@
+//! Mechanisms whose shape is searched in the check by Circolare 7/2019: the hinge of strips of parts, and the
+//! crack of a transverse wall. Beside them brute-force scans by the sums of the text.
+
+use crate::circolare::{refuses, sides_in_json, warns};
+use crate::circolare_bodies::{check, load, near, number, part};
+use crate::formulas::assert_gives;
+use crate::report::{plain, report_of_one};
+
+const G: f64 = 9.81;
+const DENSITY: f64 = 1800.0;
+
+/// A strip of two parts, flush outside, with loads (force, height, place) whose masses move.
+struct Strip {
+    /// Thickness and height.
+    parts: [[f64; 2]; 2],
+    loads: Vec<[f64; 3]>,
+}
+
+impl Strip {
+    /// One of many strips, by its number: numbers from 0 to 1 of a linear congruence.
+    fn numbered(seed: u64) -> Self {
+        let mut state = 1 + 7919 * seed;
+        let mut next = |from: f64, to: f64| {
+            state = (state * 48_271) % 2_147_483_647;
+            let share = u32::try_from(state).unwrap();
+            from + (to - from) * f64::from(share) / 2_147_483_647.0
+        };
+        let parts = [[next(0.25, 0.6), next(2.5, 4.0)], [next(0.25, 0.6), next(2.5, 4.0)]];
+        let (step, top) = (parts[0][1], parts[0][1] + parts[1][1]);
+        let thin = parts[0][0].min(parts[1][0]);
+        let at_step = [next(5e3, 40e3), step, next(0.0, 1.2 * thin)];
+        let within = [next(0.0, 20e3), next(0.2, 0.8) * top, next(0.0, 1.2 * thin)];
+        Self { parts, loads: vec![at_step, within, [next(5e3, 20e3), top, 0.5 * parts[1][0]]] }
+    }
+
+    fn height(&self) -> f64 {
+        self.parts[0][1] + self.parts[1][1]
+    }
+
+    /// α0 with the hinge at a height, by the virtual work of both bodies about their toes.
+    fn alpha0(&self, h1: f64, sign: f64) -> f64 {
+        let [[lower, step], [upper, _]] = self.parts;
+        let (h, h2) = (self.height(), self.height() - h1);
+        let [below, above] = [if h1 <= step { lower } else { upper }, if h1 < step { lower } else { upper }];
+        // the base bears at the outer toe of the side, the hinge at the other edge of the thinner section
+        let [base, hinge] = if sign > 0.0 { [0.0, below.min(above)] } else { [lower, 0.0] };
+        let (mut held, mut pushed) = (0.0, 0.0);
+        let mut add = |force: f64, x: f64, z: f64, is_lower: bool| {
+            if is_lower {
+                held += force * sign * (x - base) / h1;
+                pushed += force * z / h1;
+            } else {
+                held += force * sign * ((hinge - base) / h1 + (hinge - x) / h2);
+                pushed += force * (h - z) / h2;
+            }
+        };
+        for (thickness, from, to) in [(lower, 0.0, step), (upper, step, h)] {
+            for (from, to, is_lower) in [(from, to.min(h1), true), (from.max(h1), to, false)] {
+                if from < to {
+                    let weight = DENSITY * G * thickness * (to - from);
+                    add(weight, 0.5 * thickness, 0.5 * (from + to), is_lower);
+                }
+            }
+        }
+        self.loads.iter().for_each(|[force, z, x]| add(*force, *x, *z, *z <= h1));
+        held / pushed
+    }
+
+    /// The least α0 of a scan, and its height: equal heights, and both sides of the step and of each load.
+    fn scanned(&self, sign: f64) -> [f64; 2] {
+        let (h, step) = (self.height(), self.parts[0][1]);
+        let equal = (0..=20_000).map(|index| h * (0.1 + 0.8 * f64::from(index) / 20_000.0));
+        let jumps = self.loads.iter().map(|load| load[1]).chain([step]).filter(|z| *z < 0.9 * h);
+        let sides = jumps.flat_map(|z| [z - 1e-8, z, z + 1e-8]);
+        let all = equal.chain(sides).map(|z| [self.alpha0(z, sign), z]);
+        all.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap()
+    }
+
+    fn scene(&self) -> String {
+        let parts = self.parts.map(|[thickness, height]| part(thickness, height)).concat();
+        let loads: String = self.loads.iter().map(|[force, z, x]| load(*force, *z, *x, 1.0, "")).collect();
+        "[geometry]\nmechanism = \"vertical_spanning\"\n".to_owned() + &parts + &loads + &check("")
+    }
+}
+
+/// The hinge of a strip of parts is where a scan of all heights has the least α0, at the step of the
+/// thickness and at loads on the side that has it.
+#[test]
+fn the_hinge_of_a_strip_of_parts_has_the_least_multiplier_of_all_heights() {
+    let (mut at_jumps, mut beside) = (0, 0);
+    for seed in 0..30 {
+        let strip = Strip::numbered(seed);
+        let sides = sides_in_json(&strip.scene());
+        for (side, sign) in [("positive", 1.0), ("negative", -1.0)] {
+            let [scanned, z] = strip.scanned(sign);
+            let found = number(&sides, &[side, "least_alpha0", "alpha0"]);
+            // the scan has steps of 0.8/20000 h; the sides of a jump are 4e-9 h away
+            assert!(
+                (found / scanned - 1.0).abs() < 2e-7,
+                "{seed} {side}: {found}, a scan {scanned} at {z} m"
+            );
+            let is_at = |jump: f64| (z - jump).abs() < 1e-6;
+            if is_at(strip.parts[0][1]) || strip.loads.iter().any(|load| is_at(load[1])) {
+                at_jumps += 1;
+            } else {
+                beside += 1;
+            }
+        }
+    }
+    assert!(at_jumps > 5 && beside > 5, "{at_jumps} at a jump, {beside} beside");
+}
+
+/// A wedge of a transverse wall, 0.5 m thick, behind a façade of 0.45 m.
+fn wedge(height: f64, angles: &str) -> String {
+    let wedge = format!(
+        "[[geometry.part]]\nbase = 0\nheight = {height}\nthickness = [0, 1]\nwidth = 0.5\nouter = 0.45\n\
+         density = 1800\n"
+    );
+    part(0.45, height) + &wedge + &check(&format!("rocking = \"one_sided_positive\"\n{angles}"))
+}
+
+/// α0 of that façade with the wedge of a slope tan β and a moment that holds it.
+fn of_wedge(height: f64, slope: f64, moment: f64) -> f64 {
+    let wall = 0.45 * height * DENSITY * G;
+    let own = 0.5 * 0.5 * slope * height * height * DENSITY * G;
+    (wall * 0.225 + own * (0.45 + slope * height / 3.0) + moment)
+        / (wall * 0.5 * height + own * 2.0 / 3.0 * height)
+}
+
+/// Without a tie the smallest wedge is that of the least α0; what the tie holds makes a larger one worse.
+#[test]
+fn the_crack_of_a_wedge_is_at_the_least_multiplier() {
+    let smallest = sides_in_json(&wedge(6.0, "crack_angles = [15, 40]"));
+    assert_eq!(number(&smallest, &["positive", "crack_angle"]), 15.0);
+    let slope = 15.0_f64.to_radians().tan();
+    near(number(&smallest, &["positive", "alpha0"]), of_wedge(6.0, slope, 0.0), "alpha0");
+    warns(
+        &wedge(6.0, "crack_angles = [15, 40]"),
+        "the least alpha0 is at the smallest angle of the crack, 15°",
+    );
+    let tie = "[tie]\ntie_height = 5.8\ntie_stiffness = 2e7\ntie_strength = 20e3\ntie_ultimate = 0.1\n";
+    let yields = "crack_angles = [5, 60]\ntie = { at_activation = \"yield\" }";
+    let sides = sides_in_json(&(tie.to_owned() + &wedge(6.0, yields)));
+    let of = |angle: f64| of_wedge(6.0, angle.to_radians().tan(), 20e3 * 5.8);
+    let scan = (0..=55_000).map(|index| 5.0 + f64::from(index) * 1e-3);
+    let best = scan.min_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap();
+    assert!(best > 6.0 && best < 59.0, "{best}");
+    let angle = number(&sides, &["positive", "crack_angle"]);
+    assert!((angle - best).abs() < 1e-3, "{angle}, a scan {best}");
+    near(number(&sides, &["positive", "activation", "alpha0"]), of(angle), "alpha0 with the tie");
+}
+
+/// A wedge of several parts keeps one straight crack, and takes along what the façade leaves it.
+#[test]
+fn the_parts_of_a_wedge_have_one_crack() {
+    let tall = |base: f64, height: f64, thickness: &str| {
+        format!(
+            "[[geometry.part]]\nbase = {base}\nheight = {height}\nthickness = {thickness}\nwidth = 0.5\n\
+             outer = 0.45\ndensity = 1800\n"
+        )
+    };
+    let angles = check("rocking = \"one_sided_positive\"\ncrack_angles = [20, 30]");
+    let parts = part(0.45, 6.0) + &tall(0.0, 2.0, "[0, 0.5]") + &tall(2.0, 4.0, "[0.5, 2.5]");
+    let (cut, whole) =
+        (sides_in_json(&(parts + &angles)), sides_in_json(&wedge(6.0, "crack_angles = [20, 30]")));
+    for key in ["alpha0", "d0", "crack_angle"] {
+        near(number(&cut, &["positive", key]), number(&whole, &["positive", key]), key);
+    }
+}
+
+/// Angles need a wedge, and limits that rise.
+#[test]
+fn angles_of_a_crack_are_refused_without_a_wedge() {
+    let one_sided = "rocking = \"one_sided_positive\"\ncrack_angles = [15, 30]";
+    refuses(
+        &(part(0.4, 4.0) + &check(one_sided)),
+        "crack_angles = [15, 30]: the wall has no wedge; give a part",
+    );
+    refuses(
+        &wedge(6.0, "crack_angles = [30, 15]"),
+        "crack_angles = [30, 15] must rise, within 1 to 80 degrees",
+    );
+    refuses(&wedge(6.0, "crack_angles = [0, 15]"), "crack_angles = [0, 15] must rise");
+    let slack = "[tie]\ntie_height = 5.8\ntie_stiffness = 2e7\ntie_strength = 4e4\ntie_slack = 0.01\n";
+    let yields = "crack_angles = [5, 60]\ntie = { at_activation = \"yield\" }";
+    refuses(&(slack.to_owned() + &wedge(6.0, yields)), "with the crack at 5 degrees: at_activation");
+}
+
+/// A corner of two walls by its integrals: about an axis across the diagonal, with the thrust of the hip.
+#[test]
+fn a_corner_turns_about_its_diagonal() {
+    // walls 0.5 m thick, 3.2 m high, cracks at 25 degrees from the pier of the corner on
+    let (t, h, slope) = (0.5_f64, 3.2_f64, 25.0_f64.to_radians().tan());
+    let [pier, wedges] = [t * t * h, t * slope * h * h].map(|volume| DENSITY * volume);
+    let root = 2.0_f64.sqrt();
+    let arm = (pier * t + wedges * (1.5 * t + slope * h / 3.0)) / root / (pier + wedges);
+    let z = (pier * h / 2.0 + wedges * 2.0 * h / 3.0) / (pier + wedges);
+    let inertia = pier * h * h / 3.0 + wedges * h * h / 2.0;
+    let body = format!(
+        "[geometry.body]\nmass = {:?}\ncentroid_height = {z:?}\ninertia = {inertia:?}\narm = {arm:?}\n\
+         height = {h}\n",
+        pier + wedges
+    );
+    let hip = load(8e3, h, 0.35, 1.0, "thrust = 1500");
+    let sides = sides_in_json(&(body + &hip + &check("rocking = \"one_sided_positive\"")));
+    let weight = G * (pier + wedges);
+    let alpha0 = (weight * arm + 8e3 * 0.35 - 1500.0 * h) / (weight * z + 8e3 * h);
+    near(number(&sides, &["positive", "alpha0"]), alpha0, "alpha0");
+}
+
+/// The mechanisms of the scenes have reports whose formulas give their numbers, and which draw what turns.
+#[test]
+fn the_mechanisms_of_the_scenes_are_reported() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/mechanisms");
+    for (name, bodies, said) in [
+        ("compound_overturning", 1, "0 to 1.715 m, β = 15°"),
+        ("corner", 1, "5737.49 · 9.81 · 10⁻³"),
+        ("gable", 2, "Body above 6.4 m"),
+        ("two_storeys", 1, "h₁ = "),
+    ] {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
+        let page = report_of_one(&text);
+        assert!(assert_gives(&page) > 20, "{name}");
+        assert_eq!(page.matches("aria-label=\"the wall to scale\"").count(), bodies, "{name}");
+        assert!(plain(&page).contains(said), "{name} without {said}");
+    }
+}
