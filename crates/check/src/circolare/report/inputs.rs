@@ -69,6 +69,16 @@ fn all(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<Stated> {
     if let Some(rule) = case.rule {
         state(hinge(rule, statement.hinge_range), &["hinge"]);
     }
+    if let Some(range) = statement.table.crack_angles {
+        let [from, to] = range.map(|angle| at_most(angle, 4));
+        let said = say! {
+            "The crack of a wedge is searched from {from}° to {to}° from the vertical, at the least α0 \
+             (C8.7.1.2.1.1).",
+            "La lesione del cuneo è cercata tra {from}° e {to}° dalla verticale, al minimo α0 \
+             (C8.7.1.2.1.1).", from, to
+        };
+        state(said, &["crack_angles"]);
+    }
     let q = at_most(statement.behaviour_factor, 6);
     state(
         say!("Behaviour factor `q` = {q}.", "Fattore di comportamento `q` = {q}.", q),
