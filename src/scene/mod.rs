@@ -7,6 +7,7 @@
 //! [`UnitScene`](crate::unit::UnitScene).
 
 mod body;
+mod curve;
 mod document;
 mod error;
 mod keys;
@@ -29,6 +30,7 @@ use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usag
 
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
+pub use curve::{Curve, CurveTable, apply_curve};
 pub use document::Document;
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};
@@ -40,7 +42,7 @@ pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 use body::profile_text;
 pub use error::SceneError;
 use keys::{BAR, OF_BAR, TIE_GROUP};
-pub use parameter::{apply_group, apply_ties, check_limits};
+pub use parameter::{apply_group, apply_tables, check_limits};
 pub use schema::{parameter, parameters, variable};
 pub use storeys::read_floors;
 
@@ -51,6 +53,8 @@ pub struct Scene {
     pub title: String,
     /// The wall and its solver.
     pub parameters: Parameters,
+    /// The capacity curve that the force law follows, where it was given.
+    pub curve: Option<Curve>,
     /// What moves the supports, or the ground below the storeys; `None` for free vibration or for motion that
     /// comes through inputs.
     pub excitation: Option<Excitation>,
@@ -66,8 +70,8 @@ pub struct Scene {
     pub thresholds: Vec<f64>,
     /// Facts about the motion worth showing: source, scale, peak.
     pub motion_notes: Vec<String>,
-    /// Record files that the motion was read from.
-    pub records: Vec<PathBuf>,
+    /// Files that the motion and the force law were read from.
+    pub files: Vec<PathBuf>,
 }
 
 impl Default for Scene {
@@ -76,6 +80,7 @@ impl Default for Scene {
         Self {
             title: "Free rocking of the default parapet".into(),
             parameters: Parameters::default(),
+            curve: None,
             excitation: None,
             floors: None,
             inputs: vec![RealVariable::AG],
@@ -83,7 +88,7 @@ impl Default for Scene {
             output_step: DEFAULT_OUTPUT_STEP,
             thresholds: DEFAULT_THRESHOLDS.to_vec(),
             motion_notes: Vec::new(),
-            records: Vec::new(),
+            files: Vec::new(),
         }
     }
 }
@@ -146,7 +151,7 @@ impl Scene {
         if let Some(table) = &document.motion {
             let loaded = motion::load(table, place, folder, scene.floors.is_some())?;
             scene.shake(loaded.excitation, loaded.tail, loaded.notes);
-            scene.records = loaded.records;
+            scene.files = loaded.records;
         }
         if document.inputs.is_some() {
             scene.inputs = document.inputs(place)?;
@@ -155,10 +160,8 @@ impl Scene {
                 scene.parameters.u_start = 0.0;
             }
         }
-        for (group, entries) in document.groups() {
-            apply_group(&mut scene.parameters, group, entries, file)?;
-        }
-        apply_ties(&mut scene.parameters, &document.tie, file)?;
+        scene.curve = apply_tables(&mut scene.parameters, &document.groups(), &document.tie, file, folder)?;
+        scene.files.extend(scene.curve.iter().filter_map(|curve| curve.file.clone()));
         if let Some(given) = &document.thresholds {
             scene.thresholds.clone_from(given);
         }

@@ -1,5 +1,7 @@
 //! Parameters of a scene: names, groups, kinds and limits come from the model description.
 
+use std::path::Path;
+
 use files::{FileError, NUMBER, TomlFile, number, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::Value;
@@ -8,6 +10,7 @@ use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
 
 use super::body::{BODY, LOAD, OF_BODY, OPENING, PART, apply_body};
+use super::curve::{Curve, CurveTable, apply_curve};
 use super::error::SceneError;
 use super::keys::{
     BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, TieTables,
@@ -32,7 +35,26 @@ pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
     items.iter().find(|item| item.value == value).map(|item| format!("{:?}", item.name))
 }
 
-/// Applies one table of a file.
+/// Applies the tables of a wall: groups with their names, and its ties. Returns the capacity curve that is
+/// its force law, if it has one; a file of it is looked up in `folder`.
+///
+/// # Errors
+/// [`FileError`] of a key or a value that cannot be used, or of a row of the curve.
+pub fn apply_tables(
+    parameters: &mut Parameters,
+    groups: &[(&str, &Group)],
+    ties: &TieTables,
+    file: &TomlFile<'_>,
+    folder: &Path,
+) -> Result<Option<Curve>, FileError> {
+    groups.iter().try_for_each(|(name, group)| apply_group(parameters, name, group, file))?;
+    apply_ties(parameters, ties, file)?;
+    let none = Group::default();
+    let of = |name: &str| groups.iter().find(|(own, _)| *own == name).map_or(&none, |(_, group)| *group);
+    apply_curve(parameters, [of("force_law"), of(KINEMATICS_GROUP)], file, folder)
+}
+
+/// Applies one table of a file, but for a capacity curve.
 ///
 /// # Errors
 /// [`FileError`] of a key or a value that cannot be used.
@@ -44,7 +66,8 @@ pub fn apply_group(
 ) -> Result<(), FileError> {
     let place = file.place();
     let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
-    let (mut law, mut points, mut bar) = (None, None, None);
+    let names_of_curve = files::names::<CurveTable>();
+    let (mut law, mut points, mut bar, mut has_curve) = (None, None, None, false);
     for (key, value) in entries.iter() {
         let own = value.get_ref();
         match (group, key.get_ref().as_str()) {
@@ -55,6 +78,7 @@ pub fn apply_group(
                 return Err(place.error(value.span(), message));
             }
             (TIE_GROUP, BAR) => bar = Some(value),
+            ("force_law", name) if names_of_curve.contains(&name) => has_curve = true,
             ("geometry", PART | OPENING | LOAD | BODY) => {}
             (_, name) if names.contains(&name) || (group, name) == (KINEMATICS_GROUP, KINEMATICS) => {
                 set(parameters, name, own).map_err(|message| place.error(value.span(), message))?;
@@ -75,6 +99,7 @@ pub fn apply_group(
             };
             parameters.multilinear = Some(read_points(points.get_ref()).ok_or_else(message)?.into());
         }
+        (Some(_), None) if has_curve => {}
         (Some(value), None) | (None, Some(value)) => {
             let message = format!(
                 "force_law = {MULTILINEAR:?} goes with {POINTS} = [[u/u_ins, F/F0], ...] from the first \
@@ -102,11 +127,7 @@ pub fn apply_group(
 ///
 /// # Errors
 /// [`FileError`] of a key or a value that cannot be used, of one of several ties that has no stiffness.
-pub fn apply_ties(
-    parameters: &mut Parameters,
-    ties: &TieTables,
-    file: &TomlFile<'_>,
-) -> Result<(), FileError> {
+fn apply_ties(parameters: &mut Parameters, ties: &TieTables, file: &TomlFile<'_>) -> Result<(), FileError> {
     let refused = |number: usize, message: String| {
         let key = ties.get(number).and_then(|tie| tie.keys().next());
         match key {

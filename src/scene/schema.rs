@@ -1,6 +1,6 @@
 //! JSON schemas of what the model description declares: parameters by their groups, and the bar of a tie.
 
-use files::{Described, Groups, Schema, Tables, list, object, one_of, positive, several, with};
+use files::{Described, Groups, Schema, Tables, list, names, object, one_of, positive, several, with};
 use fmu_export::{Kind, Variable, VariableId};
 use toml::Value;
 
@@ -8,6 +8,7 @@ use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Bar, BarNumber, Kinematics};
 
 use super::body::{BODY, LOAD, OPENING, PART, describe_body};
+use super::curve::CurveTable;
 use super::keys::{
     BAR, Group, KINEMATICS, KINEMATICS_GROUP, MOST_TIES, MULTILINEAR, POINTS, TIE_GROUP, TieTables,
 };
@@ -15,6 +16,7 @@ use super::keys::{
 /// Returns the keys of the groups that who applies a group checks, and knows the place of.
 pub(super) fn groups() -> Groups {
     let mut groups: Groups = GROUPS.iter().map(|(group, names)| (*group, names.to_vec())).collect();
+    groups.entry("force_law").or_default().extend(names::<CurveTable>());
     groups.entry(KINEMATICS_GROUP).or_default().extend([KINEMATICS, PART, OPENING, LOAD, BODY]);
     groups
 }
@@ -27,6 +29,12 @@ impl Described for Group {
         let mut members = parameters(key);
         if key == KINEMATICS_GROUP {
             describe_body(&mut members, tables);
+        }
+        if key == "force_law" {
+            // its keys stand in the group
+            CurveTable::describe(key, tables);
+            let keys = tables.schemas.remove("CurveTable").and_then(|curve| curve.get("properties").cloned());
+            members.extend(keys.and_then(|keys| keys.as_table().cloned()).unwrap_or_default());
         }
         object(members)
     }
@@ -65,7 +73,8 @@ pub fn parameters(group: &str) -> Schema {
     let laws = members.get_mut("force_law").and_then(|law| law.get_mut("enum")?.as_array_mut());
     if let Some(laws) = laws {
         laws.push(MULTILINEAR.into());
-        let text = "Corners [u/u_ins, F/F0] of a multilinear law after the origin.";
+        let text = "Corners [u/u_ins, F/F0] of a multilinear law without the origin; both sides are alike \
+                    unless some have u < 0.";
         let points = with(list(several(2, number())), "minItems", 2);
         members.insert(POINTS.into(), with(points, "description", text).into());
     }

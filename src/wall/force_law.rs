@@ -7,6 +7,9 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
 
+/// Largest difference of two slopes k₁ over one of them that is rounding \[-\].
+const SAME_SLOPE: f64 = 1e-12;
+
 /// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`), or of F over `m_eff`.
 ///
 /// The anchor of the last line is its zero u₃, so that the force keeps its relative accuracy towards it.
@@ -64,17 +67,21 @@ impl RestoringForce {
     pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
         let k0 = body.geometric_stiffness;
         let a3 = parameters.a3_of_sides.unwrap_or(Sides { positive: parameters.a3, negative: parameters.a3 });
-        let side = |f0: f64, u_ins: f64, a3: f64| match &parameters.multilinear {
-            Some(points) => Side::multilinear(points, f0, u_ins),
-            None => Side::from_parameters(parameters, a3, [f0, u_ins, k0]),
+        let side = |sign: f64| {
+            let [f0, u_ins] = [body.strength.of(sign), body.instability.of(sign)];
+            match &parameters.multilinear {
+                Some(points) => Side::multilinear(&points_of_side(points, sign), f0, u_ins),
+                None => Side::from_parameters(parameters, a3.of(sign), [f0, u_ins, k0]),
+            }
         };
         check(parameters, a3.positive)?;
         check(parameters, a3.negative)?;
-        let positive = side(body.strength.positive, body.instability.positive, a3.positive);
-        let mut negative = side(body.strength.negative, body.instability.negative, a3.negative);
+        let (positive, mut negative) = (side(1.0), side(-1.0));
         let rigid = parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear;
         let elastic_stiffness = (!rigid).then(|| positive.lines[0].slope);
-        if let Some(k1) = elastic_stiffness.filter(|_| a3.positive == a3.negative) {
+        if let Some(k1) = elastic_stiffness.filter(|_| a3.positive == a3.negative)
+            && (negative.lines[0].slope - k1).abs() <= SAME_SLOPE * k1
+        {
             // k₁ is the same on both sides: the same number keeps the branch through the origin one line.
             negative.lines[0].slope = k1;
         }
@@ -82,7 +89,7 @@ impl RestoringForce {
             *line = line.mirrored();
         }
         let elastic_fraction = match &parameters.multilinear {
-            Some(points) => points[0][0],
+            Some(points) => points_of_side(points, 1.0)[0][0],
             None if rigid => 0.0,
             None => parameters.a1,
         };
@@ -184,31 +191,51 @@ fn check(parameters: &Parameters, a3: f64) -> Result<(), ParameterError> {
     Ok(())
 }
 
-fn check_points(points: &[[f64; 2]]) -> Result<(), ParameterError> {
-    let refuse = |index: usize, reason: &'static str| {
-        let point = points.get(index).copied().unwrap_or([f64::NAN; 2]);
-        Err(ParameterError::Points { number: index + 1, displacement: point[0], force: point[1], reason })
-    };
-    if points.len() < 2 {
-        return refuse(0, "a multilinear law needs at least two points after the origin");
+/// Returns the points `[|u|/u_ins, |F|/F0]` of a multilinear law on the side of `sign`, from the origin
+/// outwards. Without points at u < 0 both sides have those of u > 0.
+fn points_of_side(points: &[[f64; 2]], sign: f64) -> Vec<[f64; 2]> {
+    let (negative, positive) = points.split_at(points.partition_point(|point| point[0] < 0.0));
+    if sign > 0.0 || negative.is_empty() {
+        return positive.to_vec();
     }
-    let mut previous = 0.0;
+    negative.iter().rev().map(|point| point.map(|number| -number)).collect()
+}
+
+/// What is wrong with a point of a multilinear law.
+const RISE: &str = "the displacements must rise from zero; sort the points, and give loops by their envelope";
+const SIGN: &str =
+    "the force must be positive, and negative at u < 0 (the last one may be zero); cut the rest";
+
+/// Checks that points `[u, F]`, in any units, make a multilinear law, on each of its sides.
+///
+/// # Errors
+/// [`ParameterError::Points`] of the first that does not.
+pub fn check_points(points: &[[f64; 2]]) -> Result<(), ParameterError> {
+    let refuse = |index: usize, reason: &'static str| {
+        let [displacement, force] = points.get(index).copied().unwrap_or([f64::NAN; 2]);
+        Err(ParameterError::Points { number: index + 1, displacement, force, reason })
+    };
+    let first = points.partition_point(|point| point[0] < 0.0);
+    let last = points.len().saturating_sub(1);
     for (index, &[displacement, force]) in points.iter().enumerate() {
         if !displacement.is_finite() || !force.is_finite() {
             return refuse(index, "both numbers must be finite");
         }
-        if displacement <= previous {
-            return refuse(index, "the displacements u/u_ins must rise from zero");
+        if displacement == 0.0 || index > 0 && displacement <= points[index - 1][0] {
+            return refuse(index, RISE);
         }
-        let last = index + 1 == points.len();
-        if force < 0.0 || (force == 0.0 && !last) {
-            return refuse(index, "the force F/F0 must be positive (the last one may be zero)");
+        if force * displacement < 0.0 || force == 0.0 && index != last && (index > 0 || first == 0) {
+            return refuse(index, SIGN);
         }
-        previous = displacement;
     }
-    let [before, last] = [points[points.len() - 2], points[points.len() - 1]];
-    if last[1] >= before[1] {
-        return refuse(points.len() - 1, "the last line must fall: the force goes on along it");
+    if let Some(end) = (points.len() - first < 2).then_some(last).or((first == 1).then_some(0)) {
+        return refuse(end, "a multilinear law needs at least two points after the origin");
+    }
+    let ends = [Some((last - 1, last)), (first > 0).then_some((1, 0))];
+    for (before, end) in ends.into_iter().flatten() {
+        if points[end][1].abs() >= points[before][1].abs() {
+            return refuse(end, "the last line must fall: the force goes on along it");
+        }
     }
     Ok(())
 }

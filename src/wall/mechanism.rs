@@ -237,6 +237,15 @@ impl Body {
         self.is_strip() && self.strength.positive != self.strength.negative
     }
 
+    /// Returns how far a height moves for u = 1 \[-\]: z/`z_G`, and φ(z) of a strip.
+    pub fn lever(&self, height: f64) -> f64 {
+        match self.hinge() {
+            None => height / self.centroid_height,
+            Some(hinge) if height <= hinge => height / hinge,
+            Some(hinge) => (self.height - height) / (self.height - hinge),
+        }
+    }
+
     /// Returns whether the wall is a strip of two bodies between two supports.
     pub fn is_strip(&self) -> bool {
         self.mechanism == Mechanism::VerticalSpanning

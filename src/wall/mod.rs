@@ -71,7 +71,7 @@ pub use equation::Wall;
 pub(crate) use error::Choice;
 pub use error::ParameterError;
 pub use facts::Fact;
-pub use force_law::Line;
+pub use force_law::{Line, check_points};
 pub use given::{COMPUTED, is_computable};
 pub use mechanism::{Body, Contact, MassShares};
 pub use parameters::{Kinematics, Parameters};

@@ -79,8 +79,9 @@ pub struct Parameters {
     pub loads: Option<Arc<[Load]>>,
     /// Small or full rotations. Only scenes carry it, and FMUs of a scene.
     pub kinematics: Kinematics,
-    /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
-    /// replaces `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
+    /// Corners `[u/u_ins, F/F0]` of a multilinear law without the origin, u rising. Those with u < 0 are of
+    /// that side; without any, both sides have the same fractions. Replaces `force_law`, `a1`, `a3`, `d1` and
+    /// `softening`. Only scenes carry it.
     pub multilinear: Option<Arc<[[f64; 2]]>>,
     /// The bar of the tie, which [`Parameters::apply_bars`] turns into the tie's own numbers. Only scenes
     /// carry it.

@@ -134,12 +134,10 @@ impl Tie {
         }
         let strength = Some(strength).filter(|strength| *strength > 0.0);
         let ultimate = strength.and(ultimate);
-        let (lever, scale) = match body.hinge() {
-            None => (tie_height / body.centroid_height, 1.0),
-            Some(_) if tie_height == height => return Err(ParameterError::TieAtTop { tie_height }),
-            Some(hinge) if tie_height <= hinge => (tie_height / hinge, 2.0),
-            Some(hinge) => ((height - tie_height) / (height - hinge), 2.0),
-        };
+        if body.is_strip() && tie_height == height {
+            return Err(ParameterError::TieAtTop { tie_height });
+        }
+        let (lever, scale) = (body.lever(tie_height), if body.is_strip() { 2.0 } else { 1.0 });
         // the elongation under the strength; with no plastic elongation the tie breaks where it yields
         let elastic = strength.map(|strength| strength / stiffness + slack);
         Ok(Some(Self {

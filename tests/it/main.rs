@@ -25,6 +25,7 @@ mod chain;
 mod closed_forms;
 mod configuration;
 mod couple;
+mod curve;
 mod demands;
 mod departing_ties;
 mod description;

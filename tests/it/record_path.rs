@@ -279,7 +279,8 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<Ou
     Ok(outcome)
 }
 
-/// A wall of a multilinear law of two to five corners, or another, that starts on its way.
+/// A wall of a multilinear law of two to five corners, on one side or other ones on each, or another, that
+/// starts on its way.
 fn moving() -> impl Strategy<Value = Parameters> {
     let points = proptest::collection::vec((0.02_f64..0.3, 0.05_f64..0.9), 2..5);
     (walls(), points, any::<bool>(), -0.95_f64..0.95, -1.0_f64..1.0).prop_map(
@@ -295,7 +296,10 @@ fn moving() -> impl Strategy<Value = Parameters> {
                 corners.push([corner + 0.2, 0.0]);
                 let reach = corners[corners.len() - 1][0];
                 parameters.force_law = ForceLaw::Bilinear;
-                parameters.multilinear = Some(corners.iter().map(|[u, f]| [u / reach, *f]).collect());
+                let side = corners.iter().map(|[u, f]| [u / reach, *f]);
+                // the other side is stiffer and weaker, or the same
+                let other = side.clone().rev().map(|[u, f]| [-u * u.sqrt(), -0.8 * f]);
+                parameters.multilinear = Some(other.filter(|_| speed > 0.0).chain(side).collect());
             }
             let wall = Wall::new(&parameters).expect("a valid wall");
             let u_ins = wall.body().instability;

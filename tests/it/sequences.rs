@@ -138,7 +138,7 @@ fn scenes_state_sequences() {
     let expected = [0.0, 1.0, 2.0, 0.5, -1.0, -0.5, 0.0, 0.0, 0.0, 2.0 * (0.1 * g), -2.0 * (0.2 * g), 0.0];
     assert_eq!((found.step(), found.samples()), (0.01, &expected[..]));
     assert_eq!(scene.excitation.as_ref().unwrap().later_shocks(), [0.08]);
-    assert_eq!(scene.records.len(), 2);
+    assert_eq!(scene.files.len(), 2);
     assert!(scene.motion_notes.iter().any(|note| note.contains("0.02 s between them")));
     // one in a list is a record by itself
     let [one, alone] =

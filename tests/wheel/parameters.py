@@ -57,6 +57,7 @@ def text() -> str:
     known["tie"] = several | {"description": "Several ties, in place of one by tie_height, tie_stiffness, …."}
     bar = {f"bar_{name}": value for name, value in known["bar"]["properties"].items()}
     names = [*rw.Wall().parameters, "kinematics", "points", "part", "opening", "load", "tie"]
+    names += ["curve", "at_height", "curve_tolerance", "oscillator"]
     made = Options({"$defs": schemas()[0]["$defs"], "properties": {}})
     made.table("Parameters", {"description": ABOUT, "properties": {n: known[n] for n in names} | bar})
     return HEAD + "".join(made.classes.values())

@@ -15,10 +15,13 @@ mod heading;
 mod lines;
 
 pub use crate::error::Fault;
+pub use crate::quantity::Measured;
 pub use cells::{Numbers, TextRow, Thousands};
 pub use heading::Name;
 pub(crate) use heading::unit_of_title;
 pub(crate) use lines::{COMMENTS, is_comment, is_comment_above, refuse_unclear};
+
+use std::ops::Range;
 
 use crate::error::excerpt;
 use crate::fields::{Numbered, all_lines};
@@ -230,6 +233,23 @@ impl<'a> Columns<'a> {
             take(first, value, row.line)?;
         }
         thousands.check()
+    }
+
+    /// Finds the only one of some columns whose unit has an SI value by `unit`; `what` says what it measures.
+    /// # Errors
+    /// [`Fault`] if there is none or more than one.
+    pub fn measuring(
+        &self,
+        columns: Range<usize>,
+        what: &str,
+        unit: impl Fn(Measured) -> Option<f64>,
+    ) -> Result<(usize, f64), Fault> {
+        let mut found = columns.filter_map(|at| Some((at, unit(self.names.get(at)?.measured()?)?)));
+        if let (Some(only), None) = (found.next(), found.next()) {
+            return Ok(only);
+        }
+        let remedy = "name each column in a header line with its unit in brackets, displacements first";
+        Err(Fault::excerpt(self.heading.0, format!("one column of {what}"), self.heading.1, remedy))
     }
 
     /// Finds the column to read beside the first: the one that is wanted by its name, or else the only one.

@@ -59,6 +59,35 @@ const FREQUENCIES: [&str; 8] = ["hz", "khz", "1/s", "s-1", "rad/s", "rads-1", "r
 /// Units of signals without prefixes and plurals, also above a `/`: V/g.
 const SIGNALS: [&str; 7] = ["v", "volt", "count", "cnt", "ct", "digit", "lsb"];
 
+/// Units of force: names, and their sizes in N.
+const FORCES: [(&[&str], f64); 3] = [(&["n"], 1.0), (&["kn"], 1e3), (&["mn"], 1e6)];
+
+/// What a capacity curve states in a column, with the SI value of its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// A length: how many m the unit has.
+    Length(f64),
+    /// A force: how many N the unit has.
+    Force(f64),
+    /// An acceleration: how many m/s² the unit has.
+    Acceleration(f64),
+}
+
+impl Measured {
+    /// Finds the quantity of a unit; `None` for others.
+    pub(crate) fn of(unit: &str) -> Option<Self> {
+        let word = unit.trim().to_lowercase();
+        // mN is no MN
+        let force = size_of(&word, &FORCES).filter(|_| unit.trim() != "mN");
+        match Quantity::of(unit) {
+            Some(Quantity::Displacement) => size_of(&plain(unit), &LENGTHS).map(Self::Length),
+            Some(Quantity::Acceleration(unit)) => Some(Self::Acceleration(unit.to_si(1.0))),
+            Some(Quantity::OtherAcceleration(size, unit)) => Some(Self::Acceleration(unit.to_si(size))),
+            _ => force.map(Self::Force),
+        }
+    }
+}
+
 /// Finds the size of a unit by one of its names.
 fn size_of(word: &str, units: &[(&[&str], f64)]) -> Option<f64> {
     units.iter().find(|(names, _)| names.contains(&word)).map(|(_, size)| *size)

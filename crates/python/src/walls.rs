@@ -10,13 +10,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable, SupportsTable,
-    parameter_text, set_names, to_toml,
+    Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable, SupportsTable,
+    apply_curve, parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{OF_RECTANGLE, Parameters, Wall as Equation};
-use run::capacity::plot;
+use run::capacity::{plot, with_curve};
 use run::walls::{assumed, read_scene};
 use scene_fmu::General;
 
@@ -46,29 +46,35 @@ type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
 
 #[pymethods]
 impl Wall {
-    /// Makes a wall; `tables` are those of a scene that have parts, openings and loads, and ties.
+    /// Makes a wall; `tables` are those of a scene that have parts, openings and loads, and ties, and `curve`
+    /// is its `[force_law]` with a capacity curve.
     #[new]
-    #[pyo3(signature = (parameters, tables=None))]
-    fn new(parameters: &Bound<'_, PyDict>, tables: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (parameters, tables=None, curve=None))]
+    fn new(parameters: &Bound<'_, PyDict>, tables: Option<&str>, curve: Option<&str>) -> PyResult<Self> {
         let mut scene = Scene { title: "rocking wall".into(), ..Scene::default() };
         let mut assumed = assumed(|_, _| false);
         set_tables(&mut scene, &mut assumed, tables)?;
-        Self::of(scene, None, assumed, parameters)
+        Self::of(scene, None, assumed, parameters, curve)
     }
 
     /// Reads a scene file.
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let (scene, assumed) = read_scene(&path).map_err(of_scene)?;
-        Self::of(scene, None, assumed, &PyDict::new(py))
+        Self::of(scene, None, assumed, &PyDict::new(py), None)
     }
 
     /// Returns the same wall with other values of some parameters.
-    #[pyo3(signature = (parameters, tables=None))]
-    fn replaced(&self, parameters: &Bound<'_, PyDict>, tables: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (parameters, tables=None, curve=None))]
+    fn replaced(
+        &self,
+        parameters: &Bound<'_, PyDict>,
+        tables: Option<&str>,
+        curve: Option<&str>,
+    ) -> PyResult<Self> {
         let (mut scene, mut assumed) = (self.scene.clone(), self.assumed.clone());
         set_tables(&mut scene, &mut assumed, tables)?;
-        Self::of(scene, self.start, assumed, parameters)
+        Self::of(scene, self.start, assumed, parameters, curve)
     }
 
     /// Returns the same wall on floors of storeys, given as mass, stiffness, period and damping ratio.
@@ -196,7 +202,7 @@ impl Wall {
         let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
-        let curve = plot(&[("u > 0", points)], Vec::new()).picture();
+        let curve = with_curve(plot(&[("u > 0", points)], Vec::new()), scene.curve.as_ref()).picture();
         let picture = run::drawing::svg(equation, &scene.parameters) + &curve;
         Ok((method.to_string(), equation.backbone(), warnings, picture))
     }
@@ -248,8 +254,10 @@ impl Wall {
         start: Option<f64>,
         mut assumed: Vec<&'static str>,
         parameters: &Bound<'_, PyDict>,
+        curve: Option<&str>,
     ) -> PyResult<Self> {
         set_all(&mut scene, parameters)?;
+        curve.map_or(Ok(()), |curve| set_curve(&mut scene, parameters, curve))?;
         assumed.retain(|name| parameters.contains(name).is_ok_and(|is_stated| !is_stated));
         let start = if parameters.contains("u_start")? { Some(scene.parameters.u_start) } else { start };
         let equation = Equation::new(&scene.parameters).map_err(refused)?;
@@ -281,6 +289,24 @@ fn set_tables(scene: &mut Scene, assumed: &mut Vec<&'static str>, tables: Option
         own.set_ties(&given.ties().collect::<Vec<_>>());
         own.apply_bars().map_err(refused)?;
     }
+    Ok(())
+}
+
+/// Gives the wall of a scene the force law of a capacity curve, the text of a table `[force_law]`.
+fn set_curve(scene: &mut Scene, parameters: &Bound<'_, PyDict>, text: &str) -> PyResult<()> {
+    let file = TomlFile::new("the capacity curve of a wall", text).map_err(|error| of_scene(error.into()))?;
+    let document: Document = file.read().map_err(|error| of_scene(error.into()))?;
+    let has_oscillator = file.get(&["force_law", "oscillator"]).is_some();
+    let is_other = |group: &str| group == "force_law" || group == "geometry" && has_oscillator;
+    let others = GROUPS.iter().filter(|(group, _)| is_other(group)).flat_map(|(_, names)| names.iter());
+    for name in others.filter(|name| **name != "gravity").chain([&POINTS]) {
+        if parameters.contains(name)? {
+            return Err(refused(format!("{name} is not of the capacity curve or oscillator; leave one out")));
+        }
+    }
+    let tables = [&document.force_law, &document.geometry];
+    let curve = apply_curve(&mut scene.parameters, tables, &file, Path::new("."));
+    scene.curve = curve.map_err(|error| of_scene(error.into()))?;
     Ok(())
 }
 

@@ -13,6 +13,7 @@
 use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
+use rocking_wall::scene;
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
@@ -129,4 +130,13 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
         Axis::over("restoring force |F| (kN)", [1.05 * low, 1.08 * top]),
     ];
     Plot::new([820.0, 460.0], axes, series)
+}
+
+/// Adds the capacity curve that a force law was made of, as it was given.
+pub fn with_curve(mut plot: Plot, curve: Option<&scene::Curve>) -> Plot {
+    let Some(curve) = curve else { return plot };
+    let points = curve.points.iter().map(|point| (1000.0 * point[0].abs(), point[1].abs() / 1000.0));
+    let (name, line) = (format!("as given: {}", curve.note), Series::stroke(RED, 1.6, points.collect()));
+    plot.series.push(Series { name, look: Look::Dotted, ..line });
+    plot
 }

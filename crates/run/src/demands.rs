@@ -20,6 +20,9 @@ pub fn summary(scene: &Scene, response: &Response) -> String {
     if !scene.motion_notes.is_empty() {
         line("motion", scene.motion_notes.join(", "));
     }
+    if let Some(curve) = &scene.curve {
+        line("curve", curve.note.clone());
+    }
     line("largest |u|", largest(summary, "m", 6));
     line("overturned", overturned(summary.fate, 4));
     line("run", format!("{} s", report::number(summary.end_time, 6)));

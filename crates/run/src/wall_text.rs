@@ -1,7 +1,9 @@
 //! A wall as tables of a study file: what a study's folder keeps of it, and what another process gets.
 
+use std::path::Path;
+
 use files::{FileError, TomlFile};
-use rocking_wall::scene::{Document, Scene, apply_group, apply_ties, read_floors, to_toml};
+use rocking_wall::scene::{Document, Scene, apply_tables, read_floors, to_toml};
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
 
 use crate::named_wall::NamedWall;
@@ -43,10 +45,8 @@ pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, FileError> {
     let file = &TomlFile::new(&name, text)?;
     let wall: Document = file.read()?;
     let mut parameters = Parameters::default();
-    for (group, entries) in wall.groups() {
-        apply_group(&mut parameters, group, entries, file)?;
-    }
-    apply_ties(&mut parameters, &wall.tie, file)?;
+    // the text has the points of a capacity curve, not its file
+    apply_tables(&mut parameters, &wall.groups(), &wall.tie, file, Path::new(""))?;
     let floors = read_floors(&wall.storeys, wall.supports.as_ref(), file.place())?;
     Ok(NamedWall { floors, ..NamedWall::new(name, parameters) })
 }

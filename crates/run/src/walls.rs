@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
-    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables, apply_group,
-    apply_ties, parameters, read_floors,
+    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables, apply_tables,
+    parameters, read_floors,
 };
 use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
 use serde::Deserialize;
@@ -55,6 +55,8 @@ pub struct WallEntry {
     pub name: Option<String>,
     /// Source of its parameters.
     pub source: WallSource,
+    /// The file of the capacity curve that is its force law.
+    pub curve: Option<PathBuf>,
     /// Storeys between ground and wall; if there are none, those of its scene.
     pub floors: Option<Floors>,
 }
@@ -190,7 +192,12 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
         }
         let line = place.line(table.span());
         let source = if kind == "scene" { WallSource::Scene } else { WallSource::Table };
-        return Ok(WallEntry { name: spec.name.clone(), source: source(path.clone(), line), floors: None });
+        return Ok(WallEntry {
+            name: spec.name.clone(),
+            source: source(path.clone(), line),
+            curve: None,
+            floors: None,
+        });
     }
     for (name, message) in OF_MODELS {
         let keys = groups.iter().flat_map(|(_, group)| group.keys());
@@ -202,10 +209,8 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
         return Err(place.error(table.span(), "a wall needs a name, such as name = \"1\""));
     }
     let mut parameters = Parameters::default();
-    for (name, group) in groups {
-        apply_group(&mut parameters, name, group, file)?;
-    }
-    apply_ties(&mut parameters, &spec.tie, file)?;
+    let folder = Path::new(place.name()).parent().unwrap_or(Path::new("."));
+    let curve = apply_tables(&mut parameters, &groups, &spec.tie, file, folder)?;
     let first = spec.tie.first();
     let bar = first.and_then(|tie| tie.iter().find(|(key, _)| key.get_ref() == "bar"));
     let bar = bar.and_then(|(_, bar)| bar.get_ref().as_table());
@@ -215,7 +220,8 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
             || group == "bar" && bar.is_some_and(|bar| bar.contains_key(name))
     };
     let source = WallSource::Inline(Box::new(parameters), stated(is_stated));
-    Ok(WallEntry { name: spec.name.clone(), source, floors: None })
+    let curve = curve.and_then(|curve| curve.file);
+    Ok(WallEntry { name: spec.name.clone(), source, curve, floors: None })
 }
 
 /// Reads the walls of a file, which may have `others` among its keys, those of a study or a check. Scenes and
@@ -262,6 +268,7 @@ pub fn walls(
     match entry.source {
         WallSource::Inline(parameters, stated) => {
             let name = entry.name.unwrap_or_default();
+            inputs.extend(entry.curve);
             Ok(vec![NamedWall { floors: entry.floors, ..NamedWall::new(name, *parameters).stating(stated) }])
         }
         WallSource::Table(path, line) => {
@@ -275,6 +282,7 @@ pub fn walls(
             inputs.push(file.clone());
             let (scene, stated) =
                 scene_and_stated(&file).map_err(|error| at(line, "a wall's scene", &error))?;
+            inputs.extend(scene.curve.as_ref().and_then(|curve| curve.file.clone()));
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {

@@ -95,7 +95,7 @@ impl SceneArguments {
 
     /// Returns the files that the scene was read from.
     pub(crate) fn inputs<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = &'a PathBuf> {
-        self.scene.iter().chain(&scene.records)
+        self.scene.iter().chain(&scene.files)
     }
 
     /// Names the scene's file in an error about its parameters.

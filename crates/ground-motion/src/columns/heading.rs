@@ -3,7 +3,7 @@
 use super::cells::{Separator, cells, unquoted};
 use crate::error::Fault;
 use crate::fields::{find, unit_word};
-use crate::quantity::Quantity;
+use crate::quantity::{Measured, Quantity};
 use crate::unit::Unit;
 use crate::vertical::is_vertical_channel;
 
@@ -55,6 +55,11 @@ impl Name {
     /// Returns the unit, or what else stands in the brackets.
     pub fn unit(&self) -> Option<&str> {
         self.unit.as_deref()
+    }
+
+    /// Returns what the unit measures, if it is a length, a force or an acceleration.
+    pub fn measured(&self) -> Option<Measured> {
+        self.unit.as_deref().and_then(Measured::of)
     }
 
     /// Returns the words of the name, in small letters; of a line that is no name, the first few.

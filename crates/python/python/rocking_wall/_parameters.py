@@ -101,11 +101,18 @@ class Parameters(TypedDict, total=False):
     - tie_ultimate: Plastic elongation at which the tie breaks; it yields at tie_strength; -1: elastic [m], at
       least -1, at most 1000; where tie_strength is not 0 and tie_stiffness is not 0; default -1.0.
     - kinematics: Small rotations, or full ones (rigid_linear without damping); default "linear".
-    - points: Corners [u/u_ins, F/F0] of a multilinear law after the origin.
+    - points: Corners [u/u_ins, F/F0] of a multilinear law without the origin; both sides are alike unless
+      some have u < 0.
     - part: Parts of the masonry, in place of one rectangle.
     - opening: Openings and hollows in the parts.
     - load: Loads on the parts or the body.
     - tie: Several ties, in place of one by tie_height, tie_stiffness, ….
+    - curve: Capacity curve in place of a file: pairs of a displacement [m] and the force F [N].
+    - at_height: Height at which the displacements are measured [m]; by default they are u, and d* beside a*,
+      above 0, at most 1000.
+    - curve_tolerance: Largest deviation of the law from the curve, over the largest force [-], at least 0, at
+      most 0.1; default 0.001.
+    - oscillator: What rocks, in place of a geometry.
     - bar_anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the
       bar [N], above 0.
     - bar_diameter: Diameter of the bar [m], above 0.
@@ -170,6 +177,10 @@ class Parameters(TypedDict, total=False):
     opening: Sequence[Opening]
     load: Sequence[Load]
     tie: Sequence[Tie]
+    curve: Sequence[Sequence[float]]
+    at_height: float
+    curve_tolerance: float
+    oscillator: Oscillator
     bar_anchor_capacity: float
     bar_diameter: float
     bar_length: float
@@ -290,3 +301,14 @@ class Bar(TypedDict, total=False):
     ultimate_strain: float
     yield_stress: Required[float]
     young_modulus: float
+
+
+class Oscillator(TypedDict, total=False):
+    """The constants of an oscillator; φ is its shape, 1 where u is measured.
+
+    - effective_mass: Effective mass m_eff = Σmφ² [kg], at least 0.001, at most 1e+09.
+    - participation: Participation λ = Σmφ/Σmφ² [-], at least 0.01, at most 10.
+    """
+
+    effective_mass: Required[float]
+    participation: Required[float]

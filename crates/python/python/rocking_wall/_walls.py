@@ -62,14 +62,20 @@ class Storey:
     """Damping ratio [-]; by default 0.05."""
 
 
-def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None]:
-    """Returns the parameters without the tables of a body and of ties, and these as TOML."""
+def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None, str | None]:
+    """Returns the parameters without the tables of a body and of ties and without a capacity curve, and both
+    of these as TOML."""
     keys = [key for key in ("part", "opening", "load") if key in parameters]
     body: dict[str, Any] = {key: parameters.pop(key) for key in keys}
     tables: dict[str, Any] = {"geometry": body} if body else {}
     if "tie" in parameters:
         tables["tie"] = parameters.pop("tie")
-    return parameters, toml_lines(tables) if tables else None
+    keys = [key for key in ("curve", "at_height", "curve_tolerance", "oscillator") if key in parameters]
+    curve: dict[str, Any] = {key: parameters.pop(key) for key in keys}
+    if "curve" in curve:
+        curve["curve"] = [[float(number) for number in point] for point in curve["curve"]]
+    law = toml_lines({"force_law": curve}) if curve else None
+    return parameters, toml_lines(tables) if tables else None, law
 
 
 class Wall(Given):

@@ -51,7 +51,7 @@ pub(super) struct FreeVibration {
 /// Returns a₁ of a law that has only its own: a multilinear law's first corner, 0 for the rigid-linear law.
 pub(super) fn own_a1(parameters: &Parameters) -> Option<f64> {
     match &parameters.multilinear {
-        Some(points) => points.first().map(|point| point[0]),
+        Some(points) => points.iter().map(|point| point[0]).find(|&fraction| fraction > 0.0),
         None => (parameters.force_law == ForceLaw::RigidLinear).then_some(0.0),
     }
 }

@@ -11,7 +11,7 @@ use rocking_wall::wall::{Fact, Parameters, TieNumbers, TiePart, Wall, usage};
 
 use crate::args::{SceneArguments, apply_set, svg_file};
 use crate::output::{self, Console};
-use run::capacity::Capacity;
+use run::capacity::{Capacity, with_curve};
 use run::drawing;
 
 /// Difference of a coefficient of restitution from that by impulses which is worth saying.
@@ -54,7 +54,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
     let capacity = Capacity::new(&wall, &scene.thresholds);
-    console.save(arguments.plot.as_ref(), || capacity.plot().picture())?;
+    console.save(arguments.plot.as_ref(), || with_curve(capacity.plot(), scene.curve.as_ref()).picture())?;
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     console.save(arguments.drawing.as_ref(), || drawing::svg(&wall, parameters))?;
     let facts = wall.facts();
@@ -69,7 +69,9 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         ("impact", parameters.impact.name().to_owned()),
         ("solver", method_name(&method).to_owned()),
     ];
-    let words = words.map(|(name, value)| (name.to_owned(), value)).into_iter().chain(ties(parameters));
+    let curve = scene.curve.iter().map(|curve| ("curve".to_owned(), curve.note.clone()));
+    let words = words.map(|(name, value)| (name.to_owned(), value)).into_iter();
+    let words = words.chain(curve).chain(ties(parameters));
     if arguments.json {
         let words = words.map(|(name, value)| (name, value.into()));
         let facts = facts.iter().map(|fact| (fact.name.to_string(), fact.value.into()));

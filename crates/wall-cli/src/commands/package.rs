@@ -29,8 +29,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     let made = if arguments.fmi == "3" { "fmu_out/fmi3/wall.fmu" } else { "fmu_out/wall.fmu" };
     let base = arguments.base.clone().unwrap_or_else(|| made.into());
-    console
-        .check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
+    console.check_distinct([&arguments.scene, &base].into_iter().chain(&scene.files), [&arguments.output])?;
     let named = || arguments.scene.display().to_string();
     let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(console, &arguments.scene, &scene);

@@ -27,6 +27,45 @@ fn describe_writes_the_curve() {
     fails(&folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", "ends in .svg"]);
 }
 
+/// A capacity curve is told and drawn over its law, and no output replaces its file. A study reads it beside
+/// itself; a check by a code needs a geometry.
+#[test]
+fn describe_draws_a_capacity_curve_over_its_law() {
+    let folder = folder("pushover");
+    let example = crate::root().join("examples/capacity_curve.csv");
+    std::fs::copy(example, folder.join("curve.csv")).unwrap();
+    let law = "file = \"curve.csv\"\ncurve_tolerance = 0.02\n";
+    let scene = format!("[geometry]\nheight = 4\nthickness = 0.25\n[force_law]\nat_height = 4.0\n{law}");
+    std::fs::write(folder.join("scene.toml"), &scene).unwrap();
+    let text = printed(&folder, &["describe", "scene.toml", "--plot", "c.svg"]);
+    assert_has(
+        &text,
+        &["force_law", "multilinear", "of 15 points, ΔF at most", "% of the largest F, at u = "],
+    );
+    assert!(content(&folder, "c.svg").contains("as given: "));
+    let json = json(&folder, &["describe", "scene.toml", "--json"]);
+    assert!(json["curve"].as_str().unwrap().contains(" of 15 points"));
+    fails(&folder, &["describe", "scene.toml", "--csv", "curve.csv"], &["curve.csv"]);
+    let run = printed(&folder, &["simulate", "scene.toml", "--synthetic", "--html", "page.html"]);
+    assert!(run.contains("\ncurve          ") && content(&folder, "page.html").contains("capacity curve"));
+    let oscillator =
+        format!("[force_law]\n{law}oscillator = {{ effective_mass = 800, participation = 1.2 }}\n");
+    let check = "xi = 0.05\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nbefore_activation = \"law\"\n\
+                 SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
+    std::fs::write(folder.join("check.toml"), format!("{oscillator}[damping]\n{check}")).unwrap();
+    fails(&folder, &["check", "check.toml"], &["height, thickness, density not stated"]);
+    let walls = scene.replace("[geometry]", "[[walls]]\nname = \"a\"\n[walls.geometry]");
+    let walls = walls.replace("[force_law]", "[walls.force_law]");
+    let check = check.replace("xi = 0.05\n", "");
+    std::fs::write(
+        folder.join("walls.toml"),
+        walls.replace("thickness", "density = 1800\nthickness") + &check,
+    )
+    .unwrap();
+    printed(&folder, &["check", "walls.toml"]);
+    fails(&folder, &["check", "walls.toml", "--csv", "curve.csv"], &["curve.csv"]);
+}
+
 /// A formula of restitution that is far from the impulses of an impact is said, where it counts.
 #[test]
 fn describe_says_where_restitution_is_doubtful() {

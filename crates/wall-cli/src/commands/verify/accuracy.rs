@@ -56,7 +56,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         bail!("--peers adds measurements to a page or a plot: add --html FILE or --plot FILE");
     }
     let scenes = arguments.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
+    let records = scenes.iter().flat_map(|scene| &scene.files).chain(&arguments.record.record);
     console.check_distinct(
         arguments.scenes.iter().chain(records).chain(&arguments.peers),
         [&arguments.csv, &arguments.linearisation, &arguments.html, &arguments.plot].into_iter().flatten(),
