@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Twenty synthetic motions stand for records.
     let record = |seed| -> Result<NamedRecord, Box<dyn Error>> {
         let motion = SyntheticMotion { seed, duration: 15.0, ..SyntheticMotion::default() }.motion()?;
-        Ok(NamedRecord { name: format!("motion {seed}"), motion })
+        Ok(NamedRecord::new(format!("motion {seed}"), motion))
     };
     let records = (1..=20).map(record).collect::<Result<Vec<_>, _>>()?;
 

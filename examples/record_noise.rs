@@ -76,7 +76,7 @@ fn with_noise(study: &Study, epsilon: f64) -> Result<Study, Box<dyn Error>> {
     let record = |record: &NamedRecord| {
         let samples = record.motion.samples().iter().map(|sample| sample * (1.0 + epsilon * noise()));
         let motion = GroundMotion::new(record.motion.step(), samples.collect())?;
-        Ok::<_, Box<dyn Error>>(NamedRecord { name: record.name.clone(), motion })
+        Ok::<_, Box<dyn Error>>(NamedRecord::new(record.name.clone(), motion))
     };
     let records = study.records().iter().map(record).collect::<Result<_, _>>()?;
     let (walls, models) = (study.walls().to_vec(), study.models().to_vec());

@@ -10,7 +10,7 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
-use study::fragility::{Bootstrap, Dispersion, Estimator, Sample, Summary, compare, steps};
+use study::fragility::{Bootstrap, Dispersion, Estimator, Sample, Summary, compare};
 use study::ida::{Crossing, Curve, IntensityMeasure, Levels, Study};
 
 /// Synthetic motions, with the seeds 1, 2, …
@@ -40,7 +40,7 @@ impl Fragility {
         let walls = vec![NamedWall::new("the wall", parameters)];
         let record = |seed: u32| {
             let recipe = SyntheticMotion { seed: seed.into(), duration: DURATION, step: STEP, peak: 1.0 };
-            recipe.motion().map(|motion| NamedRecord { name: format!("synthetic {seed}"), motion })
+            recipe.motion().map(|motion| NamedRecord::new(format!("synthetic {seed}"), motion))
         };
         let records: Result<Vec<_>, _> = (1..=MOTIONS).map(record).collect();
         let records = records.map_err(|error| error.to_string())?;
@@ -94,7 +94,7 @@ impl Fragility {
     fn chart(&self, states: &[Sample], summaries: &[&Summary]) -> Plot {
         let in_g = |intensity: f64| intensity / STANDARD_GRAVITY;
         let empirical = states.iter().map(|state| {
-            let steps = steps(state.exceedances()).into_iter().filter(|step| step.0.is_finite());
+            let steps = state.steps().into_iter().filter(|step| step.0.is_finite());
             steps.map(|(intensity, part)| (in_g(intensity), part)).collect::<Vec<_>>()
         });
         let empirical: Vec<_> = empirical.collect();

@@ -101,6 +101,6 @@ fn own_unit(given: &Bound<'_, PyAny>) -> Option<String> {
 
 /// Names the motions of records.
 pub(crate) fn named_records(records: Vec<(String, Motion)>) -> Vec<NamedRecord> {
-    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord { name, motion };
+    let record = |(name, Motion(motion)): (String, Motion)| NamedRecord::new(name, motion);
     records.into_iter().map(record).collect()
 }

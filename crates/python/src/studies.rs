@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use reliability::Codes;
 use rocking_wall::scene::SceneError;
+use run::records::Listed;
 use study::folder::{Contents, encode};
 use study::loaded::{LoadedStudy, Sent};
 
@@ -24,8 +25,9 @@ pub(crate) struct Study {
     contents: OnceLock<(Contents, String)>,
 }
 
-/// A study as values that pickle can send: its text, its walls, and its records by their names.
-type Values = (String, Vec<(String, String, Vec<String>)>, Vec<(String, Motion)>);
+/// A study as values that pickle can send: its text, its walls, and its records by their names, with their
+/// factors and weights.
+type Values = (String, Vec<(String, String, Vec<String>)>, Vec<(String, Motion)>, Vec<[f64; 2]>);
 
 #[pymethods]
 impl Study {
@@ -61,8 +63,12 @@ impl Study {
     /// Makes a study of its values on another machine.
     #[staticmethod]
     fn received(py: Python<'_>, values: Values) -> PyResult<Self> {
-        let (text, walls, records) = values;
-        let sent = Sent { text, walls, records: named_records(records) };
+        let (text, walls, records, listed) = values;
+        let mut records = named_records(records);
+        for (record, [factor, weight]) in records.iter_mut().zip(listed) {
+            record.listed = Listed { factor, weight };
+        }
+        let sent = Sent { text, walls, records };
         let loaded = py.detach(|| LoadedStudy::received(sent, &Codes)).map_err(of_scene)?;
         Ok(Self { loaded, contents: OnceLock::new() })
     }
@@ -70,7 +76,9 @@ impl Study {
     /// Returns the values of the study, to send them.
     fn sent(&self) -> Values {
         let Sent { text, walls, records } = self.loaded.sent(&Codes);
-        (text, walls, records.into_iter().map(|record| (record.name, Motion(record.motion))).collect())
+        let listed = records.iter().map(|record| [record.listed.factor, record.listed.weight]).collect();
+        let records = records.into_iter().map(|record| (record.name, Motion(record.motion)));
+        (text, walls, records.collect(), listed)
     }
 
     /// Counts the parts.

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`mod@file`], [`walls`] and [`records`] open files.
+//! Nothing here prints. Only [`mod@file`], [`walls`], [`selection`] and [`records`] open files.
 //!
 //! | module | holds |
 //! |---|---|
@@ -15,6 +15,7 @@
 //! | [`shaking`] | runs of one wall through one record, multiplied by factors |
 //! | [`walls`] | walls by their names, from study files, scenes and tables |
 //! | [`mod@wall_parameters`] | the parameters that a wall of a study may state |
+//! | [`selection`] | lists of records with factors and weights, as selectors write them |
 //! | [`records`] | records by their names, from files, folders and patterns |
 //! | [`capacity`] | the static capacity curve: table, JSON, CSV, plot |
 //! | [`drawing`] | the wall to scale: its section and, where it needs one, its front |
@@ -44,6 +45,7 @@ pub mod record_facts;
 pub mod records;
 pub mod rotations;
 pub mod sample;
+pub mod selection;
 pub mod shaking;
 mod wall_columns;
 pub mod wall_parameters;

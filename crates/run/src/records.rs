@@ -1,4 +1,5 @@
-//! Records by their names: the table `[records]` of a study or a check, with files, folders and patterns.
+//! Records by their names: the table `[records]` of a study or a check, with files, folders, patterns and
+//! lists.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,6 +12,9 @@ use ground_motion::{
 use rocking_wall::scene::{LONGEST_TAIL, RecordProblem, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
+pub use crate::selection::Listed;
+use crate::selection::{self, ListedFile};
+
 /// Most synthetic records of a study.
 const MOST_RECORDS: u64 = 10_000;
 
@@ -19,8 +23,17 @@ const MOST_RECORDS: u64 = 10_000;
 pub struct NamedRecord {
     /// Name in tables and messages.
     pub name: String,
-    /// Motion, unscaled.
+    /// Motion: of a list, with its factor.
     pub motion: GroundMotion,
+    /// What a list says of it.
+    pub listed: Listed,
+}
+
+impl NamedRecord {
+    /// Takes a record of which no list says anything: `name` is for tables and messages.
+    pub fn new(name: impl Into<String>, motion: GroundMotion) -> Self {
+        Self { name: name.into(), motion, listed: Listed::default() }
+    }
 }
 
 /// Records of a study.
@@ -28,6 +41,10 @@ pub struct NamedRecord {
 pub struct RecordsEntry {
     /// Files, folders and patterns with `*` and `?`, relative to the study file, each with its line.
     pub files: Vec<(String, usize)>,
+    /// A list of records, relative to the study file, with its line.
+    pub selection: Option<(String, usize)>,
+    /// Which of the two components of a list is taken, 1 or 2; both where `None`.
+    pub component: Option<u64>,
     /// Options for reading them.
     pub options: RecordOptions,
     /// Sequences of records after them, each with its line.
@@ -52,6 +69,11 @@ tables! {
         /// Time between the records of a sequence \[s\].
         #[key(minimum = 0, maximum = LONGEST_TAIL, default = DEFAULT_PAUSE)]
         pause: Option<Spanned<f64>>,
+        /// A list of records with scale factors and weights, as selectors write it: a table, or its folder.
+        selection: Option<Spanned<String>>,
+        /// Which of the two horizontal components of a list is taken; by default both, as two records.
+        #[key(minimum = 1, maximum = 2)]
+        component: Option<Spanned<u64>>,
         /// Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
         unit: Option<Unit>,
         /// Time between samples \[s\], likewise.
@@ -87,10 +109,18 @@ tables! {
 /// [`FileError`] with file, line, value and remedy.
 pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, FileError> {
     let spec = table.get_ref();
-    if spec.files.is_empty() && spec.sequences.is_empty() && spec.synthetic.is_none() {
-        let message =
-            "[records] needs files = [...], sequences = [[...], ...] or synthetic = { count = ... }";
+    if spec.files.is_empty()
+        && spec.selection.is_none()
+        && spec.sequences.is_empty()
+        && spec.synthetic.is_none()
+    {
+        let message = "[records] needs files = [...], selection = \"…\", sequences = [[...], ...] or \
+                       synthetic = { count = ... }";
         return Err(place.error(table.span(), message));
+    }
+    if let (Some(component), None) = (&spec.component, &spec.selection) {
+        let message = "component is that of a list; name one by selection = \"…\", or leave component out";
+        return Err(place.error(component.span(), message));
     }
     if let Some(single) = spec.sequences.iter().find(|shocks| shocks.get_ref().len() < 2) {
         let message = "sequences: a sequence is a list of at least two records; put a single one in files";
@@ -119,15 +149,26 @@ pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<Recor
             ..default
         }));
     }
-    Ok(RecordsEntry { files, options, sequences, pause, synthetic })
+    let selection = spec.selection.as_ref().map(|list| (list.get_ref().clone(), place.line(list.span())));
+    let component = spec.component.as_ref().map(|component| *component.get_ref());
+    Ok(RecordsEntry { files, selection, component, options, sequences, pause, synthetic })
 }
 
 /// A record file of a study.
 pub struct RecordFile {
     /// Path.
     pub path: PathBuf,
-    /// Whether the study names the file itself, and not its folder or a pattern.
+    /// Whether the study names the file itself, and not its folder, a pattern or a list.
     is_named: bool,
+    /// Of a list, what that states.
+    listed: Option<ListedFile>,
+}
+
+/// Returns the files that records are read from, their lists among them.
+pub fn inputs(entry: &RecordsEntry, files: Vec<RecordFile>, folder: &Path) -> Vec<PathBuf> {
+    let list = entry.selection.iter().filter_map(|(path, _)| selection::list_of(&folder.join(path)).ok());
+    let files = list.chain(files.into_iter().map(|file| file.path));
+    files.chain(entry.sequence_files(folder)).collect()
 }
 
 /// Lists the record files of a study, in the order of its patterns.
@@ -147,8 +188,21 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
             // a file that two patterns match is one record
             match listed.iter_mut().find(|file| file.path == path) {
                 Some(file) => file.is_named |= is_named,
-                None => listed.push(RecordFile { path, is_named }),
+                None => listed.push(RecordFile { path, is_named, listed: None }),
             }
+        }
+    }
+    if let Some((path, line)) = &entry.selection {
+        let in_study = |reason| FileError::on_line(study, *line, format!("selection = {path:?}: {reason}"));
+        let list = selection::list_of(&folder.join(path)).map_err(in_study)?;
+        for file in selection::read(&list, entry.component)? {
+            if listed.iter().any(|other| other.path == file.path) {
+                let (list, path) = (list.display().to_string(), file.path.display());
+                let reason =
+                    format!("{path} is named above this line too, or by `files`; delete one of them");
+                return Err(FileError::on_line(list, file.line, reason));
+            }
+            listed.push(RecordFile { path: file.path.clone(), is_named: false, listed: Some(file) });
         }
     }
     Ok(listed)
@@ -176,7 +230,7 @@ impl RecordsEntry {
             motions.push(table.scaled(record.motion)?);
         }
         let names: Vec<_> = shocks.iter().map(RecordTable::name).collect();
-        Ok(NamedRecord { name: names.join(" + "), motion: GroundMotion::sequence(&motions, self.pause)? })
+        Ok(NamedRecord::new(names.join(" + "), GroundMotion::sequence(&motions, self.pause)?))
     }
 }
 
@@ -199,20 +253,25 @@ pub fn all_records(
         *uses.entry(short(path)).or_default() += 1;
     }
     let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
-    for RecordFile { path, is_named } in files {
+    for RecordFile { path, is_named, listed } in files {
         let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
-        let record = read(path, &entry.options).map_err(refused)?;
+        let (mut options, mut own) = (entry.options.clone(), Listed::default());
+        if let Some(file) = listed {
+            (options.step, options.unit) = (options.step.or(file.step), options.unit.or(file.unit));
+            own = file.listed;
+        }
+        let record = read(path, &options).map_err(refused)?;
         if record.is_vertical && !is_named {
             let path = path.display();
             warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
             continue;
         }
         warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
-        let motion = record.motion;
+        let motion = if own.factor == 1.0 { record.motion } else { record.motion.scaled(own.factor) };
         let name = short(path);
         // files with equal names go by their whole paths
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
-        records.push(NamedRecord { name, motion });
+        records.push(NamedRecord { listed: own, ..NamedRecord::new(name, motion) });
     }
     for (shocks, line) in &entry.sequences {
         let refused = |problem: RecordProblem| FileError::on_line(study, *line, problem.to_string());
@@ -225,7 +284,7 @@ pub fn all_records(
     for recipe in &entry.synthetic {
         let refused = |error| FileError::whole(study, format!("synthetic records: {error}"));
         let motion = recipe.motion().map_err(refused)?;
-        records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
+        records.push(NamedRecord::new(format!("synthetic {}", recipe.seed), motion));
     }
     Ok(records)
 }

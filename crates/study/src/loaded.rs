@@ -7,13 +7,13 @@ use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
-use run::records::{NamedRecord, all_records, copies, record_files};
+use run::records::{NamedRecord, all_records, copies, inputs as record_inputs, record_files};
 use run::wall_text::{wall_of_text, wall_text};
 use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::codes::Codes;
 use crate::document::{CompareEntry, ReportOptions, StudyFile, WallClass};
-use crate::fragility::FEWEST_RECORDS;
+use crate::fragility::{FEWEST_RECORDS, Weights};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use crate::uncertain::Uncertain;
 use report::counted;
@@ -73,10 +73,9 @@ impl LoadedStudy {
             let found = walls(entry, folder, &name, &mut inputs, &mut warnings)?;
             all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
-        let paths = record_files(&file.records, folder, &name)?;
-        let records = all_records(&file.records, &paths, folder, &name, &mut warnings)?;
-        inputs.extend(paths.into_iter().map(|file| file.path));
-        inputs.extend(file.records.sequence_files(folder));
+        let files = record_files(&file.records, folder, &name)?;
+        let records = all_records(&file.records, &files, folder, &name, &mut warnings)?;
+        inputs.extend(record_inputs(&file.records, files, folder));
         warnings.extend(open_hazard(&mut file, folder, &mut inputs)?);
         let compare = file.compare.take();
         let study = Self::assemble(&name, text, file, all, records)?;
@@ -176,7 +175,7 @@ impl LoadedStudy {
         let every = walls.len().checked_div(sampled.len()).unwrap_or(1).max(1);
         warnings.extend(defaults(name, walls.iter().step_by(every)));
         warn(walls.iter().step_by(every), &file.models, &file.measure, &mut warnings);
-        let StudyFile { title, models, measure, select, levels, report, target, .. } = file;
+        let StudyFile { title, models, measure, select, levels, mut report, target, .. } = file;
         let records = match select {
             Some(count) => best(records, count, &measure).map_err(in_file)?,
             None => records,
@@ -186,15 +185,21 @@ impl LoadedStudy {
             .map(|study| study.with_collapse(file.collapse).with_polarity(file.polarity))
             .and_then(|study| study.with_scaled(file.scaled))
             .map_err(|error| in_file(error.to_string()))?;
+        let weights: Vec<_> = study.records().iter().map(|record| record.listed.weight).collect();
+        report.weights = Weights::of(&weights);
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         warnings.extend(alike(&study));
         let given = study.given_records();
         warnings.extend(copies(&given));
-        let few = counted(given.len(), "record") + ": studentised intervals need";
-        let few =
-            format!("{few} {FEWEST_RECORDS}; those of θ, β and what follows from them are not determined");
+        let effective = report.weights.effective(study.records().len()) / study.polarity().signs() as f64;
+        let few = format!(
+            "{}{}: studentised intervals need {FEWEST_RECORDS}; those of θ, β and what follows from them are \
+             not determined",
+            counted(given.len(), "record"),
+            if report.weights.are_equal() { String::new() } else { format!(", by weights {effective:.1}") }
+        );
         // one record has no dispersion to bound
-        warnings.extend((2..FEWEST_RECORDS).contains(&given.len()).then_some(few));
+        warnings.extend((given.len() > 1 && effective < FEWEST_RECORDS as f64).then_some(few));
         Ok(Self { title, study, report, inputs: Vec::new(), warnings, text, target, sampled })
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::document::ReportOptions;
 use crate::fragility::{
-    Bootstrap, Cloud, Dispersion, Estimator, FitError, Lognormal, Sample, Summary, compare, compare_clouds,
-    fit,
+    Bootstrap, Cloud, Dispersion, Estimator, FitError, Lognormal, Sample, Summary, Weights, compare,
+    compare_clouds, fit,
 };
 use crate::ida::{Crossing, Curve, Exceedance, Polarity};
 
@@ -23,6 +23,7 @@ pub struct Fitting {
     bootstrap: Bootstrap,
     /// β of modelling \[-\].
     modelling: f64,
+    weights: Weights,
 }
 
 /// Curves of one wall with every model and record, and a fragility of every model and limit state.
@@ -61,8 +62,10 @@ impl Fitting {
             is_cloud: false,
             dispersion: report.beta,
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed)
+                .weighted(&report.weights)
                 .corrected(report.small_sample),
             modelling: report.modelling_uncertainty,
+            weights: report.weights.clone(),
         }
     }
 
@@ -134,7 +137,7 @@ impl Fitting {
     /// Takes the clouds of the models; none of other studies.
     fn clouds(&self, curves: &[Curve]) -> Vec<Cloud> {
         let curves = if self.is_cloud { curves } else { &[] };
-        curves.chunks(self.records).map(Cloud::of_curves).collect()
+        curves.chunks(self.records).map(|curves| Cloud::of_curves(curves).weighted(&self.weights)).collect()
     }
 
     /// Counts the records.
@@ -148,7 +151,8 @@ impl Fitting {
         let of_model = |curves: &[Curve]| {
             // a cloud has no demands between the origin and its runs
             let levels = if self.is_cloud { Some(&[][..]) } else { self.grid.as_deref() };
-            let of_state = |fraction| Sample::of_curves(curves, fraction, crossing, levels);
+            let of_state =
+                |fraction| Sample::of_curves(curves, fraction, crossing, levels).weighted(&self.weights);
             fractions.iter().copied().map(of_state).collect()
         };
         curves.chunks(self.records).map(of_model).collect()

@@ -117,8 +117,8 @@ fn files_are_opened_where_the_heads_say() {
     let lists: [(&str, &[&str], &str); 3] = [
         (
             "run",
-            &["file.rs", "records.rs", "wall_table.rs"],
-            "Only [`mod@file`], [`walls`] and [`records`] open files",
+            &["file.rs", "records.rs", "selection.rs", "wall_table.rs"],
+            "Only [`mod@file`], [`walls`], [`selection`] and [`records`] open files",
         ),
         (
             "study",

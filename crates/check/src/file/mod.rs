@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use files::{Described, Fault, FileError, TomlFile, overlay, read_text};
 use rocking_wall::scene::{OF_BODY, Scene, SceneError};
 use rocking_wall::wall::OF_RECTANGLE;
-use run::records::{NamedRecord, RecordsTable, all_records, copies, record_files, records};
+use run::records::{NamedRecord, RecordsTable, all_records, copies, inputs, record_files, records};
 use run::walls::{NamedWall, assumed, read_walls};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -328,8 +328,12 @@ impl<'a> CheckFile<'a> {
             let entry = records(table, self.file.place())?;
             let found = record_files(&entry, &self.folder, self.name())?;
             named = all_records(&entry, &found, &self.folder, self.name(), &mut warnings)?;
-            files = found.into_iter().map(|file| file.path).collect();
-            files.extend(entry.sequence_files(&self.folder));
+            files = inputs(&entry, found, &self.folder);
+            if named.iter().any(|record| record.listed.weight != named[0].listed.weight) {
+                let message = "the list of records has weights, and a code takes records alike; delete its \
+                               column of weights";
+                return Err(self.file.place().error(table.span(), message).into());
+            }
         }
         warnings.extend(copies(&named));
         let warnings = warnings.into_iter().map(Sentence::same).collect();

@@ -88,7 +88,7 @@ fn record(index: u32) -> NamedRecord {
         0.2 * (t / 4.0).min((25.0 - t) / 9.0).min(1.0) * sum
     };
     let motion = GroundMotion::new(0.01, (0..=2500).map(at).collect()).unwrap();
-    NamedRecord { name: format!("{index}"), motion }
+    NamedRecord::new(format!("{index}"), motion)
 }
 
 fn under_records(count: u32, scale: &str) -> Outcome {

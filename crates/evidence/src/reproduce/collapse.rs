@@ -12,7 +12,7 @@ use run::model::{Model, color};
 use run::records::NamedRecord;
 use run::sample::sorted;
 use run::walls::NamedWall;
-use study::fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare, steps};
+use study::fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare};
 use study::ida::{Case, Crossing, Exceedance, IdaError, IntensityMeasure, Levels, Study};
 
 use super::figure::Figure;
@@ -112,7 +112,7 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Plot 
     let series = models.iter().zip(collapses).map(|(model, collapses)| {
         let mut points = vec![(0.0, 0.0)];
         let mut below = 0.0;
-        for (intensity, part) in steps(collapses) {
+        for (intensity, part) in Sample::of_records(collapses.clone()).steps() {
             let intensity = intensity / STANDARD_GRAVITY;
             points.extend([(intensity, below), (intensity, part)]);
             below = part;

@@ -54,9 +54,11 @@ fn words(summary: &Summary) -> String {
 fn equation_14_overestimates() {
     let Some(folder) = folder() else {
         eprintln!("not run: no real records (set ROCKING_WALL_RECORDS to their folder)");
-        let record = |seed| NamedRecord {
-            name: format!("seed {seed}"),
-            motion: SyntheticMotion { seed, duration: 15.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+        let record = |seed| {
+            NamedRecord::new(
+                format!("seed {seed}"),
+                SyntheticMotion { seed, duration: 15.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+            )
         };
         // with twelve records θ has a standard error of about β/√12 = 0.1, and the ratio of two models a
         // smaller one
@@ -67,9 +69,8 @@ fn equation_14_overestimates() {
     files.retain(|path| path.extension().is_some_and(|ending| ending == "AT2"));
     files.sort();
     assert!(files.len() >= 20, "{} AT2 records in {}", files.len(), folder.display());
-    let record = |path: &PathBuf| NamedRecord {
-        name: path.display().to_string(),
-        motion: read(path, &RecordOptions::default()).unwrap().motion,
+    let record = |path: &PathBuf| {
+        NamedRecord::new(path.display().to_string(), read(path, &RecordOptions::default()).unwrap().motion)
     };
     check(files.iter().map(record).collect(), 0.1);
 }

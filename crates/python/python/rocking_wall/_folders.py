@@ -71,6 +71,8 @@ class StudyResults(Tabular):
     over duration, magnitude and distance. None without `compare` in `intensity`."""
     given: Table | None
     """Fragilities of the last shock by the state of the wall before it; None without given in sequence."""
+    records: Table | None
+    """Factors and weights of the records; None where no list states any, and no weights are given."""
     ties: Table | None
     """Force and elongation of ties that may yield; None where there is none."""
     nrml: str | None
@@ -215,6 +217,7 @@ TABLES = (
     "cloud",
     "measures",
     "given",
+    "records",
     "ties",
 )
 """Tables that only some studies have."""

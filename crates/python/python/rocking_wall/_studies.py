@@ -164,7 +164,7 @@ class Study:
         """
         if self._is_file:
             raise ValueError(f"the study {self._name!r} is a file already; copy it and what it names")
-        write_study(Path(fsdecode(path)), *self._native.sent())
+        write_study(Path(fsdecode(path)), *self._native.sent()[:3])
 
     def __repr__(self) -> str:
         walls, records, models = len(self.walls), len(self.records), len(self.models)

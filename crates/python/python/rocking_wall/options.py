@@ -155,8 +155,12 @@ class Records(TypedDict, total=False):
 
     - channel: Channel of records with several, by its number.
     - column: Column of tables (CSV or text).
+    - component: Which of the two horizontal components of a list is taken; by default both, as two records,
+      at least 1, at most 2.
     - files: Files, folders and patterns with * and ?, relative to the study file.
     - format: Format of the files, if their content does not tell.
+    - selection: A list of records with scale factors and weights, as selectors write it: a table, or its
+      folder.
     - step: Time between samples [s], likewise.
     - synthetic: Synthetic motions.
     - unit: Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
@@ -164,8 +168,10 @@ class Records(TypedDict, total=False):
 
     channel: str
     column: str
+    component: int
     files: Sequence[str]
     format: str
+    selection: str
     step: float
     synthetic: SyntheticRecords
     unit: str

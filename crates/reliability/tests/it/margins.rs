@@ -169,7 +169,7 @@ fn margins_under_pulses_are_those_of_closed_forms() {
         let pulses = betas.map(|beta| Pulse { form, beta });
         let record = |pulse: Pulse| {
             let motion = form.motion(pulse.beta * rate / TAU).unwrap().scaled(-1.0);
-            NamedRecord { name: format!("beta {}", pulse.beta), motion }
+            NamedRecord::new(format!("beta {}", pulse.beta), motion)
         };
         let walls = vec![NamedWall::new("a", wall.clone())];
         let loaded = LoadedStudy::of_parts(text.clone(), walls, pulses.map(record).into(), &Codes).unwrap();

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::fragility::Dispersion;
+use crate::fragility::{Dispersion, Weights};
 use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels};
 use crate::measures::Compared;
@@ -58,6 +58,9 @@ pub struct ReportOptions {
     /// Fractions of `u_ins` that |u| has exceeded before the last shock, for fragilities of that shock.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub given: Vec<f64>,
+    /// Weights of the records.
+    #[serde(default, skip_serializing_if = "Weights::are_equal")]
+    pub weights: Weights,
 }
 
 /// A class of walls that risk engines see as one.
@@ -230,6 +233,7 @@ pub(super) fn report(
         samples: None,
         compared: None,
         given: Vec::new(),
+        weights: Weights::default(),
     })
 }
 

@@ -90,6 +90,9 @@ pub struct RecordNote {
     pub step_s: f64,
     /// Intensity, in the SI unit of the measure.
     pub intensity: f64,
+    /// Factor of a list by which the samples have been multiplied \[-\], other than 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
     /// Its spectrum over that of the site, at each period of the measure; empty for other measures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ratios: Vec<f64>,
@@ -160,6 +163,7 @@ impl Contents {
                 points: samples.len(),
                 step_s: record.motion.step(),
                 intensity: study.intensity(index),
+                factor: Some(record.listed.factor).filter(|factor| *factor != 1.0),
                 ratios: study
                     .measure()
                     .ratios(&study.scaled_motion(index))

@@ -4,7 +4,7 @@ use report::table::{Digits, Table};
 
 use super::contents::Manifest;
 use super::tables::{Kind, OF_INTENSITY};
-use crate::fragility::{Sample, fit};
+use crate::fragility::{Sample, Weights, fit};
 use crate::ida::{Before, Curve};
 use crate::results::WallResults;
 
@@ -53,9 +53,12 @@ fn given(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
     let above = report.given.iter().map(|fraction| State::Above(*fraction));
     let states: Vec<_> = [State::Any, State::Below(least)].into_iter().chain(above).chain(broken).collect();
     let row = |model: usize, state: State, fraction: f64| {
-        let leads = |curve: &&Curve| curve.before().is_some_and(|before| state.holds(&before));
-        let curves: Vec<_> = results.curves(model).iter().filter(leads).cloned().collect();
+        let leads = |(_, curve): &(usize, &Curve)| curve.before().is_some_and(|before| state.holds(&before));
+        let leading = results.curves(model).iter().enumerate().filter(leads);
+        let weighed = leading.map(|(place, curve)| (report.weights.of_record(place), curve.clone()));
+        let (weights, curves): (Vec<f64>, Vec<Curve>) = weighed.unzip();
         let sample = Sample::of_curves(&curves, fraction, report.collapse, contents.grid.as_deref());
+        let sample = sample.weighted(&Weights::of(&weights));
         (model, state, fraction, curves.len(), fit(&sample).ok())
     };
     let models = 0..contents.models.len();

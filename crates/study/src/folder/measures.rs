@@ -56,7 +56,7 @@ impl<'a> Measures<'a> {
         let collapse = CollapseOf { crossing: report.collapse, at_levels: contents.grid.is_some() };
         for model in 0..contents.models.len() {
             for (measure, shown) in
-                self.compared.shown(results.curves(model), collapse).into_iter().enumerate()
+                self.compared.shown(results.curves(model), &report.weights, collapse).into_iter().enumerate()
             {
                 self.together[model * self.compared.measures.len() + measure].add(&shown);
                 self.rows.push(Row::of(Some(wall), model, measure, shown));

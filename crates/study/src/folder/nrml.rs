@@ -208,6 +208,7 @@ mod tests {
             samples: None,
             compared: None,
             given: Vec::new(),
+            weights: crate::fragility::Weights::default(),
         };
         assert_eq!(report.rising(), [1, 0, 2]);
         let names = report.rising().into_iter().map(|place| state_name(report.fractions[place]));

@@ -1,6 +1,6 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
-use crate::fragility::{Regression, steps};
+use crate::fragility::{Regression, Sample, Weights};
 use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Run};
 use crate::results::{StateResults, WallResults};
 use report::palette::Mark;
@@ -57,15 +57,16 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
         if counts.is_empty() && !manifest.contents.is_cloud {
             let mut points = vec![(0.0, 0.0)];
             let mut before = 0.0;
-            for (intensity, part) in steps(sample.exceedances()) {
+            for (intensity, part) in sample.steps() {
                 points.extend([(unit.of(intensity), before), (unit.of(intensity), part)]);
                 before = part;
             }
             points.push((2.0 * top, before));
             series.push(Series::stroke(color, 1.0, points));
         } else if !counts.is_empty() {
-            let part = |&(level, [runs, exceeded]): &(f64, [u32; 2])| {
-                (unit.of(level), f64::from(exceeded) / f64::from(runs.max(1)))
+            // a level without runs has no exceedance
+            let part = |&(level, [runs, exceeded]): &(f64, [f64; 2])| {
+                (unit.of(level), if runs > 0.0 { exceeded / runs } else { 0.0 })
             };
             series.push(marks(color, mark, counts.iter().map(part).collect()));
         }
@@ -129,7 +130,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
         series.push(Series::stroke(color, 2.6, cloud.fit().map(line).unwrap_or_default()));
     } else {
         let looks = [(Look::Dashed, 2.0), (Look::Dashed, 2.0), (Look::Solid, 2.6)];
-        let paths = fractile_paths(all, unit).into_iter().zip(looks);
+        let paths = fractile_paths(all, &manifest.report.weights, unit).into_iter().zip(looks);
         series
             .extend(paths.map(|(path, (look, width))| Series { look, ..Series::stroke(color, width, path) }));
     }
@@ -153,15 +154,15 @@ fn path(curve: &Curve, unit: IntensityUnit) -> Vec<(f64, f64)> {
 
 /// The 16, 84 and 50 % fractiles of the intensity at which a record first exceeds a demand, over the demand.
 /// They rise with the demand, and go flat at the collapse.
-fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<(f64, f64)>; 3] {
+fn fractile_paths(curves: &[Curve], weights: &Weights, unit: IntensityUnit) -> [Vec<(f64, f64)>; 3] {
     let mut paths = [(); 3].map(|()| vec![(0.0, 0.0)]);
     for k in 1..=POINTS {
         let demand = f64::from(k) / f64::from(POINTS);
-        let first = |curve: &Curve| curve.exceedance(demand, Crossing::First, false).or_infinity();
-        let intensities = sorted(curves.iter().map(first));
+        let first = |curve: &Curve| curve.exceedance(demand, Crossing::First, false);
+        let sample = Sample::of_records(curves.iter().map(first).collect()).weighted(weights);
         for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
             // unknown above the levels
-            let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());
+            let known = sample.fractile(part).filter(|intensity| intensity.is_finite());
             path.extend(known.map(|intensity| (demand, unit.of(intensity))));
             if k == POINTS {
                 path.extend(known.map(|intensity| (2.0 * DEMAND_END, unit.of(intensity))));
@@ -173,6 +174,7 @@ fn fractile_paths(curves: &[Curve], unit: IntensityUnit) -> [Vec<(f64, f64)>; 3]
 
 #[cfg(test)]
 mod tests {
+    use crate::fragility::Weights;
     use crate::ida::{Curve, IntensityUnit, Run};
 
     use super::fractile_paths;
@@ -183,7 +185,7 @@ mod tests {
         let demands = [[0.5, 0.1, 0.9], [0.2, 0.6, 0.3], [0.4, 0.2, 1.0]];
         let curves =
             demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));
-        for path in fractile_paths(&curves, IntensityUnit::Gravity) {
+        for path in fractile_paths(&curves, &Weights::default(), IntensityUnit::Gravity) {
             assert!(path.is_sorted_by(|a, b| a.0 < b.0 && a.1 <= b.1) && path.len() > 20, "{path:?}");
         }
     }

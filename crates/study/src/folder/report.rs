@@ -25,7 +25,7 @@ use super::rows::Rows;
 use super::samples::Sampled;
 use super::store::{Folder, OPTIONAL, PAGE};
 use super::subject::MOST_WALLS;
-use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, with_ends};
+use super::tables::{CLOUD, KINDS, Kind, OF_INTENSITY, OF_RATIO, TIES, records, with_ends};
 
 /// Most fits that a warning names.
 const NAMED: usize = 3;
@@ -207,6 +207,14 @@ impl<'a> Output<'a> {
             summary.push_str(&words);
         }
         self.sections.insert_str(0, &rates);
+        if let Some(table) = records(manifest) {
+            let path = self.folder.path().join("records.csv");
+            file::to_file(&path, table.csv().as_bytes())?;
+            files.push(path);
+            let title = "Records: factors, which are in samples and intensities, and weights, of the mean 1";
+            let section = format!("<details><summary>{title}</summary>{}</details>", table.html());
+            let _ = writeln!(self.sections, "<section>{section}</section>");
+        }
         for (_, rows) in self.tables {
             files.push(rows.commit()?);
         }

@@ -22,7 +22,7 @@ const STUDY: &str = "study.json";
 /// The page. It is removed before the tables are written, and comes last: with it they are complete.
 pub(crate) const PAGE: &str = "study.html";
 /// All files that a study may have beside its parts, none of which may be one of its inputs.
-pub const FILES: [&str; 21] = [
+pub const FILES: [&str; 22] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -43,6 +43,7 @@ pub const FILES: [&str; 21] = [
     "sensitivity.csv",
     "measures.csv",
     "given.csv",
+    "records.csv",
     "fragilities.svg",
 ];
 /// The page, which is there only where all other files are complete, and the files that follow from options

@@ -50,6 +50,21 @@ fn cloud(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
         .done()
 }
 
+/// The records that lists state factors or weights of, with these; `None` where there are none.
+pub(super) fn records(manifest: &Manifest) -> Option<Table> {
+    let (contents, weights, four) = (&manifest.contents, &manifest.report.weights, Digits::Significant(4));
+    let is_listed = !weights.are_equal() || contents.records.iter().any(|record| record.factor.is_some());
+    let heading = format!("{}\n[{}]", contents.measure, contents.unit.name());
+    let table = Table::over(contents.records.iter().enumerate())
+        .text("record", "record", |(_, record)| record.name.clone())
+        .number("factor", "factor", four, |(_, record)| record.factor.unwrap_or(1.0))
+        .number("weight", "weight", four, |(place, _)| weights.of_record(*place))
+        .number(contents.in_unit("intensity"), heading, four, |(_, record)| {
+            contents.unit.of(record.intensity)
+        });
+    is_listed.then(|| table.done())
+}
+
 /// Every run of a wall, from all its curves.
 pub(crate) fn levels(manifest: &Manifest, wall: usize, curves: &[Curve]) -> Table {
     let runs =

@@ -6,6 +6,7 @@ use super::dispersion::Estimator;
 use super::fit::{FitError, Lognormal};
 use super::normal::cumulative;
 use super::sample::Sample;
+use super::weights::Weights;
 use report::table::{Digits, between};
 use run::parallel::stop_if_asked;
 use run::sample::{Pcg, unsorted_fractile};
@@ -30,6 +31,8 @@ pub struct Bootstrap {
     group: usize,
     /// Whether β is corrected for the number of records.
     corrects: bool,
+    /// Number of independent records of equal weights that tell as much.
+    effective: f64,
 }
 
 /// An estimate and its bootstrap interval.
@@ -61,7 +64,7 @@ pub struct Resampled {
 impl Bootstrap {
     /// Prepares `samples` resamples of `records` records. The same seed gives the same draws.
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
-        Self { records, samples, seed, group: 1, corrects: false }
+        Self { records, samples, seed, group: 1, corrects: false, effective: records as f64 }
     }
 
     /// Draws groups of so many records that follow each other, such as a record and its reverse.
@@ -71,7 +74,15 @@ impl Bootstrap {
     #[must_use]
     pub fn in_groups(self, group: usize) -> Self {
         assert!(self.records.is_multiple_of(group), "whole groups of records");
-        Self { group, ..self }
+        let effective = self.effective * (self.group as f64 / group as f64);
+        Self { group, effective, ..self }
+    }
+
+    /// Takes the weights of the records. Each resample draws records alike, and weighs those drawn: a record
+    /// comes with its weight.
+    #[must_use]
+    pub fn weighted(self, weights: &Weights) -> Self {
+        Self { effective: weights.effective(self.records) / self.group as f64, ..self }
     }
 
     /// Corrects β for the number of records n, or leaves it as fitted.
@@ -85,7 +96,7 @@ impl Bootstrap {
 
     /// Returns a curve, with 4n/(4n − 3) times its β where that is [asked for](Self::corrected).
     pub(crate) fn correct(&self, fitted: Result<Lognormal, FitError>) -> Result<Lognormal, FitError> {
-        let n = (self.records / self.group) as f64;
+        let n = self.effective;
         let factor = if self.corrects { 4.0 * n / (4.0 * n - 3.0) } else { 1.0 };
         fitted.map(|curve| Lognormal { dispersion: factor * curve.dispersion, ..curve })
     }
@@ -99,12 +110,18 @@ impl Bootstrap {
     /// z² (1 + z²/2) = n ln² 10
     /// ```
     pub(crate) fn least_probability(&self) -> f64 {
-        let n = (self.records / self.group) as f64;
+        let n = self.effective;
         let square = (1.0 + 2.0 * n * LN_10 * LN_10).sqrt() - 1.0;
         let least = cumulative(-square.sqrt()).max(1e-4);
         let digit = libm::pow(10.0, libm::floor(libm::log10(least)));
         // 1e-4 is one of its digit, to a rounding
         (least / digit - 1e-9).ceil() * digit
+    }
+
+    /// Returns which part of the likelihood of all records counts where they are taken as independent: of
+    /// records that are drawn together and of unequal weights less than 1.
+    pub(super) fn independent_part(&self) -> f64 {
+        self.effective / self.records as f64
     }
 
     /// Returns how many records are drawn together.
@@ -141,7 +158,10 @@ impl Bootstrap {
         let of_state = |state: &Sample| {
             let least: Vec<_> = state.exceedances().iter().map(least).collect();
             let ends = [&least, state.exceedances()].map(sorted);
-            let of = |counts: &[u32]| ends.each_ref().map(|sorted| median(sorted, counts));
+            let of = |counts: &[u32]| {
+                let weights: Vec<_> = state.weights().times(counts).collect();
+                ends.each_ref().map(|sorted| median(sorted, &weights))
+            };
             let (estimate, samples) = (of(&vec![1; self.records]), self.counted(of));
             Resampled { estimate, samples, drawn: Vec::new() }
         };
@@ -196,11 +216,10 @@ impl Bootstrap {
         [least, most, beta]: [f64; 3],
         samples: &(impl Iterator<Item = [f64; 3]> + Clone),
     ) -> [Resampled; 2] {
-        let records = self.records / self.group;
-        let n = records.max(FEWEST_RECORDS) as f64;
+        let n = self.effective.max(FEWEST_RECORDS as f64);
         let power = (n * (n + 1.0) / ((n - 1.0) * (n - 2.0))).sqrt();
         let studentised = samples.clone().map(|[low, high, own]| {
-            if records < FEWEST_RECORDS {
+            if self.effective < FEWEST_RECORDS as f64 {
                 return [f64::NAN; 3];
             }
             let narrower = beta / own;
@@ -247,14 +266,24 @@ fn sorted(exceedances: &[Exceedance]) -> Vec<(f64, usize)> {
     sorted
 }
 
-/// Returns the median of what is sorted, by how often each record was drawn: the middle value, or the mean of
-/// the two in the middle.
-fn median(sorted: &[(f64, usize)], counts: &[u32]) -> f64 {
-    assert_eq!(sorted.len(), counts.len(), "as many exceedances as records");
-    let drawn = |(value, record): &(f64, usize)| std::iter::repeat_n(*value, counts[*record] as usize);
-    let (all, mut drawn) = (counts.iter().sum::<u32>() as usize, sorted.iter().flat_map(drawn));
-    let Some(lower) = drawn.nth(all.saturating_sub(1) / 2) else { return f64::NAN };
-    if all % 2 == 1 { lower } else { 0.5 * (lower + drawn.next().unwrap_or(f64::NAN)) }
+/// Returns the median of what is sorted, by the weights of the records: the value at which half of them is
+/// passed, or the mean of two between which it lies.
+fn median(sorted: &[(f64, usize)], weights: &[f64]) -> f64 {
+    assert_eq!(sorted.len(), weights.len(), "as many exceedances as records");
+    let (half, rounding) = (0.5 * weights.iter().sum::<f64>(), 1e-12 * weights.len() as f64);
+    let (mut below, mut lower) = (0.0, None);
+    for (value, record) in sorted.iter().filter(|(_, record)| weights[*record] > 0.0) {
+        below += weights[*record];
+        if let Some(lower) = lower {
+            return 0.5 * (lower + value);
+        }
+        if below > half + rounding {
+            return *value;
+        }
+        // half of the weights lie up to here
+        lower = (below > half - rounding).then_some(*value);
+    }
+    f64::NAN
 }
 
 impl Interval {

@@ -18,12 +18,14 @@
 use super::fit::{FitError, Lognormal};
 use super::linear::{cholesky, solve};
 use super::normal::log_and_hazard;
+use super::weights::Weights;
 use crate::ida::Curve;
 
 /// The runs of a wall and model, one for each record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cloud {
     points: Vec<Point>,
+    weights: Weights,
 }
 
 /// A run.
@@ -62,7 +64,13 @@ impl Cloud {
             x: libm::log(run.intensity),
             y: run.overturning.is_none().then(|| libm::log(run.demand)),
         });
-        Self { points: points.collect() }
+        Self { points: points.collect(), weights: Weights::default() }
+    }
+
+    /// Weighs the records.
+    #[must_use]
+    pub fn weighted(self, weights: &Weights) -> Self {
+        Self { weights: weights.clone(), ..self }
     }
 
     /// Counts the records.
@@ -91,7 +99,7 @@ impl Cloud {
 
     /// Fits the regression, with each record as often as it was drawn.
     pub(super) fn fit_drawn(&self, drawn: &[u32]) -> Result<Regression, FitError> {
-        let drawn = self.points.iter().zip(drawn).map(|(point, &count)| (*point, f64::from(count)));
+        let drawn = self.points.iter().copied().zip(self.weights.times(drawn));
         let used = |(point, count): &(Point, f64)| *count > 0.0 && point.y.is_none_or(f64::is_finite);
         let points: Vec<_> = drawn.filter(used).collect();
         let standing = points.iter().filter_map(|(point, count)| Some(([point.x, point.y?], *count)));

@@ -143,7 +143,7 @@ impl Fragility {
         let mut own = estimator.clone();
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
-        let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.group());
+        let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.independent_part());
         let correct =
             |fitted: Vec<_>| -> Vec<_> { fitted.into_iter().map(|curve| bootstrap.correct(curve)).collect() };
         let (fitted, alone) = (correct(fitted), correct(alone));
@@ -222,14 +222,14 @@ pub fn covariance(resamples: &[[f64; 2]]) -> Option<[f64; 3]> {
 
 /// Returns whether limit states contradict a common β, by the ratio of likelihoods at a level of 5 %, as if
 /// their runs were independent. Limit states without a curve of their own are left out. The two signs of a
-/// record tell as much as one: of some in a group the likelihood counts once.
+/// record tell as much as one, and records of unequal weights less: a part of the likelihood counts.
 ///
 /// S. S. Wilks: The large-sample distribution of the likelihood ratio for testing composite hypotheses.
 /// Annals of Mathematical Statistics 9(1), 1938, 60–62.
 fn contradict_common_dispersion(
     states: &[Vec<Term>],
     alone: &[Result<Lognormal, FitError>],
-    group: usize,
+    part: f64,
 ) -> bool {
     let own = states.iter().zip(alone).filter_map(|(terms, alone)| Some((terms, alone.ok()?)));
     let (states, alone): (Vec<_>, Vec<_>) = own.unzip();
@@ -240,7 +240,7 @@ fn contradict_common_dispersion(
     let sum = |curves: &[Lognormal]| -> f64 {
         states.iter().zip(curves).map(|(terms, curve)| log_likelihood(terms, curve)).sum()
     };
-    2.0 * (sum(&alone) - sum(&joint)) / group as f64 > chi_squared_95(states.len() - 1)
+    2.0 * (sum(&alone) - sum(&joint)) * part > chi_squared_95(states.len() - 1)
 }
 
 /// Returns the 95 % fractile of χ² with some degrees of freedom, to 3 %: for one degree 3.75 instead of 3.84.

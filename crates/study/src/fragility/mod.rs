@@ -31,6 +31,7 @@ pub(crate) mod linear;
 mod normal;
 mod sample;
 mod term;
+mod weights;
 
 pub use bootstrap::{Bootstrap, FEWEST_RECORDS, Interval, Resampled};
 pub use class::{ClassResamples, FragilityFunction, StateCurve};
@@ -39,4 +40,5 @@ pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};
 pub use dispersion::{CurveCrossing, Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::{cumulative, quantile};
-pub use sample::{Sample, median, steps};
+pub use sample::{Sample, median};
+pub use weights::Weights;

@@ -1,8 +1,9 @@
-//! Samples to which a fragility is fitted; medians and steps of exceedances.
+//! Samples to which a fragility is fitted, with the weights of their records; medians and steps.
 
-use run::sample::{sample_median, sorted};
+use run::sample::sample_median;
 
 use super::term::Term;
+use super::weights::Weights;
 use crate::ida::{Crossing, Curve, Exceedance};
 
 /// What the records show of one limit state.
@@ -10,6 +11,7 @@ use crate::ida::{Crossing, Curve, Exceedance};
 pub struct Sample {
     exceedances: Vec<Exceedance>,
     stripes: Vec<Stripe>,
+    weights: Weights,
 }
 
 /// A level, and whether each record exceeds there; `None` of one that was not run there.
@@ -25,7 +27,13 @@ const READ: u32 = 50;
 impl Sample {
     /// Takes one exceedance of each record.
     pub fn of_records(exceedances: Vec<Exceedance>) -> Self {
-        Self { exceedances, stripes: Vec::new() }
+        Self { exceedances, stripes: Vec::new(), weights: Weights::default() }
+    }
+
+    /// Weighs the records.
+    #[must_use]
+    pub fn weighted(self, weights: &Weights) -> Self {
+        Self { weights: weights.clone(), ..self }
     }
 
     /// Takes what the curves of some records show of a `fraction` of `u_ins`: one exceedance of each, or with
@@ -59,16 +67,21 @@ impl Sample {
         Self { stripes, ..sample }
     }
 
+    /// Returns the weights of the records.
+    pub fn weights(&self) -> &Weights {
+        &self.weights
+    }
+
     /// Returns the exceedance of each record.
     pub fn exceedances(&self) -> &[Exceedance] {
         &self.exceedances
     }
 
-    /// Returns the levels at which the fit counts, with the numbers of all runs and of those that exceed;
-    /// none where it takes the records one by one.
-    pub fn counts(&self) -> Vec<(f64, [u32; 2])> {
+    /// Returns the levels at which the fit counts, with the sums of the weights of all runs and of those that
+    /// exceed: their numbers where all weights are 1. None where it takes the records one by one.
+    pub fn counts(&self) -> Vec<(f64, [f64; 2])> {
         let ones = vec![1; self.exceedances.len()];
-        let count = |stripe: &Stripe| (stripe.intensity, stripe.count(&ones));
+        let count = |stripe: &Stripe| (stripe.intensity, stripe.count(self.weights.times(&ones)));
         self.stripes.iter().map(count).collect()
     }
 
@@ -80,12 +93,13 @@ impl Sample {
     }
 
     /// Prepares terms for many fits, with the logarithms of all intensities.
-    pub(super) fn prepared(&self) -> Prepared {
+    pub(super) fn prepared(&self) -> Prepared<'_> {
         let term = |one: &Exceedance| Term::new(one.bounds().map(libm::log), 1.0);
         let stripe = |stripe: &Stripe| (libm::log(stripe.intensity), stripe.clone());
         Prepared {
             records: self.exceedances.iter().map(term).collect(),
             stripes: self.stripes.iter().map(stripe).collect(),
+            weights: &self.weights,
         }
     }
 
@@ -95,24 +109,25 @@ impl Sample {
     pub(super) fn open_bounds(&self, drawn: &[u32]) -> [f64; 2] {
         let [mut least, mut most] = [0.0, f64::INFINITY];
         for stripe in &self.stripes {
-            let [runs, exceeded] = stripe.count(drawn);
-            if 2 * exceeded <= runs {
+            let [runs, exceeded] = stripe.count(self.weights.times(drawn));
+            if 2.0 * exceeded <= runs {
                 least = f64::max(least, stripe.intensity);
             }
-            if 2 * exceeded >= runs {
+            if 2.0 * exceeded >= runs {
                 most = f64::min(most, stripe.intensity);
             }
         }
         if self.stripes.is_empty() {
             [least, most] = [0, 1].map(|side| {
-                let end = |(one, &count): (&Exceedance, &u32)| (one.bounds()[side], count);
-                let mut ends: Vec<_> = self.exceedances.iter().zip(drawn).map(end).collect();
+                let end = |(one, weight): (&Exceedance, f64)| (one.bounds()[side], weight);
+                let mut ends: Vec<_> =
+                    self.exceedances.iter().zip(self.weights.times(drawn)).map(end).collect();
                 ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let all: u32 = drawn.iter().sum();
-                let mut below = 0;
-                let half = ends.iter().find(|(_, count)| {
-                    below += count;
-                    2 * below > all || (side == 1 && 2 * below == all)
+                let all: f64 = self.weights.times(drawn).sum();
+                let mut below = 0.0;
+                let half = ends.iter().find(|(_, weight)| {
+                    below += weight;
+                    2.0 * below > all || (side == 1 && 2.0 * below == all)
                 });
                 half.map_or(f64::INFINITY, |end| end.0)
             });
@@ -125,52 +140,82 @@ impl Sample {
     /// exceedance are known, it is the least distance that is possible.
     pub fn misfit(&self, probability: impl Fn(f64) -> f64) -> f64 {
         let counts = self.counts();
-        let of_stripe = |(intensity, [runs, exceeded]): &(f64, [u32; 2])| {
-            (probability(*intensity) - f64::from(*exceeded) / f64::from(*runs)).abs()
+        let of_stripe = |(intensity, [runs, exceeded]): &(f64, [f64; 2])| {
+            (probability(*intensity) - exceeded / runs).abs()
         };
         if !counts.is_empty() {
-            return counts.iter().filter(|(_, [runs, _])| *runs > 0).map(of_stripe).fold(0.0, f64::max);
+            return counts.iter().filter(|(_, [runs, _])| *runs > 0.0).map(of_stripe).fold(0.0, f64::max);
         }
-        let [starts, ends] = [0, 1].map(|side| sorted(self.exceedances.iter().map(|one| one.bounds()[side])));
-        let all = self.exceedances.len() as f64;
-        let before = |y: &f64| probability(*y) - starts.partition_point(|start| start < y) as f64 / all;
-        let after = |y: &f64| ends.partition_point(|end| end <= y) as f64 / all - probability(*y);
-        let known = starts.iter().filter(|start| **start > 0.0).map(before);
-        known.chain(ends.iter().filter(|end| end.is_finite()).map(after)).fold(0.0, f64::max)
+        let [starts, ends] = [0, 1].map(|side| self.shares(|one| one.bounds()[side]));
+        let before = |&(y, [below, _]): &(f64, [f64; 2])| probability(y) - below;
+        let after = |&(y, [_, up_to]): &(f64, [f64; 2])| up_to - probability(y);
+        let known = starts.iter().filter(|(start, _)| *start > 0.0).map(before);
+        known.chain(ends.iter().filter(|(end, _)| end.is_finite()).map(after)).fold(0.0, f64::max)
+    }
+
+    /// Returns a number of each exceedance, in rising order, with the shares of the records before it and up
+    /// to it.
+    fn shares(&self, of: impl Fn(&Exceedance) -> f64) -> Vec<(f64, [f64; 2])> {
+        let ones = vec![1; self.exceedances.len()];
+        let mut numbers: Vec<_> = self.exceedances.iter().map(of).zip(self.weights.times(&ones)).collect();
+        numbers.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let all: f64 = self.weights.times(&ones).sum();
+        let mut up_to = 0.0;
+        let share = |(number, weight)| {
+            let below = up_to;
+            up_to += weight;
+            (number, [below / all, up_to / all])
+        };
+        numbers.into_iter().map(share).collect()
+    }
+
+    /// Returns a fractile: the lowest intensity up to which at least a `part` of the records exceed.
+    pub fn fractile(&self, part: f64) -> Option<f64> {
+        let (mut shares, all) =
+            (self.shares(|one| one.or_infinity()).into_iter(), self.exceedances.len() as f64);
+        shares.find(|(_, [_, up_to])| up_to * all >= part * all - 1e-9).map(|(intensity, _)| intensity)
+    }
+
+    /// Returns the steps of the empirical fragility: intensities in rising order, each with the fraction of
+    /// the records that exceed the limit state from there on. Censored records count among all records.
+    pub fn steps(&self) -> Vec<(f64, f64)> {
+        let steps = self.shares(|exceedance| exceedance.or_infinity()).into_iter();
+        steps.filter(|(x, _)| x.is_finite()).map(|(x, [_, up_to])| (x, up_to)).collect()
     }
 }
 
 impl Stripe {
-    /// Counts the runs and those that exceed, by how often each record was drawn.
-    fn count(&self, drawn: &[u32]) -> [u32; 2] {
-        let mut counts = [0; 2];
-        for (exceeded, count) in self.exceeded.iter().zip(drawn) {
-            counts[0] += if exceeded.is_some() { *count } else { 0 };
-            counts[1] += if *exceeded == Some(true) { *count } else { 0 };
+    /// Sums the weights of the runs and of those that exceed, by the weight of each record.
+    fn count(&self, weights: impl Iterator<Item = f64>) -> [f64; 2] {
+        let mut counts = [0.0; 2];
+        for (exceeded, weight) in self.exceeded.iter().zip(weights) {
+            counts[0] += if exceeded.is_some() { weight } else { 0.0 };
+            counts[1] += if *exceeded == Some(true) { weight } else { 0.0 };
         }
         counts
     }
 }
 
 /// A sample with the logarithms of its intensities.
-pub(super) struct Prepared {
+pub(super) struct Prepared<'a> {
     records: Vec<Term>,
     stripes: Vec<(f64, Stripe)>,
+    weights: &'a Weights,
 }
 
-impl Prepared {
+impl Prepared<'_> {
     /// Puts the terms of the likelihood in place of others, by how often each record was drawn.
     pub(super) fn terms(&self, drawn: &[u32], terms: &mut Vec<Term>) {
         terms.clear();
         for (y, stripe) in &self.stripes {
-            let [runs, exceeded] = stripe.count(drawn);
-            let below = Term::new([f64::NEG_INFINITY, *y], exceeded.into());
-            let above = Term::new([*y, f64::INFINITY], (runs - exceeded).into());
+            let [runs, exceeded] = stripe.count(self.weights.times(drawn));
+            let below = Term::new([f64::NEG_INFINITY, *y], exceeded);
+            let above = Term::new([*y, f64::INFINITY], runs - exceeded);
             terms.extend([below, above].into_iter().filter(|term| term.runs > 0.0));
         }
-        let records = self.records.iter().zip(drawn).filter(|(_, runs)| **runs > 0);
+        let records = self.records.iter().zip(self.weights.times(drawn)).filter(|(_, runs)| *runs > 0.0);
         let records = records.filter(|_| self.stripes.is_empty());
-        terms.extend(records.map(|(term, &runs)| term.of_runs(runs.into())));
+        terms.extend(records.map(|(term, runs)| term.of_runs(runs)));
     }
 }
 
@@ -179,13 +224,4 @@ impl Prepared {
 pub fn median(exceedances: &[Exceedance]) -> f64 {
     let mut intensities: Vec<f64> = exceedances.iter().map(|exceedance| exceedance.or_infinity()).collect();
     sample_median(&mut intensities)
-}
-
-/// Returns the steps of the empirical fragility: intensities in rising order, each with the fraction of the
-/// records that exceed the limit state from there on. Censored records count among all records.
-pub fn steps(exceedances: &[Exceedance]) -> Vec<(f64, f64)> {
-    let intensities = exceedances.iter().map(|exceedance| exceedance.or_infinity());
-    let intensities = sorted(intensities.filter(|intensity| intensity.is_finite()));
-    let all = exceedances.len() as f64;
-    intensities.iter().enumerate().map(|(index, &intensity)| (intensity, (index + 1) as f64 / all)).collect()
 }

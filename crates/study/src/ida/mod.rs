@@ -14,7 +14,7 @@
 //!
 //! let walls = vec![NamedWall::new("parapet", Parameters::default())];
 //! let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() }.motion()?;
-//! let records = vec![NamedRecord { name: "synthetic".into(), motion }];
+//! let records = vec![NamedRecord::new("synthetic", motion)];
 //! let models = vec![Model::new(EnergyLoss::Restitution)];
 //! let levels = Levels::ToOverturning { step: 2.0, top: 100.0 };
 //! let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;

@@ -45,8 +45,8 @@ impl Polarity {
     /// Returns the records that a study runs, made from those that are given.
     pub(super) fn records(self, given: Vec<NamedRecord>) -> Vec<NamedRecord> {
         let reversed = |record: &NamedRecord| NamedRecord {
-            name: format!("{}{REVERSED}", record.name),
-            motion: record.motion.scaled(-1.0),
+            listed: record.listed,
+            ..NamedRecord::new(format!("{}{REVERSED}", record.name), record.motion.scaled(-1.0))
         };
         match self {
             Self::AsRecorded | Self::Worst => given,
@@ -57,9 +57,9 @@ impl Polarity {
 
     /// Returns the records from which those of a study were made.
     pub(super) fn given(self, records: &[NamedRecord]) -> Vec<NamedRecord> {
-        let original = |record: &NamedRecord| NamedRecord {
-            name: record.name.strip_suffix(REVERSED).unwrap_or(&record.name).to_owned(),
-            motion: record.motion.scaled(-1.0),
+        let original = |record: &NamedRecord| {
+            let name = record.name.strip_suffix(REVERSED).unwrap_or(&record.name);
+            NamedRecord { listed: record.listed, ..NamedRecord::new(name, record.motion.scaled(-1.0)) }
         };
         match self {
             Self::AsRecorded | Self::Worst => records.to_vec(),

@@ -25,6 +25,7 @@ mod moments;
 
 use serde::{Deserialize, Serialize};
 
+use crate::fragility::Weights;
 use crate::ida::{Crossing, Curve, Exceedance, IntensityMeasure, IntensityUnit, Study};
 
 pub use events::Events;
@@ -123,7 +124,7 @@ impl Compared {
     }
 
     /// Returns what the curves of a wall and model, one of each record, show of each measure.
-    pub fn shown(&self, curves: &[Curve], collapse: CollapseOf) -> Vec<Shown> {
+    pub fn shown(&self, curves: &[Curve], weights: &Weights, collapse: CollapseOf) -> Vec<Shown> {
         let collapses: Vec<_> = curves.iter().map(|curve| collapse.of(curve)).collect();
         let features: Vec<Vec<f64>> = (0..curves.len())
             .map(|record| self.features.iter().map(|feature| feature.values[record]).collect())
@@ -143,6 +144,7 @@ impl Compared {
                 level.map(|level| Point {
                     x: 0.0,
                     y: measure.log(record, level),
+                    weight: weights.of_record(record),
                     features: &features[record],
                 })
             };
@@ -150,6 +152,7 @@ impl Compared {
             let demand = |&(record, level, y): &(usize, f64, f64)| Point {
                 x: measure.log(record, level),
                 y,
+                weight: weights.of_record(record),
                 features: &features[record],
             };
             let demands: Vec<_> = stood.iter().map(demand).collect();

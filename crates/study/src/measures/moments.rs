@@ -4,7 +4,8 @@
 //! y = a_g + b x + r        a_g of each group, b of all        residuals r
 //! r = c₀ + c z + s         z a feature of the point           p of c = 0 by Student's t
 //! ```
-//! With one group this is the usual regression. Sums are taken about the means of each group.
+//! With one group this is the usual regression. Sums are taken about the means of each group. Points have
+//! weights: the sums of squares and products are those of weighted least squares, with weights of the mean 1.
 
 use super::beta::incomplete_beta;
 
@@ -16,6 +17,8 @@ const ROUNDING: f64 = 1e-9;
 pub(super) struct Point<'a> {
     pub(super) x: f64,
     pub(super) y: f64,
+    /// Weight of its record.
+    pub(super) weight: f64,
     pub(super) features: &'a [f64],
 }
 
@@ -24,6 +27,8 @@ pub(super) struct Point<'a> {
 pub(super) struct Moments {
     points: usize,
     groups: usize,
+    /// Sum of the weights of the points.
+    weight: f64,
     /// Means of x and y of the group, where there is one.
     means: [f64; 2],
     xx: f64,
@@ -64,9 +69,11 @@ impl Moments {
     /// Takes one group.
     pub(super) fn of(points: &[Point<'_>]) -> Self {
         let Some(first) = points.first() else { return Self::default() };
-        let mean = |of: &dyn Fn(&Point<'_>) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+        let sum =
+            |of: &dyn Fn(&Point<'_>) -> f64| points.iter().map(|point| point.weight * of(point)).sum::<f64>();
+        let weight = sum(&|_| 1.0);
+        let mean = |of: &dyn Fn(&Point<'_>) -> f64| sum(of) / weight;
         let means = [mean(&|point| point.x), mean(&|point| point.y)];
-        let sum = |of: &dyn Fn(&Point<'_>) -> f64| points.iter().map(of).sum::<f64>();
         let [x, y] = [|point: &Point<'_>| point.x, |point: &Point<'_>| point.y];
         let (dx, dy) = (|point: &Point<'_>| x(point) - means[0], |point: &Point<'_>| y(point) - means[1]);
         let feature = |place: usize| {
@@ -82,6 +89,7 @@ impl Moments {
         Self {
             points: points.len(),
             groups: 1,
+            weight,
             means,
             xx: sum(&|point| dx(point) * dx(point)),
             xy: sum(&|point| dx(point) * dy(point)),
@@ -98,7 +106,7 @@ impl Moments {
             }
             return;
         }
-        let [own, others] = [self.points, other.points].map(|count| count as f64);
+        let [own, others] = [self.weight, other.weight];
         for (feature, more) in self.features.iter_mut().zip(&other.features) {
             // Chan, Golub, LeVeque 1983
             let apart = more.mean - feature.mean;
@@ -108,6 +116,7 @@ impl Moments {
             feature.zy += more.zy;
         }
         self.points += other.points;
+        self.weight += other.weight;
         self.groups += other.groups;
         self.xx += other.xx;
         self.xy += other.xy;
@@ -143,7 +152,9 @@ impl Moments {
             points: self.points,
             intercept: None,
             slope: None,
-            deviation: freedom.map(|freedom| (rest / freedom as f64).sqrt()),
+            // weights of any sum count as if it were the number of points
+            deviation: freedom
+                .map(|freedom| (rest * (self.points as f64 / self.weight) / freedom as f64).sqrt()),
             p_values: self.features.iter().map(p_value).collect(),
         }
     }
@@ -184,7 +195,7 @@ mod tests {
     fn moments(points: &[[f64; 3]]) -> Moments {
         let points: Vec<_> = points
             .iter()
-            .map(|[x, y, z]| Point { x: *x, y: *y, features: std::slice::from_ref(z) })
+            .map(|[x, y, z]| Point { x: *x, y: *y, weight: 1.0, features: std::slice::from_ref(z) })
             .collect();
         Moments::of(&points)
     }
@@ -224,6 +235,26 @@ mod tests {
         let level = both.level();
         near(level.deviation, 1.072_552_363_024_095_6);
         near(level.p_values[0], 0.506_630_365_200_560_8);
+    }
+
+    /// `statsmodels.api.WLS` 0.15.0, with weights of the mean 1; of the residuals over z again with these.
+    #[test]
+    fn weighted_points_are_those_of_statsmodels() {
+        let weights = [0.5, 2.0, 1.0, 1.5, 0.25, 3.0, 1.0];
+        let point = |([x, y, z], weight): (&'static [f64; 3], f64)| Point {
+            x: *x,
+            y: *y,
+            weight,
+            features: std::slice::from_ref(z),
+        };
+        let points: Vec<_> = FIRST.iter().zip(weights).map(point).collect();
+        let (line, level) = (Moments::of(&points).line(), Moments::of(&points).level());
+        near(line.slope, 1.205_511_975_298_339_4);
+        near(line.intercept, 0.291_519_235_583_743_65);
+        near(line.deviation, 0.235_360_725_290_254_92);
+        near(line.p_values[0], 0.932_200_093_745_262_8);
+        near(level.deviation, 1.110_590_649_145_015_5);
+        near(level.p_values[0], 0.707_590_032_068_819_1);
     }
 
     #[test]

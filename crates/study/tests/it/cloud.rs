@@ -154,9 +154,11 @@ fn few_or_straight_runs_have_no_regression() {
 /// A record is run once, at its own intensity times the scale; of Arias intensity times its square.
 #[test]
 fn each_record_is_run_at_its_own_level() {
-    let record = |seed| NamedRecord {
-        name: format!("seed {seed}"),
-        motion: SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 2.0 }.motion().unwrap(),
+    let record = |seed| {
+        NamedRecord::new(
+            format!("seed {seed}"),
+            SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 2.0 }.motion().unwrap(),
+        )
     };
     let records: Vec<_> = (1..=3).map(record).collect();
     let wall = NamedWall::new("wall", Parameters { height: 3.0, thickness: 0.3, ..Parameters::default() });

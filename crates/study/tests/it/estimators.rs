@@ -165,7 +165,7 @@ fn ordered_curves_are_the_likeliest_that_do_not_cross() {
     let states = counts.each_ref().map(|counts| counted(20, counts));
     let samples: Vec<_> = counts.iter().map(|counts| stripes(20, counts)).collect();
     for ((level, [runs, exceeded]), wanted) in samples[0].counts().into_iter().zip(&counts[0]) {
-        assert_eq!((level, exceeded, runs), (wanted.0, wanted.1, 20));
+        assert_eq!((level, exceeded, runs), (wanted.0, f64::from(wanted.1), 20.0));
     }
     let summaries = |dispersion| -> [Summary; 2] {
         let estimator = Estimator::new(dispersion, &[0.4, 1.0]);
@@ -232,9 +232,7 @@ fn the_misfit_is_the_largest_distance() {
     assert_eq!(records(vec![Between([0.0, 2.0]), Between([2.0, 4.0])]), 0.0);
     let curves: Vec<_> = curves(&levels());
     let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels()));
-    let distance = |(level, [runs, exceeded]): (f64, [u32; 2])| {
-        (curve(level) - f64::from(exceeded) / f64::from(runs)).abs()
-    };
+    let distance = |(level, [runs, exceeded]): (f64, [f64; 2])| (curve(level) - exceeded / runs).abs();
     let expected = sample.counts().into_iter().map(distance).fold(0.0, f64::max);
     assert_eq!(sample.misfit(curve), expected);
 }
@@ -249,7 +247,7 @@ fn levels_above_all_runs_do_not_count() {
     let curves = [2, 4].map(|last| Curve::new((1..=last).map(|level| run(level, last)).collect()));
     let levels: Vec<_> = (1..=50).map(f64::from).collect();
     let sample = Sample::of_curves(&curves, 1.0, Crossing::Fraction, Some(&levels));
-    assert_eq!(sample.counts(), [(1.0, [2, 0]), (2.0, [2, 1]), (3.0, [2, 1]), (4.0, [2, 2])]);
+    assert_eq!(sample.counts(), [(1.0, [2.0, 0.0]), (2.0, [2.0, 1.0]), (3.0, [2.0, 1.0]), (4.0, [2.0, 2.0])]);
 }
 
 /// The covariance of (ln θ, β), and the interval of β, are those of the resamples; of exact intensities they

@@ -6,7 +6,7 @@ use report::table::Digits;
 use run::sample::{Pcg, sample_median};
 use study::fragility::{
     Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Sample, Summary, compare, cumulative,
-    fit, fit_jointly, median, steps,
+    fit, fit_jointly, median,
 };
 use study::ida::{Crossing, Curve, Exceedance, Run};
 
@@ -158,7 +158,8 @@ fn medians_and_steps_count_censored_records() {
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2)]), 0.2);
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2), Above(1.0)]), 0.25);
     assert_eq!(median(&[At(0.3), Above(1.0), Above(1.0)]), f64::INFINITY);
-    assert_eq!(steps(&[At(0.3), Above(1.0), At(0.1), Above(1.0)]), [(0.1, 0.25), (0.3, 0.5)]);
+    let sample = Sample::of_records(vec![At(0.3), Above(1.0), At(0.1), Above(1.0)]);
+    assert_eq!(sample.steps(), [(0.1, 0.25), (0.3, 0.5)]);
     // the middle of two levels, by their ratio; the lowest level for an exceedance below it
     assert_eq!(median(&[At(0.3), Between([0.1, 0.4]), At(0.1)]), 0.2);
     assert_eq!(median(&[Between([0.0, 0.4])]), 0.4);

@@ -27,9 +27,11 @@ fn walls() -> Vec<NamedWall> {
 }
 
 fn records(count: u64) -> Vec<NamedRecord> {
-    let record = |seed| NamedRecord {
-        name: format!("seed {seed}"),
-        motion: SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+    let record = |seed| {
+        NamedRecord::new(
+            format!("seed {seed}"),
+            SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+        )
     };
     (1..=count).map(record).collect()
 }
@@ -122,7 +124,7 @@ fn threads_do_not_change_a_bit() {
 #[test]
 fn curves_together_are_those_by_themselves() {
     let other_step = SyntheticMotion { seed: 7, step: 0.005, duration: 12.0, peak: 3.0 };
-    let finer = NamedRecord { name: "finer".into(), motion: other_step.motion().unwrap() };
+    let finer = NamedRecord::new("finer", other_step.motion().unwrap());
     let all: Vec<_> = records(9).into_iter().chain([finer]).collect();
     // a tie on one side
     let tied = Parameters {
@@ -240,7 +242,7 @@ fn intensities_scale_with_the_motion() {
 
     let of = |factor: f64| {
         let motion = record.scaled(factor);
-        let records = vec![NamedRecord { name: "one".into(), motion }];
+        let records = vec![NamedRecord::new("one", motion)];
         with_records(records, HUNT, vec![Model::new(EnergyLoss::Restitution)])
     };
     let (one, four) = (of(1.0), of(4.0));
@@ -254,7 +256,7 @@ fn intensities_scale_with_the_motion() {
 fn the_free_vibration_after_a_record_counts() {
     // half a sine, after which the wall still moves outwards
     let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, frequency: 1.0 }.motion(None).unwrap();
-    let records = vec![NamedRecord { name: "pulse".into(), motion: pulse.clone() }];
+    let records = vec![NamedRecord::new("pulse", pulse.clone())];
     let levels = Levels::HuntAndFill { first: 0.1, increase: 0.1, top: 40.0, resolution: 1e-4, gap: 0.2 };
     let models = vec![Model::new(DampingModel::None)];
     let study = Study::new(walls(), records, models, IntensityMeasure::Pga, levels).unwrap();
@@ -318,7 +320,7 @@ fn what_cannot_run_is_refused() {
     refused(walls(), vec![], cr(), HUNT, &["at least one record"]);
     refused(walls(), records(1), vec![], HUNT, &["at least one damping model"]);
     refused(rigid, records(1), vec![rigid_ratio], HUNT, &["\"8\"", "\"CDR\"", "rigid_linear"]);
-    let flat = NamedRecord { name: "flat".into(), motion: GroundMotion::new(0.01, vec![0.0; 9]).unwrap() };
+    let flat = NamedRecord::new("flat", GroundMotion::new(0.01, vec![0.0; 9]).unwrap());
     refused(walls(), vec![flat], cr(), HUNT, &["flat", "intensity 0", "leave it out"]);
     refused(walls(), records(1), cr(), Levels::Grid(vec![1.0, 0.5]), &["0.5", "above the level before"]);
     refused(walls(), records(1), cr(), Levels::Grid(vec![]), &["number", "0", "2000"]);

@@ -15,9 +15,11 @@ use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, Polarity, Run, Stu
 use study::loaded::LoadedStudy;
 
 fn records(count: u64) -> Vec<NamedRecord> {
-    let record = |seed| NamedRecord {
-        name: format!("seed {seed}"),
-        motion: SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+    let record = |seed| {
+        NamedRecord::new(
+            format!("seed {seed}"),
+            SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+        )
     };
     (1..=count).map(record).collect()
 }

@@ -22,9 +22,11 @@ fn study(seeds: std::ops::RangeInclusive<u64>) -> Study {
         NamedWall::new(name, Parameters { height, thickness, a1, ..Parameters::default() })
     };
     let walls = vec![wall("3", 3.0, 0.3, 0.009), wall("small", 1.0, 0.2, 0.01)];
-    let record = |seed| NamedRecord {
-        name: format!("seed {seed}"),
-        motion: SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+    let record = |seed| {
+        NamedRecord::new(
+            format!("seed {seed}"),
+            SyntheticMotion { seed, duration: 12.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
+        )
     };
     let records = seeds.map(record).collect();
     Study::new(walls, records, Model::figure_15(), IntensityMeasure::Pga, HUNT).unwrap()

@@ -29,10 +29,7 @@ fn shock(seed: u64, peak: f64) -> GroundMotion {
 fn sequences(count: u64) -> Vec<NamedRecord> {
     let record = |seed: u64| {
         let shocks = [shock(seed, 0.8 + 0.15 * seed as f64), shock(100 + seed, 2.0)];
-        NamedRecord {
-            name: format!("sequence {seed}"),
-            motion: GroundMotion::sequence(&shocks, 6.0).unwrap(),
-        }
+        NamedRecord::new(format!("sequence {seed}"), GroundMotion::sequence(&shocks, 6.0).unwrap())
     };
     (1..=count).map(record).collect()
 }
@@ -200,7 +197,7 @@ fn files_make_sequences_and_mistakes_are_named() {
         ("sequences = [[\"main shock.csv\", \"gone.csv\"]]", grid, "line 6: "),
         (&format!("{files}\npause = 4"), grid, "line 7: pause is the time between the records of sequences"),
         (&format!("{sequences}\npause = -1"), grid, "pause = -1"),
-        ("", grid, "[records] needs files = [...], sequences = [[...], ...]"),
+        ("", grid, "[records] needs files = [...], selection = \"…\", sequences = [[...], ...]"),
         (files, &last, "record \"main shock.csv\" is not a sequence with a pause"),
         (
             "sequences = [[\"cut.csv\", \"aftershock.csv\"]]\npause = 0",

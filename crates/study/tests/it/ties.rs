@@ -39,7 +39,7 @@ fn demands_on_ties_are_those_of_runs_one_by_one() {
     let elastic = Parameters { tie_ultimate: -1.0, ..tied() };
     let walls = [("yields", tied()), ("elastic", elastic)];
     let walls = walls.map(|(name, parameters)| NamedWall::new(name, parameters)).to_vec();
-    let records = vec![NamedRecord { name: "synthetic".into(), motion: motion() }];
+    let records = vec![NamedRecord::new("synthetic", motion())];
     let models = [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio].map(Model::new).to_vec();
     let levels = Levels::Grid((1..=12).map(|n| 0.5 * f64::from(n)).collect());
     let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels).unwrap();

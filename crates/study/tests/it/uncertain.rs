@@ -234,7 +234,7 @@ fn walls_have_damping_ratios_of_their_own() {
     let of = |models: &str, rest: &str| {
         let text =
             format!("models = [{models}]\nlevels = {{ method = \"step\", step = 0.1, top = 1 }}\n{rest}");
-        let records = vec![NamedRecord { name: "pulse".to_owned(), motion: pulse.clone() }];
+        let records = vec![NamedRecord::new("pulse", pulse.clone())];
         let wall = NamedWall::new("a", Parameters { height: 3.0, thickness: 0.3, ..Parameters::default() });
         LoadedStudy::of_parts(text, vec![wall], records, &NoCodes).unwrap()
     };

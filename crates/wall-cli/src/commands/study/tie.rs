@@ -166,7 +166,7 @@ fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<NamedReco
         // at a scale of 1 the reader has already warned
         let warning = motion.warning().filter(|_| arguments.scale.abs() > 1.0);
         console.warn(warning.map(|warning| format!("{}: {warning}", path.display())));
-        motions.push(NamedRecord { name: short_name(path), motion });
+        motions.push(NamedRecord::new(short_name(path), motion));
     }
     Ok(motions)
 }

@@ -51,7 +51,7 @@ fn records(console: &Console<'_>, folder: &Path, page: &PathBuf) -> Result<Vec<N
     let (mut records, mut left_out) = (Vec::new(), Vec::new());
     for path in paths {
         match read(&path, &RecordOptions::default()) {
-            Ok(record) => records.push(NamedRecord { name: short_name(&path), motion: record.motion }),
+            Ok(record) => records.push(NamedRecord::new(short_name(&path), record.motion)),
             Err(error) => left_out.push(format!("warning: left out: {error}")),
         }
     }
