@@ -174,10 +174,7 @@ fn value_of(text: &str, unit: &str) -> String {
 /// Mechanism, h, b and O in a table of walls.
 pub(crate) fn overview(wall: &Wall, parameters: &Parameters, language: Language) -> Vec<(String, String)> {
     vec![
-        (
-            say!("mechanism", "cinematismo").markup(language),
-            mechanism(parameters.mechanism).of(language).to_owned(),
-        ),
+        (say!("mechanism", "cinematismo").markup(language), mechanism(parameters).of(language).to_owned()),
         (formula("h") + " [m]", language.stated(parameters.height)),
         (formula("b") + " [m]", language.stated(parameters.thickness)),
         (formula("O") + " [kN]", language.shown(1e-3 * wall.body().overburden)),
@@ -211,7 +208,7 @@ fn parameter(
         Some(number) => (value_in(number, unit, language), stated()),
         None => {
             let said = match name {
-                "mechanism" => mechanism(parameters.mechanism),
+                "mechanism" => mechanism(parameters),
                 "tie_side" => match parameters.tie_side {
                     TieSide::Positive => say!("to the outside (u > 0)", "verso l'esterno (u > 0)"),
                     TieSide::Negative => say!("to the inside (u < 0)", "verso l'interno (u < 0)"),

@@ -3,7 +3,7 @@
 use ::report::number;
 use rocking_wall::scene::{Floors, HeavyWall, LIGHT};
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::Warning;
+use rocking_wall::wall::{Parameters, Warning};
 
 use super::{Language, Sentence, say};
 
@@ -67,9 +67,11 @@ pub(crate) fn storeys(floors: &Floors) -> Sentence {
     Sentence::new(english.clone(), format!("trasmesso da {name}, T = {periods}"))
 }
 
-/// The mechanism, as codes name it.
-pub(crate) fn mechanism(mechanism: Mechanism) -> Sentence {
-    match mechanism {
+/// The mechanism, as codes name it: compound where the wall takes wedges of others along.
+pub(crate) fn mechanism(parameters: &Parameters) -> Sentence {
+    let has_wedge = parameters.profile.as_ref().is_some_and(|profile| !profile.hanging().is_empty());
+    match parameters.mechanism {
+        _ if has_wedge => say!("compound overturning", "ribaltamento composto"),
         Mechanism::Parapet | Mechanism::RigidBody => say!("simple overturning", "ribaltamento semplice"),
         Mechanism::VerticalSpanning => say!("vertical bending (strip)", "flessione verticale"),
     }

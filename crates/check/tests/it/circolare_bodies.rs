@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::circolare::{checked, refuses, sides_in_json, warns};
 use crate::formulas::assert_gives;
-use crate::report::report_of_one;
+use crate::report::{plain, report_of_one};
 
 /// Rounding of sums of some dozen terms.
 const ROUNDING: f64 = 1e-12;
@@ -181,6 +181,7 @@ fn a_thrust_helps_only_where_it_lasts() {
     assert_eq!(passing[0], lasting[0]);
     assert!(passing[0] < none[0] && lasting[1] > none[1]);
     near(passing[1], none[1], "left out");
+    assert!(!plain(&report_of_one(&facade("thrust = 800", ""))).contains("-0 "), "a moment of -0");
     warns(
         &facade("thrust = 800", ""),
         "u < 0: thrusts with a moment of 5.12 kN m would help and are left out",

@@ -2,7 +2,7 @@
 //! crack of a transverse wall. Beside them brute-force scans by the sums of the text.
 
 use crate::circolare::{refuses, sides_in_json, warns};
-use crate::circolare_bodies::{check, load, near, number, part};
+use crate::circolare_bodies::{check, json, load, near, number, part};
 use crate::formulas::assert_gives;
 use crate::report::{plain, report_of_one};
 
@@ -168,6 +168,17 @@ fn the_parts_of_a_wedge_have_one_crack() {
     }
 }
 
+/// A level above the wedge has none: what stands on the façade turns alone.
+#[test]
+fn a_level_above_the_wedge_has_no_crack() {
+    let levels = "crack_angles = [15, 30]\nhinge_levels = [0, 6]";
+    let gable = part(0.3, 2.0) + "base = 6\n";
+    let found = json(&wedge(6.0, levels).replace("[check]", &(gable + "[check]")));
+    let of = |level: usize, key: &str| found["levels"][level]["sides"]["positive"][key].as_f64();
+    assert_eq!((of(0, "crack_angle"), of(1, "crack_angle")), (Some(15.0), None));
+    near(of(1, "alpha0").unwrap(), 0.15, "alpha0 above");
+}
+
 /// Angles need a wedge, and limits that rise.
 #[test]
 fn angles_of_a_crack_are_refused_without_a_wedge() {
@@ -213,15 +224,16 @@ fn a_corner_turns_about_its_diagonal() {
 fn the_mechanisms_of_the_scenes_are_reported() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/mechanisms");
     for (name, bodies, said) in [
-        ("compound_overturning", 1, "0 to 1.715 m, β = 15°"),
-        ("corner", 1, "5737.49 · 9.81 · 10⁻³"),
-        ("gable", 2, "Body above 6.4 m"),
-        ("two_storeys", 1, "h₁ = "),
+        ("compound_overturning", 1, ["0 to 1.715 m, β = 15°", "compound overturning"]),
+        ("corner", 1, ["5737.49 · 9.81 · 10⁻³", "26918.4 kg m²"]),
+        ("gable", 2, ["Body above 6.4 m", "Part from 6.4 to 9 m"]),
+        ("two_storeys", 1, ["h₁ = ", "Load at 3.3 m"]),
     ] {
         let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
         let page = report_of_one(&text);
         assert!(assert_gives(&page) > 20, "{name}");
         assert_eq!(page.matches("aria-label=\"the wall to scale\"").count(), bodies, "{name}");
-        assert!(plain(&page).contains(said), "{name} without {said}");
+        let text = plain(&page);
+        assert!(said.iter().all(|said| text.contains(said)), "{name} without {said:?}");
     }
 }

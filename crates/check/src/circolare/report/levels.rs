@@ -51,14 +51,15 @@ impl Checked<'_> {
         warnings
     }
 
-    /// The bodies above all levels to scale, the lowest first.
+    /// The bodies above all levels to scale, beside each other.
     pub(super) fn drawn(&self, language: Language) -> String {
         let figure = |level: &Self| {
             let head = level.stated_level().map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z));
             let head = head.map_or_else(String::new, |head| format!("<h3>{}</h3>\n", head.markup(language)));
-            head + &drawing::figure(&level.wall, &level.parameters, language)
+            format!("<div>{head}{}</div>\n", drawing::figure(&level.wall, &level.parameters, language))
         };
-        self.levels().into_iter().map(figure).collect()
+        let figures: String = self.levels().into_iter().map(figure).collect();
+        format!("<div class=\"bodies\">\n{figures}</div>\n")
     }
 
     /// Which resultants the weights have.

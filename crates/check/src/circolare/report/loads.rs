@@ -13,24 +13,22 @@ use crate::words::{Language, Sentence, Written, say, shown};
 /// A row: what it is, how it follows, and its value.
 type Row = [String; 3];
 
-/// The loads: own weight, overburden, parts, openings, loads and thrusts.
+/// The loads: own weight, overburden, parts, openings, loads and thrusts; of several bodies those of the
+/// lowest, which has all.
 pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
-    let Parameters { height, thickness, width, density, gravity, mechanism, .. } = case.parameters;
+    let levels = case.levels();
+    let parameters = &levels.first().unwrap_or(&case).parameters;
+    let Parameters { height, thickness, width, density, gravity, mechanism, .. } = *parameters;
     let mut rows = Vec::new();
-    if let Some(profile) = &case.parameters.profile {
+    if let Some(profile) = &parameters.profile {
         rows.extend(profile.parts().iter().map(|part| of_part(part, gravity, language)));
         rows.extend(profile.openings().iter().map(|opening| of_opening(opening, language)));
     } else if mechanism == Mechanism::RigidBody {
-        let mass = case.parameters.body_mass;
+        let mass = parameters.body_mass;
         let how =
             format!("{} = {} · {} · 10⁻³", formula("m g"), language.stated(mass), language.stated(gravity));
-        rows.push(row(
-            &say!("Own weight `W`", "Peso proprio `W`"),
-            how,
-            1e-3 * mass * gravity,
-            "kN",
-            language,
-        ));
+        let words = say!("Own weight `W`", "Peso proprio `W`");
+        rows.push(row(&words, how, 1e-3 * mass * gravity, "kN", language));
     } else {
         let [h, b, l, rho] = [height, thickness, width, density].map(|value| language.stated(value));
         let weight = 1e-3 * density * gravity * height * thickness * width;
@@ -41,9 +39,9 @@ pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
         );
         rows.push(row(&say!("Own weight `W`", "Peso proprio `W`"), how, weight, "kN", language));
     }
-    rows.extend(level::loads(&case.parameters).iter().map(|load| of_load(load, language)));
+    rows.extend(level::loads(parameters).iter().map(|load| of_load(load, language)));
     let overburden = case.wall.body().overburden;
-    if overburden > 0.0 && case.parameters.profile.is_none() {
+    if overburden > 0.0 && parameters.profile.is_none() {
         let per_metre = 1e-3 * overburden / width;
         let words = say!("Overburden `O`, in all", "Carico in sommità `O`, totale");
         let how = say!("stated, without mass", "dichiarato, senza massa").markup(language);
@@ -52,7 +50,7 @@ pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
         rows.push(row(&words, formula("O/l"), per_metre, "kN/m", language));
         let words = say!("Its eccentricity `c`, outwards", "Sua eccentricità `c`, verso l'esterno");
         let how = say!("stated", "dichiarata").markup(language);
-        rows.push(row(&words, how, case.parameters.overburden_eccentricity, "m", language));
+        rows.push(row(&words, how, parameters.overburden_eccentricity, "m", language));
     }
     let parts = [say!("load", "carico"), say!("how", "origine"), say!("value", "valore")];
     table(&heads(parts, language), &rows)

@@ -284,7 +284,8 @@ impl TieVerdict {
 /// Adds what the curve loses where the tie breaks.
 fn add_rupture(side: &SideVerdict, of: OfSide<'_>, broken: &TieBreak, ledger: &mut Ledger) {
     let TieBreak { before, after, largest, loss, .. } = *broken;
-    let put = format!("({} − {})/{}", shown(before), shown(after), shown(largest));
+    let sign = if after < 0.0 { "+" } else { "−" };
+    let put = format!("({} {sign} {})/{}", shown(before), shown(after.abs()), shown(largest));
     let words = say! {
         "What the curve, with FC, loses there for good, over its largest a",
         "Riduzione della capacità alla rottura della catena, rapportata ad a_max"

@@ -118,7 +118,8 @@ impl Curve {
         ledger.add(Quantity::new("x_G", "x_G", Unit::METRES, arm(of.parameters, sign), words));
         let terms = self.terms(of);
         let (x, w) = (arm(of.parameters, sign), 1e-3 * body.weight);
-        let sum = |number: &dyn Fn(&Term) -> f64| terms.iter().map(number).sum::<f64>();
+        // no sum is −0
+        let sum = |number: &dyn Fn(&Term) -> f64| terms.iter().map(number).sum::<f64>() + 0.0;
         let put = |first: Option<[f64; 2]>, number: &dyn Fn(&Term) -> [f64; 2]| {
             products(first.into_iter().chain(terms.iter().map(number)))
         };
