@@ -70,14 +70,7 @@ fn all(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<Stated> {
         state(hinge(rule, statement.hinge_range), &["hinge"]);
     }
     if let Some(range) = statement.table.crack_angles {
-        let [from, to] = range.map(|angle| at_most(angle, 4));
-        let said = say! {
-            "The crack of a wedge is searched from {from}° to {to}° from the vertical, at the least α0 \
-             (C8.7.1.2.1.1).",
-            "La lesione del cuneo è cercata tra {from}° e {to}° dalla verticale, al minimo α0 \
-             (C8.7.1.2.1.1).", from, to
-        };
-        state(said, &["crack_angles"]);
+        state(crack(range), &["crack_angles"]);
     }
     let q = at_most(statement.behaviour_factor, 6);
     state(
@@ -248,6 +241,16 @@ fn compression(statement: &Statement) -> Sentence {
 }
 
 /// The rule on the hinge of a strip.
+fn crack(range: [f64; 2]) -> Sentence {
+    let [from, to] = range.map(|angle| at_most(angle, 4));
+    say! {
+        "The crack of a wedge is searched from {from}° to {to}° from the vertical, at the least α0 \
+         (C8.7.1.2.1.1).",
+        "La lesione del cuneo è cercata tra {from}° e {to}° dalla verticale, al minimo α0 (C8.7.1.2.1.1).",
+        from, to
+    }
+}
+
 fn hinge(rule: Hinge, range: [f64; 2]) -> Sentence {
     let [from, to] = range.map(|end| at_most(end, 6));
     match rule {
