@@ -148,6 +148,8 @@ fn the_crack_of_a_wedge_is_at_the_least_multiplier() {
     let angle = number(&sides, &["positive", "crack_angle"]);
     assert!((angle - best).abs() < 1e-3, "{angle}, a scan {best}");
     near(number(&sides, &["positive", "activation", "alpha0"]), of(angle), "alpha0 with the tie");
+    let narrow = tie.to_owned() + &wedge(6.0, &yields.replace("60", "6"));
+    warns(&narrow, "the least alpha0 is at the largest angle of the crack, 6°: beyond it may be lower");
 }
 
 /// A wedge of several parts keeps one straight crack, and takes along what the façade leaves it.

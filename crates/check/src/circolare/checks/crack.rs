@@ -4,8 +4,6 @@
 //! angle β from the vertical. The code takes the shape of the blocks from the least α0 within a class of
 //! mechanisms (C8.7.1.2.1.1) and gives no range for β, which the engineer states.
 
-use std::sync::Arc;
-
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Part, Profile, Statics};
 
@@ -36,8 +34,8 @@ pub(crate) fn searched(mut case: Case<'_>) -> Result<Case<'_>, CheckError> {
         ));
     }
     let profile = case.parameters.profile.clone();
-    let has_wedge = |own: &Arc<Profile>| case.parameters.mechanism == Mechanism::Parapet && has_wedge(own);
-    let Some(profile) = profile.filter(has_wedge) else {
+    let is_parapet = case.parameters.mechanism == Mechanism::Parapet;
+    let Some(profile) = profile.filter(|own| is_parapet && has_wedge(own)) else {
         // what is above a level may have none
         if case.level > 0 {
             return Ok(case);
