@@ -239,3 +239,20 @@ fn the_mechanisms_of_the_scenes_are_reported() {
         assert!(said.iter().all(|said| text.contains(said)), "{name} without {said:?}");
     }
 }
+
+/// An Italian report of a wedge names the mechanism and its crack, with commas along the dimensions, too.
+#[test]
+fn a_wedge_is_reported_in_italian() {
+    let text = include_str!("../../../../scenes/mechanisms/compound_overturning.toml");
+    let text = plain(&report_of_one(&format!("{text}[report]\nlanguage = \"it\"\n")));
+    for said in [
+        "ribaltamento composto",
+        "Lesione rispetto alla verticale, di minimo α0 tra 15° e 30°",
+        "La lesione del cuneo è cercata tra 15° e 30° dalla verticale",
+        "0 a 1,715 m, β = 15°",
+        "h = 6,4 m",
+        "il minimo α0 è alla minima inclinazione della lesione, 15°",
+    ] {
+        assert!(text.contains(said), "{said}\n{text}");
+    }
+}
