@@ -70,6 +70,15 @@ const KNOWN: [Known; Format::ALL.len()] = [
     (Format::Numbers, "numbers", "numbers", &[], false, |_| false, numbers::parse),
 ];
 
+// each format stands at its place in the enumeration
+const _: () = {
+    let mut place = 0;
+    while place < KNOWN.len() {
+        assert!(KNOWN[place].0 as usize == place);
+        place += 1;
+    }
+};
+
 impl Format {
     /// Returns the format's short name, such as `at2`.
     pub fn name(self) -> &'static str {
@@ -145,15 +154,4 @@ fn refuse_unread(head: &[&str]) -> Result<(), Fault> {
         () => return Ok(()),
     };
     Err(Fault::new(1, "a record in a format that is read", found, remedy))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Format, KNOWN};
-
-    #[test]
-    fn each_format_stands_at_its_place_in_the_enumeration() {
-        assert!(KNOWN.iter().enumerate().all(|(place, (format, ..))| *format as usize == place));
-        assert!(KNOWN.iter().all(|(format, ..)| Format::ALL.contains(format)));
-    }
 }
