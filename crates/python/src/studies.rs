@@ -27,7 +27,8 @@ pub(crate) struct Study {
 
 /// A study as values that pickle can send: its text, its walls, and its records by their names, with their
 /// factors and weights.
-type Values = (String, Vec<(String, String, Vec<String>)>, Vec<(String, Motion)>, Vec<[f64; 2]>);
+type Values =
+    (String, Vec<(String, String, Vec<String>)>, Vec<(String, Motion)>, Vec<(f64, f64, Option<usize>)>);
 
 #[pymethods]
 impl Study {
@@ -65,8 +66,8 @@ impl Study {
     fn received(py: Python<'_>, values: Values) -> PyResult<Self> {
         let (text, walls, records, listed) = values;
         let mut records = named_records(records);
-        for (record, [factor, weight]) in records.iter_mut().zip(listed) {
-            record.listed = Listed { factor, weight };
+        for (record, (factor, weight, stripe)) in records.iter_mut().zip(listed) {
+            record.listed = Listed { factor, weight, stripe };
         }
         let sent = Sent { text, walls, records };
         let loaded = py.detach(|| LoadedStudy::received(sent, &Codes)).map_err(of_scene)?;
@@ -76,7 +77,8 @@ impl Study {
     /// Returns the values of the study, to send them.
     fn sent(&self) -> Values {
         let Sent { text, walls, records } = self.loaded.sent(&Codes);
-        let listed = records.iter().map(|record| [record.listed.factor, record.listed.weight]).collect();
+        let listed = |Listed { factor, weight, stripe }| (factor, weight, stripe);
+        let listed = records.iter().map(|record| listed(record.listed)).collect();
         let records = records.into_iter().map(|record| (record.name, Motion(record.motion)));
         (text, walls, records.collect(), listed)
     }

@@ -78,11 +78,11 @@ impl Reliability {
                     .into(),
             );
         }
-        if matches!(loaded.study.levels(), Levels::Cloud { .. }) {
+        if matches!(loaded.study.levels(), Levels::Cloud { .. } | Levels::Stripes(_)) {
             return refused(
-                "method = \"cloud\" of [levels]: a study of reliability needs several levels, and a cloud \
-                 runs each record once; give levels of another method, such as levels = { method = \
-                 \"hunt\", first = 0.05, increase = 0.05, top = 5 }, in g"
+                "method of [levels]: a study of reliability needs several levels of each record, and clouds \
+                 and stripes run each record once; give levels of another method, such as levels = { \
+                 method = \"hunt\", first = 0.05, increase = 0.05, top = 5 }, in g"
                     .into(),
             );
         }

@@ -1,7 +1,7 @@
 //! Records by their names: the table `[records]` of a study or a check, with files, folders, patterns and
 //! lists.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use files::{FileError, Place, tables};
@@ -12,8 +12,8 @@ use ground_motion::{
 use rocking_wall::scene::{LONGEST_TAIL, RecordProblem, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
-pub use crate::selection::Listed;
 use crate::selection::{self, ListedFile};
+pub use crate::selection::{Listed, Selection};
 
 /// Most synthetic records of a study.
 const MOST_RECORDS: u64 = 10_000;
@@ -41,8 +41,8 @@ impl NamedRecord {
 pub struct RecordsEntry {
     /// Files, folders and patterns with `*` and `?`, relative to the study file, each with its line.
     pub files: Vec<(String, usize)>,
-    /// A list of records, relative to the study file, with its line.
-    pub selection: Option<(String, usize)>,
+    /// Lists of records: one, or one of each stripe.
+    pub selections: Vec<Selection>,
     /// Which of the two components of a list is taken, 1 or 2; both where `None`.
     pub component: Option<u64>,
     /// Options for reading them.
@@ -107,18 +107,27 @@ tables! {
 ///
 /// # Errors
 /// [`FileError`] with file, line, value and remedy.
-pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, FileError> {
+pub fn records(
+    table: &Spanned<RecordsTable>,
+    stripes: Vec<Selection>,
+    place: &Place<'_>,
+) -> Result<RecordsEntry, FileError> {
     let spec = table.get_ref();
-    if spec.files.is_empty()
+    let is_empty = spec.files.is_empty()
         && spec.selection.is_none()
         && spec.sequences.is_empty()
-        && spec.synthetic.is_none()
-    {
+        && spec.synthetic.is_none();
+    if !(stripes.is_empty() || is_empty) {
+        let message = "the records of stripes stand in the lists of [[levels.stripe]]; leave files, \
+                       selection, sequences and synthetic out of [records]";
+        return Err(place.error(table.span(), message));
+    }
+    if is_empty && stripes.is_empty() {
         let message = "[records] needs files = [...], selection = \"…\", sequences = [[...], ...] or \
                        synthetic = { count = ... }";
         return Err(place.error(table.span(), message));
     }
-    if let (Some(component), None) = (&spec.component, &spec.selection) {
+    if let (Some(component), None, []) = (&spec.component, &spec.selection, &stripes[..]) {
         let message = "component is that of a list; name one by selection = \"…\", or leave component out";
         return Err(place.error(component.span(), message));
     }
@@ -149,9 +158,13 @@ pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<Recor
             ..default
         }));
     }
-    let selection = spec.selection.as_ref().map(|list| (list.get_ref().clone(), place.line(list.span())));
+    let list = |list: &Spanned<String>| {
+        let (path, line) = (list.get_ref().clone(), place.line(list.span()));
+        Selection { path, line, stripe: None }
+    };
+    let selections = spec.selection.iter().map(list).chain(stripes).collect();
     let component = spec.component.as_ref().map(|component| *component.get_ref());
-    Ok(RecordsEntry { files, selection, component, options, sequences, pause, synthetic })
+    Ok(RecordsEntry { files, selections, component, options, sequences, pause, synthetic })
 }
 
 /// A record file of a study.
@@ -166,8 +179,8 @@ pub struct RecordFile {
 
 /// Returns the files that records are read from, their lists among them.
 pub fn inputs(entry: &RecordsEntry, files: Vec<RecordFile>, folder: &Path) -> Vec<PathBuf> {
-    let list = entry.selection.iter().filter_map(|(path, _)| selection::list_of(&folder.join(path)).ok());
-    let files = list.chain(files.into_iter().map(|file| file.path));
+    let lists = entry.selections.iter().map(|list| selection::list_of(&folder.join(&list.path)));
+    let files = lists.flatten().chain(files.into_iter().map(|file| file.path));
     files.chain(entry.sequence_files(folder)).collect()
 }
 
@@ -192,11 +205,16 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
             }
         }
     }
-    if let Some((path, line)) = &entry.selection {
+    for Selection { path, line, stripe } in &entry.selections {
         let in_study = |reason| FileError::on_line(study, *line, format!("selection = {path:?}: {reason}"));
         let list = selection::list_of(&folder.join(path)).map_err(in_study)?;
-        for file in selection::read(&list, entry.component)? {
-            if listed.iter().any(|other| other.path == file.path) {
+        for mut file in selection::read(&list, entry.component)? {
+            file.listed.stripe = *stripe;
+            let is_again = |other: &RecordFile| {
+                let own = other.listed.as_ref().and_then(|listed| listed.listed.stripe);
+                other.path == file.path && own == *stripe
+            };
+            if listed.iter().any(is_again) {
                 let (list, path) = (list.display().to_string(), file.path.display());
                 let reason =
                     format!("{path} is named above this line too, or by `files`; delete one of them");
@@ -248,9 +266,9 @@ pub fn all_records(
 ) -> Result<Vec<NamedRecord>, SceneError> {
     let short =
         |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    let mut uses: BTreeMap<String, BTreeSet<&Path>> = BTreeMap::new();
     for RecordFile { path, .. } in files {
-        *uses.entry(short(path)).or_default() += 1;
+        uses.entry(short(path)).or_default().insert(path);
     }
     let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
     for RecordFile { path, is_named, listed } in files {
@@ -270,7 +288,8 @@ pub fn all_records(
         let motion = if own.factor == 1.0 { record.motion } else { record.motion.scaled(own.factor) };
         let name = short(path);
         // files with equal names go by their whole paths
-        let name = if uses[&name] > 1 { path.display().to_string() } else { name };
+        let name = if uses[&name].len() > 1 { path.display().to_string() } else { name };
+        let name = own.stripe.map_or(name.clone(), |stripe| format!("{name} (stripe {})", stripe + 1));
         records.push(NamedRecord { listed: own, ..NamedRecord::new(name, motion) });
     }
     for (shocks, line) in &entry.sequences {
@@ -356,32 +375,4 @@ fn files(folder: &Path, pattern: &str) -> Result<Vec<PathBuf>, Box<dyn std::erro
 }
 
 #[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use super::files;
-
-    /// Marks of patterns in the name of the study's folder, and brackets in that of a record, are none.
-    #[test]
-    fn only_the_pattern_is_one() {
-        let folder = std::env::temp_dir().join(format!("rocking wall [2024] {}", std::process::id()));
-        let inner = folder.join("[a] b");
-        std::fs::create_dir_all(&inner).unwrap();
-        for name in ["x.AT2", "[y].AT2", "z.txt"] {
-            std::fs::write(inner.join(name), "").unwrap();
-        }
-        let names = |folder: &Path, pattern: &str| -> Vec<String> {
-            let found = files(folder, pattern).unwrap_or_default();
-            found.iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect()
-        };
-        assert_eq!(names(&inner, "*.AT2"), ["[y].AT2", "x.AT2"]);
-        assert_eq!(names(&folder, "[a] ?/*.AT2"), ["[y].AT2", "x.AT2"]);
-        assert_eq!(names(&inner, "?.AT2"), ["x.AT2"]);
-        assert_eq!(names(&inner, "[y].*"), ["[y].AT2"]);
-        assert_eq!(names(&folder, "[a] b"), ["[y].AT2", "x.AT2", "z.txt"]);
-        assert_eq!(names(&inner, "[xy].AT2"), Vec::<String>::new());
-        let absolute = inner.join("*.AT2").to_str().unwrap().to_owned();
-        assert_eq!(names(Path::new("elsewhere"), &absolute), ["[y].AT2", "x.AT2"]);
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-}
+mod tests;

@@ -32,11 +32,24 @@ pub struct Listed {
     pub factor: f64,
     /// Weight beside other records \[-\]: those of a list have a mean of 1.
     pub weight: f64,
+    /// Place of the stripe whose list has it, in a study of stripes.
+    pub stripe: Option<usize>,
+}
+
+/// A list of records that a file names.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// Table or folder, relative to the file.
+    pub path: String,
+    /// Line that names it.
+    pub line: usize,
+    /// Place of the stripe whose list it is.
+    pub stripe: Option<usize>,
 }
 
 impl Default for Listed {
     fn default() -> Self {
-        Self { factor: 1.0, weight: 1.0 }
+        Self { factor: 1.0, weight: 1.0, stripe: None }
     }
 }
 
@@ -121,6 +134,7 @@ pub(crate) fn read(list: &Path, component: Option<u64>) -> Result<Vec<ListedFile
         let listed = Listed {
             factor: number(Role::Factor)?.unwrap_or(1.0),
             weight: number(Role::Weight)?.unwrap_or(1.0),
+            stripe: None,
         };
         let step = number(Role::Step)?;
         let components = [Role::File, Role::Second].into_iter().filter_map(place).zip(1..);

@@ -24,6 +24,7 @@ pub struct Fitting {
     /// β of modelling \[-\].
     modelling: f64,
     weights: Weights,
+    is_apart: bool,
 }
 
 /// Curves of one wall with every model and record, and a fragility of every model and limit state.
@@ -66,6 +67,7 @@ impl Fitting {
                 .corrected(report.small_sample),
             modelling: report.modelling_uncertainty,
             weights: report.weights.clone(),
+            is_apart: false,
         }
     }
 
@@ -73,6 +75,12 @@ impl Fitting {
     #[must_use]
     pub fn with_cloud(self, is_cloud: bool) -> Self {
         Self { is_cloud, ..self }
+    }
+
+    /// Takes levels with records of their own.
+    #[must_use]
+    pub fn with_stripes(self, is_apart: bool) -> Self {
+        Self { is_apart, ..self }
     }
 
     /// Takes records of both signs as pairs, which the bootstrap draws together.
@@ -151,8 +159,13 @@ impl Fitting {
         let of_model = |curves: &[Curve]| {
             // a cloud has no demands between the origin and its runs
             let levels = if self.is_cloud { Some(&[][..]) } else { self.grid.as_deref() };
-            let of_state =
-                |fraction| Sample::of_curves(curves, fraction, crossing, levels).weighted(&self.weights);
+            let of_state = |fraction| {
+                let sample = match levels {
+                    Some(levels) if self.is_apart => Sample::of_stripes(curves, fraction, levels),
+                    _ => Sample::of_curves(curves, fraction, crossing, levels),
+                };
+                sample.weighted(&self.weights)
+            };
             fractions.iter().copied().map(of_state).collect()
         };
         curves.chunks(self.records).map(of_model).collect()

@@ -325,7 +325,7 @@ impl<'a> CheckFile<'a> {
     pub(crate) fn records(&self, table: Option<&Spanned<RecordsTable>>) -> Result<Records, CheckError> {
         let (mut files, mut warnings, mut named) = (Vec::new(), Vec::new(), self.records.clone());
         if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
-            let entry = records(table, self.file.place())?;
+            let entry = records(table, Vec::new(), self.file.place())?;
             let found = record_files(&entry, &self.folder, self.name())?;
             named = all_records(&entry, &found, &self.folder, self.name(), &mut warnings)?;
             files = inputs(&entry, found, &self.folder);

@@ -62,6 +62,8 @@ class StudyResults(Tabular):
     """The values of the samples of each wall; None without `uncertain`."""
     sensitivity: Table | None
     """How far each parameter explains θ over the samples; None without `uncertain`."""
+    variance: Table | None
+    """The parts of the variance of ln IM: records, each parameter, modelling; None without `uncertain`."""
     cloud: Table | None
     """The regression of every wall and damping model, ln(u_max/u_ins) = a + b ln IM with the standard
     deviation sigma; None for levels of another method than "cloud"."""
@@ -214,6 +216,7 @@ TABLES = (
     "losses",
     "samples",
     "sensitivity",
+    "variance",
     "cloud",
     "measures",
     "given",
@@ -222,7 +225,7 @@ TABLES = (
 )
 """Tables that only some studies have."""
 
-NAMES = {"wall", "of", "model", "record", "parameter", "measure", "unit"}
+NAMES = {"wall", "of", "model", "part", "record", "parameter", "measure", "unit"}
 """Columns of words, even where a name is a number."""
 
 

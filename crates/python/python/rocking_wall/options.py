@@ -159,8 +159,11 @@ class Records(TypedDict, total=False):
       at least 1, at most 2.
     - files: Files, folders and patterns with * and ?, relative to the study file.
     - format: Format of the files, if their content does not tell.
+    - pause: Time between the records of a sequence [s], at least 0, at most 1e+06; default 10.0.
     - selection: A list of records with scale factors and weights, as selectors write it: a table, or its
       folder.
+    - sequences: Sequences of records that follow each other, such as a main shock and an aftershock: each a
+      list of files, or of tables with options of their own.
     - step: Time between samples [s], likewise.
     - synthetic: Synthetic motions.
     - unit: Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.
@@ -171,9 +174,36 @@ class Records(TypedDict, total=False):
     component: int
     files: Sequence[str]
     format: str
+    pause: float
     selection: str
+    sequences: Sequence[str | Record | Sequence[str | Record]]
     step: float
     synthetic: SyntheticRecords
+    unit: str
+
+
+class Record(TypedDict, total=False):
+    """A record with options of its own.
+
+    - channel: Channel of a record with several, by its number.
+    - column: Column of a table (CSV or text).
+    - fingerprint: Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
+    - format: Format of the record, found from its content if none is given.
+    - pga: Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
+    - record: Record file, beside the file that names it.
+    - scale: Factor on the motion (-).
+    - step: Time between samples (s), for a record that does not state it.
+    - unit: Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
+    """
+
+    channel: str
+    column: str
+    fingerprint: str
+    format: str
+    pga: float | str
+    record: Required[str]
+    scale: float
+    step: float
     unit: str
 
 
@@ -325,7 +355,8 @@ class Intensity(TypedDict, total=False):
 
 
 class Levels(TypedDict, total=False):
-    """Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
+    """Levels of intensity: hunt, step (to the first overturning), grid, cloud (each record once), or stripes
+    (each with its own records).
 
     - first: First level and first step of a hunt.
     - gap: Largest gap between levels of a hunt, as a part of the collapse intensity; default 0.1.
@@ -335,6 +366,7 @@ class Levels(TypedDict, total=False):
       0.01.
     - scale: Factor on the records of a cloud, above 0; default 1.
     - step: Distance between levels of step and grid.
+    - stripe: Stripes, from the lowest on.
     - top: Highest level.
     - unit: Unit of the levels: of an acceleration m/s2, cm/s2, mm/s2 or g; of PGV and Arias cm/s, m/s or
       mm/s; of PGD and Housner cm, m or mm; of CAV g s, m/s or cm/s. By default that of the results.
@@ -344,13 +376,25 @@ class Levels(TypedDict, total=False):
     first: float
     gap: float
     increase: float
-    method: Required[Literal["hunt", "step", "grid", "cloud"]]
+    method: Required[Literal["hunt", "step", "grid", "cloud", "stripes"]]
     resolution: float
     scale: float
     step: float
+    stripe: Sequence[Stripe]
     top: float
     unit: str
     values: Sequence[float]
+
+
+class Stripe(TypedDict, total=False):
+    """A level with its own records, which are run as their list scales them.
+
+    - intensity: Level.
+    - selection: List of its records: a table, or its folder.
+    """
+
+    intensity: Required[float]
+    selection: Required[str]
 
 
 class Model(TypedDict, total=False):
@@ -406,6 +450,19 @@ class Report(TypedDict, total=False):
     resamples: int
     seed: int | Generator
     small_sample: bool
+
+
+class Sequences(TypedDict, total=False):
+    """Sequences of records: what the levels scale, and fragilities by the state of the walls.
+
+    - given: Fractions of u_ins: fragilities of the last shock are told for the walls whose |u| has exceeded
+      each in the shocks before.
+    - scale: What the levels scale: all shocks of a sequence, or the last one, the others being as they are;
+      default "all".
+    """
+
+    given: Sequence[float]
+    scale: Literal["all", "last"]
 
 
 class Uncertain(TypedDict, total=False):

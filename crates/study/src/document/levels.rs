@@ -8,12 +8,13 @@ use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Levels, ToSi};
 use files::{FileError, Place, TomlFile, tables};
 use rocking_wall::scene::SceneError;
+use run::records::Selection;
 
 /// Names of the intensity measures.
 pub(super) const MEASURES: [&str; 9] =
     ["PGA", "PGV", "PGD", "Sa", "AvgSA", "Arias", "CAV", "Housner", "code"];
 /// Names of the ways to choose levels.
-const METHODS: [&str; 4] = ["hunt", "step", "grid", "cloud"];
+const METHODS: [&str; 5] = ["hunt", "step", "grid", "cloud", "stripes"];
 /// Resolution and gap of a hunt that states none.
 const RESOLUTION: f64 = 0.01;
 const GAP: f64 = 0.1;
@@ -39,7 +40,8 @@ tables! {
         pub(super) records_table: Option<Spanned<String>>,
     }
 
-    /// Levels of intensity: hunt, step (to the first overturning), grid, or cloud (each record once).
+    /// Levels of intensity: hunt, step (to the first overturning), grid, cloud (each record once), or stripes
+    /// (each with its own records).
     #[derive(Debug)]
     pub(super) struct LevelsTable {
         /// How levels are chosen.
@@ -67,7 +69,28 @@ tables! {
         /// Factor on the records of a cloud.
         #[key(exclusiveMinimum = 0, default = 1)]
         scale: Option<f64>,
+        /// Stripes, from the lowest on.
+        #[serde(default)]
+        stripe: Vec<Spanned<StripeTable>>,
     }
+
+    /// A level with its own records, which are run as their list scales them.
+    #[derive(Debug)]
+    pub(super) struct StripeTable {
+        /// Level.
+        intensity: f64,
+        /// List of its records: a table, or its folder.
+        selection: Spanned<String>,
+    }
+}
+
+/// Returns the lists of the stripes.
+pub(super) fn stripes(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Vec<Selection> {
+    let list = |(number, stripe): (usize, &Spanned<StripeTable>)| {
+        let list = &stripe.get_ref().selection;
+        Selection { path: list.get_ref().clone(), line: place.line(list.span()), stripe: Some(number) }
+    };
+    table.get_ref().stripe.iter().enumerate().map(list).collect()
 }
 
 pub(super) fn measure(
@@ -154,6 +177,7 @@ pub(super) fn levels(
         "step" => &["step", "top"],
         "grid" => &["values", "step", "top"],
         "cloud" => &["scale"],
+        "stripes" => &["[[levels.stripe]]"],
         other => {
             let message = format!("method = {other:?} is not one of {}", METHODS.join(", "));
             return Err(place.error(spec.method.span(), message));
@@ -168,6 +192,7 @@ pub(super) fn levels(
         ("gap", spec.gap),
         ("values", spec.values.as_ref().map(|_| 0.0)),
         ("scale", spec.scale),
+        ("[[levels.stripe]]", spec.stripe.first().map(|_| 0.0)),
         ("unit", spec.unit.as_ref().filter(|_| method == "cloud").map(|_| 0.0)),
     ];
     let is_taken = |name: &str| keys.contains(&name);
@@ -189,6 +214,10 @@ pub(super) fn levels(
             gap: spec.gap.unwrap_or(GAP),
         }),
         "cloud" => Ok(Levels::Cloud { scale: spec.scale.unwrap_or(1.0) }),
+        "stripes" => {
+            needed("[[levels.stripe]]")?;
+            Ok(Levels::Stripes(spec.stripe.iter().map(|stripe| to_si(stripe.get_ref().intensity)).collect()))
+        }
         "step" => Ok(Levels::ToOverturning { step: needed("step")?, top: needed("top")? }),
         _ => match (&spec.values, spec.step, spec.top) {
             (Some(values), None, None) => Ok(Levels::Grid(values.iter().map(|&x| to_si(x)).collect())),

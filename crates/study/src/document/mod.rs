@@ -38,7 +38,7 @@ use crate::uncertain::Uncertain;
 
 use compare::compare;
 use hazard::{HazardTable, hazard};
-use levels::{IntensityTable, LevelsTable, levels, measure};
+use levels::{IntensityTable, LevelsTable, levels, measure, stripes};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, TARGET, report};
 use sequence::{SequencesTable, sequence};
@@ -171,6 +171,7 @@ impl StudyFile {
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), file)?;
         let measure = measure(document.intensity.as_ref(), codes, file)?;
         let levels = levels(&document.levels, &measure, place)?;
+        let stripes = stripes(&document.levels, place);
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
             && *word.get_ref() == Collapse::Falls
         {
@@ -188,9 +189,9 @@ impl StudyFile {
             records: document
                 .records
                 .as_ref()
-                .map(|table| records(table, place))
+                .map(|table| records(table, stripes.clone(), place))
                 .transpose()?
-                .unwrap_or_default(),
+                .unwrap_or(RecordsEntry { selections: stripes, ..RecordsEntry::default() }),
             compare: compare(document.intensity.as_ref(), &measure, codes, file)?,
             select: document.intensity.and_then(|table| table.into_inner().select).map(Spanned::into_inner),
             tail: document.tail.unwrap_or(DEFAULT_TAIL),

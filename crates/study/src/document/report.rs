@@ -214,7 +214,12 @@ pub(super) fn report(
             return Err(place.error(span, message));
         }
     }
-    let own_crossing = if matches!(levels, Levels::Grid(_)) { Crossing::Fraction } else { Crossing::First };
+    if let (Levels::Stripes(_), Some(word)) = (levels, &spec.collapse) {
+        let message = "collapse has no part in stripes, of which no record is run twice; leave it out";
+        return Err(place.error(word.span(), message));
+    }
+    let is_fraction = matches!(levels, Levels::Grid(_) | Levels::Stripes(_));
+    let own_crossing = if is_fraction { Crossing::Fraction } else { Crossing::First };
     if let Some(ratios) = &spec.loss_ratios {
         check_losses(&fractions, ratios.get_ref()).map_err(|fault| place.error(ratios.span(), fault))?;
     }

@@ -28,6 +28,9 @@ pub struct Contents {
     /// Whether each record is run once, at its own level.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) is_cloud: bool,
+    /// Whether each level has its own records.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_apart: bool,
     /// Levels where all records share them, in SI units.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
@@ -120,11 +123,12 @@ impl Manifest {
 
     /// Returns what makes the results of its walls.
     pub fn fitting(&self) -> Fitting {
-        let Contents { models, records, grid, polarity, is_cloud, .. } = &self.contents;
+        let Contents { models, records, grid, polarity, is_cloud, is_apart, .. } = &self.contents;
         let models: Vec<_> = models.iter().map(|model| model.name.as_str()).collect();
         Fitting::new(records.len(), &models, grid.clone(), &self.report)
             .with_polarity(*polarity)
             .with_cloud(*is_cloud)
+            .with_stripes(*is_apart)
     }
 
     /// Returns the fingerprint of all fields except the checksum.
@@ -137,7 +141,7 @@ impl Manifest {
 impl Contents {
     /// Says how the intervals of medians are made; those of a cloud are its θ.
     pub(crate) fn interval_of_medians(&self) -> &'static str {
-        if self.is_cloud { "studentised" } else { "by percentiles" }
+        if self.is_cloud || self.is_apart { "studentised" } else { "by percentiles" }
     }
 
     /// Collects the contents of a study.
@@ -184,6 +188,7 @@ impl Contents {
             },
             levels: study.levels().description(study.measure().unit().si()),
             is_cloud: matches!(study.levels(), Levels::Cloud { .. }),
+            is_apart: matches!(study.levels(), Levels::Stripes(_)),
             grid: study.levels().shared(),
             tail_s: study.tail(),
             collapse_is: study.collapse(),

@@ -42,7 +42,11 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
         },
-        if contents.is_cloud { "" } else { "; the lowest level at which it does is the collapse" },
+        if contents.is_cloud || contents.is_apart {
+            ""
+        } else {
+            "; the lowest level at which it does is the collapse"
+        },
         if sensitive[0] > 0 { format!(" {}.", sensitive_words(sensitive)) } else { String::new() },
     );
     template::page(
@@ -175,6 +179,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
         );
     }
     let drawn = match (contents.is_cloud, contents.grid.is_some()) {
+        _ if contents.is_apart => "Stripes, each of its own records",
         (true, _) => "Clouds, with their regressions",
         (false, true) => "Stripes, with their 16, 50 and 84 % fractiles",
         (false, false) => "IDA curves, with their 16, 50 and 84 % fractiles",
@@ -215,7 +220,7 @@ fn shape(parameters: &str) -> String {
 /// Lists the collapse of each record with each model, unless there are too many records for a page.
 fn collapses(shown: Shown<'_>) -> String {
     let Contents { records, models, unit, .. } = &shown.manifest.contents;
-    if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud {
+    if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud || shown.manifest.contents.is_apart {
         return String::new();
     }
     let columns = models.iter().map(|model| Column::number("", model.name.clone(), OF_INTENSITY));

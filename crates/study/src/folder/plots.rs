@@ -128,7 +128,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
         let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
         let line = |fit: Regression| (1..=POINTS).map(|k| (fit.demand(at(k) * unit.size()), at(k))).collect();
         series.push(Series::stroke(color, 2.6, cloud.fit().map(line).unwrap_or_default()));
-    } else {
+    } else if !manifest.contents.is_apart {
         let looks = [(Look::Dashed, 2.0), (Look::Dashed, 2.0), (Look::Solid, 2.6)];
         let paths = fractile_paths(all, &manifest.report.weights, unit).into_iter().zip(looks);
         series

@@ -21,8 +21,19 @@ const MOST_DRAWN: usize = 12;
 pub(crate) struct Sampled<'a> {
     manifest: &'a Manifest,
     samples: &'a Samples,
-    /// ln θ of each wall of the study, limit state by limit state, model by model; `None` without a curve.
-    logarithms: Vec<Vec<Vec<Option<f64>>>>,
+    /// ln θ and β² of each wall of the study, limit state by limit state, model by model; `None` without a
+    /// curve.
+    logarithms: Vec<Vec<Vec<Option<[f64; 2]>>>>,
+}
+
+/// A part of the variance of ln IM at a limit state.
+struct Part<'a> {
+    wall: &'a str,
+    model: usize,
+    state: usize,
+    name: String,
+    variance: f64,
+    total: f64,
 }
 
 /// A wall of the file with a model at a limit state: what each parameter explains, how many samples have a
@@ -36,6 +47,8 @@ struct Row<'a> {
     found: Sensitivity,
     fitted: usize,
     explained: Option<f64>,
+    /// Mean of β² and variance of ln θ over the samples.
+    variances: [f64; 2],
 }
 
 impl<'a> Sampled<'a> {
@@ -48,8 +61,9 @@ impl<'a> Sampled<'a> {
     /// Adds the next wall.
     pub(crate) fn add(&mut self, results: &WallResults) {
         let states = 0..self.manifest.report.fractions.len();
-        let logarithm =
-            |summary: &crate::fragility::Summary| summary.fitted.ok().map(|curve| libm::log(curve.median));
+        let logarithm = |summary: &crate::fragility::Summary| {
+            summary.fitted.ok().map(|curve| [libm::log(curve.median), curve.dispersion.powi(2)])
+        };
         let of_state = |state| results.summaries(state).map(logarithm).collect();
         self.logarithms.push(states.map(of_state).collect());
     }
@@ -57,10 +71,53 @@ impl<'a> Sampled<'a> {
     /// Writes the files; returns their paths and the section of the page.
     pub(crate) fn finish(self, folder: &Path) -> Result<(Vec<PathBuf>, String), FolderError> {
         let rows = self.rows();
-        let [samples, sensitivity] = ["samples.csv", "sensitivity.csv"].map(|name| folder.join(name));
+        let [samples, sensitivity, variance] =
+            ["samples.csv", "sensitivity.csv", "variance.csv"].map(|name| folder.join(name));
+        let parts = self.parts(&rows);
+        file::to_file(&variance, self.variance(&parts).csv().as_bytes())?;
         file::to_file(&samples, self.table().csv().as_bytes())?;
         file::to_file(&sensitivity, self.sensitivity(&rows).csv().as_bytes())?;
-        Ok((vec![samples, sensitivity], self.section(&rows)))
+        let last = self.manifest.report.rising().pop();
+        let shown: Vec<_> = parts.into_iter().filter(|part| Some(part.state) == last).collect();
+        let html = self.variance(&shown).html();
+        let section = self.section(&rows)
+            + "<section><h3>Parts of the variance of ln IM</h3><p>records: mean β² of the samples. \
+               Parameters: their parts of the variance of ln θ (Pratt 1987).</p>"
+            + &html
+            + "</section>\n";
+        Ok((vec![samples, sensitivity, variance], section))
+    }
+
+    /// Splits the variance of ln IM of each wall, model and limit state: E β² of the records, Var ln θ by the
+    /// parameters and what their regression leaves, and β² of modelling.
+    fn parts(&self, rows: &[Row<'a>]) -> Vec<Part<'a>> {
+        let modelling = self.manifest.report.modelling_uncertainty.powi(2);
+        let of_curves = |rows: &[Row<'a>]| -> Vec<Part<'a>> {
+            let Row { wall, model, state, variances: [records, walls], explained, .. } = rows[0];
+            let total = records + walls + modelling;
+            let own =
+                rows.iter().map(|row| (row.parameter.to_owned(), row.found.part.unwrap_or(0.0) * walls));
+            let left = (1.0 - explained.unwrap_or(0.0)) * walls;
+            let others = [("not explained by parameters", left), ("modelling", modelling), ("total", total)];
+            let names = others.map(|(name, variance)| (name.to_owned(), variance));
+            let all = [("records".to_owned(), records)].into_iter().chain(own).chain(names);
+            all.map(|(name, variance)| Part { wall, model, state, name, variance, total }).collect()
+        };
+        rows.chunks(self.samples.parameters.len()).flat_map(of_curves).collect()
+    }
+
+    fn variance(&self, parts: &[Part<'_>]) -> Table {
+        let Manifest { contents, report, .. } = self.manifest;
+        let (four, known) = (Digits::Decimals(4), |value: f64| value.is_finite().then_some(value));
+        Table::over(parts)
+            .text("wall", "wall", |part| part.wall.to_owned())
+            .text("model", "model", |part| contents.models[part.model].name.clone())
+            .value("u_max_over_u_ins", |part| report.fractions[part.state])
+            .text("part", "part", |part| part.name.clone())
+            .number("variance", "variance", four, |part| known(part.variance))
+            .number("share", "share", four, |part| known(part.variance / part.total))
+            .number("beta", "β", four, |part| (part.variance > 0.0).then(|| part.variance.sqrt()))
+            .done()
     }
 
     /// The value of each parameter in each wall of the study.
@@ -85,8 +142,15 @@ impl<'a> Sampled<'a> {
             for (model, _) in self.manifest.contents.models.iter().enumerate() {
                 for (state, _) in self.manifest.report.fractions.iter().enumerate() {
                     let known = |sample: &usize| Some((*sample, of_wall[*sample][state][model]?));
-                    let (places, numbers): (Vec<usize>, Vec<f64>) =
+                    let (places, curves): (Vec<usize>, Vec<[f64; 2]>) =
                         (0..count).filter_map(|sample| known(&sample)).unzip();
+                    let numbers: Vec<f64> = curves.iter().map(|[theta, _]| *theta).collect();
+                    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| {
+                        curves.iter().map(of).sum::<f64>() / curves.len() as f64
+                    };
+                    let centre = mean(&|[theta, _]| *theta);
+                    let variances =
+                        [mean(&|[_, square]| *square), mean(&|[theta, _]| (theta - centre).powi(2))];
                     let column = |place| places.iter().map(|&sample| rows[sample][place]).collect();
                     let columns: Vec<Vec<f64>> = (0..parameters.len()).map(column).collect();
                     let (found, explained) = sensitivities(&columns, is_logarithmic, &numbers);
@@ -101,6 +165,7 @@ impl<'a> Sampled<'a> {
                         found,
                         fitted,
                         explained,
+                        variances,
                     }));
                 }
             }

@@ -22,7 +22,7 @@ const STUDY: &str = "study.json";
 /// The page. It is removed before the tables are written, and comes last: with it they are complete.
 pub(crate) const PAGE: &str = "study.html";
 /// All files that a study may have beside its parts, none of which may be one of its inputs.
-pub const FILES: [&str; 22] = [
+pub const FILES: [&str; 23] = [
     "study.json",
     "levels.csv",
     "collapses.csv",
@@ -41,6 +41,7 @@ pub const FILES: [&str; 22] = [
     "vulnerability.xml",
     "samples.csv",
     "sensitivity.csv",
+    "variance.csv",
     "measures.csv",
     "given.csv",
     "records.csv",

@@ -154,6 +154,7 @@ impl Fragility {
             let (state, fitted) = (&states[place], fitted[place]);
             let censored = |exceedance: &&Exceedance| matches!(exceedance, Exceedance::Above(_));
             let censored = state.exceedances().iter().filter(censored).count();
+            let median = if state.is_apart() { curves[0].clone() } else { median };
             let mut one = Self::new(fitted, [state.exceedances().len(), censored], median, curves);
             one.summary.alone = alone[place];
             one.summary.contradicted = contradicted;

@@ -12,6 +12,8 @@ pub struct Sample {
     exceedances: Vec<Exceedance>,
     stripes: Vec<Stripe>,
     weights: Weights,
+    /// Whether each level has its own records.
+    is_apart: bool,
 }
 
 /// A level, and whether each record exceeds there; `None` of one that was not run there.
@@ -27,7 +29,24 @@ const READ: u32 = 50;
 impl Sample {
     /// Takes one exceedance of each record.
     pub fn of_records(exceedances: Vec<Exceedance>) -> Self {
-        Self { exceedances, stripes: Vec::new(), weights: Weights::default() }
+        Self { exceedances, stripes: Vec::new(), weights: Weights::default(), is_apart: false }
+    }
+
+    /// Takes what the single runs of some records, at levels of their own, show of a `fraction` of `u_ins`.
+    pub fn of_stripes(curves: &[Curve], fraction: f64, levels: &[f64]) -> Self {
+        let stripe = |&intensity: &f64| {
+            let at = |curve: &Curve| curve.runs().iter().find(|run| run.intensity == intensity).copied();
+            let exceeds = |curve| at(curve).map(|run| run.exceeds(fraction));
+            Stripe { intensity, exceeded: curves.iter().map(exceeds).collect() }
+        };
+        let first = |curve: &Curve| curve.exceedance(fraction, Crossing::First, true);
+        let sample = Self::of_records(curves.iter().map(first).collect());
+        Self { stripes: levels.iter().map(stripe).collect(), is_apart: true, ..sample }
+    }
+
+    /// Returns whether each level has its own records, so that none tells where it exceeds first.
+    pub fn is_apart(&self) -> bool {
+        self.is_apart
     }
 
     /// Weighs the records.

@@ -21,6 +21,9 @@ pub enum IdaError {
     /// A record whose intensity is zero or not finite.
     #[error("record {record:?} has the intensity {intensity} and cannot be scaled; leave it out")]
     Unscalable { record: String, intensity: String },
+    /// A record of which no stripe has the list.
+    #[error("record {record:?} is in the list of no stripe; name one that has it in [[levels.stripe]]")]
+    NoStripe { record: String },
     /// A value of the levels is outside its limits.
     #[error("{name} of the levels is {value}; it must be {limit}")]
     Levels { name: &'static str, value: String, limit: String },

@@ -169,7 +169,7 @@ impl Levels {
     /// Returns whether the levels of a curve are too few to fill the lanes of a batch.
     fn are_few(&self) -> bool {
         match self {
-            Self::Cloud { .. } => true,
+            Self::Cloud { .. } | Self::Stripes(_) => true,
             Self::Grid(levels) => levels.len() < LANES,
             Self::ToOverturning { .. } | Self::HuntAndFill { .. } => false,
         }

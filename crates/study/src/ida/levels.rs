@@ -22,6 +22,8 @@ pub enum Levels {
     },
     /// Each of these, in rising order, also beyond overturning.
     Grid(Vec<f64>),
+    /// These, in rising order, each with its own records, run once and as they are.
+    Stripes(Vec<f64>),
     /// `step`, 2 `step` … up to the first level at which the wall overturns, at most up to `top`.
     ToOverturning {
         /// Distance between levels.
@@ -72,11 +74,12 @@ fn check_range(
 }
 
 impl Levels {
-    /// Returns the levels, in the SI unit of the measure, at which every record is run up to its collapse;
+    /// Returns the levels, in the SI unit of the measure, at which every record is run up to its collapse,
+    /// and those of stripes;
     /// `None` where each record has its own levels.
     pub fn shared(&self) -> Option<Vec<f64>> {
         match self {
-            Self::Grid(levels) => Some(levels.clone()),
+            Self::Grid(levels) | Self::Stripes(levels) => Some(levels.clone()),
             Self::ToOverturning { step, top } => Some(multiples(*step, *top).collect()),
             Self::HuntAndFill { .. } | Self::Cloud { .. } => None,
         }
@@ -90,6 +93,7 @@ impl Levels {
                 format!("grid of {} {unit}", levels.join(", "))
             }
             Self::Cloud { scale } => format!("cloud of the records times {scale}"),
+            Self::Stripes(levels) => format!("stripes of their own records at {levels:?} {unit}"),
             Self::ToOverturning { step, top } => format!("steps of {step} up to {top} {unit}"),
             Self::HuntAndFill { first, increase, top, resolution, gap } => format!(
                 "hunt from {first} with {increase} more at each step up to {top} {unit}, resolution \
@@ -105,14 +109,14 @@ impl Levels {
             Self::Grid(ref levels) => levels.iter().copied().fold(0.0, f64::max),
             Self::ToOverturning { step, .. } => step,
             Self::HuntAndFill { first, .. } => first,
-            Self::Cloud { .. } => own,
+            Self::Cloud { .. } | Self::Stripes(_) => own,
         }
     }
 
     /// Estimates the number of runs of one curve. It is a guess where that depends on the collapse.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {
-            Self::Cloud { .. } => 1.0,
+            Self::Cloud { .. } | Self::Stripes(_) => 1.0,
             Self::Grid(ref levels) => levels.len() as f64,
             Self::ToOverturning { step, top } => (0.5 * top / step).max(1.0),
             // the hunt and the bracket take about twenty
@@ -130,7 +134,7 @@ impl Levels {
         let top = |top| check_range("top", top, intensity, [1e-6, HIGHEST]);
         match *self {
             Self::Cloud { scale } => check_range("scale", scale, number, [f64::MIN_POSITIVE, HIGHEST]),
-            Self::Grid(ref levels) => {
+            Self::Grid(ref levels) | Self::Stripes(ref levels) => {
                 count(levels.len() as f64)?;
                 top(levels.iter().copied().fold(0.0, f64::max))?;
                 let mut before = 0.0;
@@ -181,9 +185,9 @@ impl<'a> Trace<'a> {
     /// Returns the levels to run next; none once the curve is complete.
     pub(super) fn wanted(&mut self) -> Vec<f64> {
         match *self.levels {
-            Levels::Cloud { .. } if self.runs.is_empty() => vec![self.own],
+            Levels::Cloud { .. } | Levels::Stripes(_) if self.runs.is_empty() => vec![self.own],
             Levels::Grid(ref levels) if self.runs.is_empty() => levels.clone(),
-            Levels::Cloud { .. } | Levels::Grid(_) => Vec::new(),
+            Levels::Cloud { .. } | Levels::Grid(_) | Levels::Stripes(_) => Vec::new(),
             Levels::ToOverturning { step, top } => self.ascend(multiples(step, top)),
             Levels::HuntAndFill { first, increase, top, resolution, gap } => {
                 let mut wanted = self.ascend(hunt([first, increase, top]));

@@ -108,7 +108,15 @@ impl Study {
         for wall in &walls {
             models.iter().try_for_each(|model| motion(wall, model).map(drop))?;
         }
-        let of = |record: &NamedRecord| intensity(&measure, &record.name, &record.motion);
+        // a record of a stripe is worth its level: a list has scaled it
+        let of = |record: &NamedRecord| match &levels {
+            Levels::Stripes(levels) => record
+                .listed
+                .stripe
+                .and_then(|stripe| levels.get(stripe).copied())
+                .ok_or_else(|| IdaError::NoStripe { record: record.name.clone() }),
+            _ => intensity(&measure, &record.name, &record.motion),
+        };
         let intensities = records.iter().map(of).collect::<Result<_, _>>()?;
         let (tail, collapse, polarity) = (DEFAULT_TAIL, Collapse::Exceeds, Polarity::AsRecorded);
         let scaled = Scaled::All;

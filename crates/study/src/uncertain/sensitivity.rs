@@ -12,6 +12,12 @@ pub struct Sensitivity {
     pub coefficient: Option<f64>,
     /// The coefficient in standard deviations of the number, per standard deviation of the parameter \[-\].
     pub standardised: Option<f64>,
+    /// Part of the variance of the number: the standardised coefficient times the correlation, so that the
+    /// parts add up to R² \[-\].
+    ///
+    /// J. W. Pratt: Dividing the indivisible: using simple symmetry to partition variance explained. Second
+    /// International Tampere Conference in Statistics, 1987, 245–260.
+    pub part: Option<f64>,
 }
 
 /// Returns what each parameter explains of the numbers of some samples, and R² of the regression on all
@@ -44,11 +50,13 @@ pub fn sensitivities(
     let mut found = Vec::with_capacity(columns.len());
     for (place, column) in columns.iter().enumerate() {
         let standardised = units[place].as_ref().and_then(|_| coefficients.next());
+        let correlation = number.as_ref().zip(units[place].as_ref()).map(|((y, _), (x, _))| product(x, y));
         let spread = number.as_ref().zip(units[place].as_ref()).map(|((_, y), (_, x))| y / x);
         found.push(Sensitivity {
             rank_correlation: rank_correlation(column, numbers),
             coefficient: standardised.zip(spread).map(|(coefficient, spread)| coefficient * spread),
             standardised,
+            part: standardised.zip(correlation).map(|(coefficient, correlation)| coefficient * correlation),
         });
     }
     (found, explained)

@@ -377,6 +377,7 @@ fn sensitivities_of_a_folder_follow_from_its_tables() {
             bars.push(standardised);
         }
     }
+    crate::variance::check_parts(&rows(&path.join("variance.csv")), &curves);
     // 2 walls, 2 models, 2 limit states, 2 parameters
     assert!(whole >= 12 && lacking >= 2 && bars.len() >= 4, "{whole} {lacking} {bars:?}");
     let page = std::fs::read_to_string(path.join("study.html")).unwrap();
