@@ -23,14 +23,16 @@ const LOWER: f64 = 0.01;
 
 /// All warnings of a check in their order, each once; `scene` is the wall of the runs.
 pub(crate) fn all(case: &Case<'_>, checked: &Checked<'_>, scene: &Parameters) -> Vec<Sentence> {
-    let Checked { statement, parameters, wall, demands, outcome, .. } = checked;
+    let Checked { statement, wall, demands, outcome, .. } = checked;
     let floors = checked.floors.as_deref();
+    // what a level cuts out of the wall nobody has stated
+    let stated = statement.with_bar(scene).unwrap_or_else(|_| checked.parameters.clone());
     let (sides, governs) = (&outcome.sides, outcome.governs.side);
     // sides that are alike are named once
     let differing = || sides.iter().take(if case.alike { 1 } else { 2 });
     let ordered: [Vec<Sentence>; 13] = [
         of_states(statement, floors),
-        of_statement(statement, parameters, floors, wall),
+        of_statement(statement, &stated, floors, wall),
         loads::warnings(case, outcome.dynamic.is_some()),
         ranges::of_statement(statement).into_iter().chain(ranges::of_crack(case)).collect(),
         of_demands(statement, demands),

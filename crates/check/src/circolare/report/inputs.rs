@@ -1,8 +1,10 @@
 //! The statements of the engineer, with where they come from.
 
 use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::TieNumbers;
 
 use crate::circolare::outcome::Checked;
+use crate::circolare::report::loads::of_tie;
 use crate::circolare::statement::Statement;
 use crate::circolare::statement::states::Source;
 use crate::circolare::statement::table::{
@@ -58,11 +60,8 @@ fn all(case: &Checked<'_>, origin: &Origin<'_>) -> Vec<Stated> {
     if let Some(rocks) = statement.table.rocking {
         state(rocking(rocks, is_dynamic), &["rocking"]);
     }
-    if !case.wall.ties().is_empty() {
-        state(tie(statement.at_activation()), &["tie"]);
-        if let Some(strain) = ultimate_strain(case) {
-            state(strain, &["tie"]);
-        }
+    for said in of_ties(case) {
+        state(said, &["tie"]);
     }
     state(confidence(statement), &["confidence_factor", "knowledge_level"]);
     state(compression(statement), &["compression_considered", "masonry_strength"]);
@@ -169,19 +168,24 @@ fn rocking(rocks: Rocks, is_dynamic: bool) -> Sentence {
 }
 
 /// The strain at which the bar tears, and where that number comes from.
-fn ultimate_strain(case: &Checked<'_>) -> Option<Sentence> {
-    let strain = at_most(case.parameters.bar?.ultimate_strain?, 6);
+fn ultimate_strain(case: &Checked<'_>, tie: &TieNumbers) -> Option<Sentence> {
+    let strain = at_most(tie.bar?.ultimate_strain?, 6);
+    let which = of_tie(&case.parameters, tie);
     let source = case.statement.table.tie.as_ref().and_then(|tie| tie.ultimate_strain_source.clone());
     let source =
         source.map_or_else(|| say!("its source is not stated", "fonte non dichiarata"), Sentence::same);
     Some(say! {
-        "The bar tears at `ε_u` = {strain}: {source}.",
-        "Deformazione a rottura della barra `ε_u` = {strain}: {source}.", strain, source
+        "The bar{which} tears at `ε_u` = {strain}: {source}.",
+        "Deformazione a rottura della barra{which} `ε_u` = {strain}: {source}.", which, strain, source
     })
 }
 
-fn tie(at_activation: AtActivation) -> Sentence {
-    match at_activation {
+/// What is stated of the ties; nothing without one.
+fn of_ties(case: &Checked<'_>) -> Vec<Sentence> {
+    if case.wall.ties().is_empty() {
+        return Vec::new();
+    }
+    let at_activation = match case.statement.at_activation() {
         AtActivation::None => say! {
             "The tie does not count at the activation (SLD, SLV with q).",
             "All'attivazione la catena non è considerata (SLD, SLV con q)."
@@ -190,7 +194,9 @@ fn tie(at_activation: AtActivation) -> Sentence {
             "The tie pulls with its strength at the activation.",
             "All'attivazione la catena è in tensione e agisce con la propria resistenza."
         },
-    }
+    };
+    let strains = case.parameters.ties().filter_map(|tie| ultimate_strain(case, &tie));
+    [at_activation].into_iter().chain(strains).collect()
 }
 
 fn scale(scale: RecordScale) -> Sentence {

@@ -1,7 +1,7 @@
 //! The loads of the wall, and its materials with the level of knowledge.
 
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Load, Opening, Parameters, Part};
+use rocking_wall::wall::{Load, Opening, Parameters, Part, TieNumbers};
 
 use crate::circolare::curve::level;
 use crate::circolare::outcome::Checked;
@@ -110,6 +110,14 @@ fn of_load(load: &Load, language: Language) -> Row {
     row(&words, how.markup(language), 1e-3 * load.force, "kN", language)
 }
 
+/// Which of several ties is meant; nothing of one alone.
+pub(super) fn of_tie(parameters: &Parameters, tie: &TieNumbers) -> Sentence {
+    if parameters.ties().count() < 2 {
+        return Sentence::default();
+    }
+    say!(" of the tie at {height} m", " della catena a {height} m", height = written(tie.height))
+}
+
 /// The materials, and the level of knowledge with its factor.
 pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
     let (table_of_check, parameters) = (&case.statement.table, &case.parameters);
@@ -128,8 +136,11 @@ pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
         let words = say!("Young's modulus `E`", "Modulo di elasticità `E`");
         rows.push(row(&words, stated(), 1e-6 * modulus, "MPa", language));
     }
-    if let Some(bar) = parameters.bar {
-        let words = say!("Yield stress of the bar", "Tensione di snervamento della barra");
+    for tie in parameters.ties() {
+        let Some(bar) = tie.bar else { continue };
+        let which = of_tie(parameters, &tie);
+        let words =
+            say!("Yield stress of the bar{which}", "Tensione di snervamento della barra{which}", which);
         rows.push(row(&words, stated(), 1e-6 * bar.yield_stress, "MPa", language));
     }
     let level = match table_of_check.knowledge_level {
