@@ -16,7 +16,7 @@ mod sections;
 mod walls;
 mod words;
 
-pub use baseline::baseline;
+pub use baseline::{baseline, baselines};
 pub use code::at_level::{AtLevel, at_level};
 pub use code::before::{Before, BeforeCheck};
 pub use code::row::{Ends, Row};

@@ -156,6 +156,12 @@ impl WallVerdicts<'_> {
             Language::It => told.of(language).to_owned(),
         };
         let both = || say!("both", "entrambi");
+        let has_before = self.walls.iter().flat_map(|wall| &wall.1).any(|verdict| verdict.before.is_some());
+        let [before, of_before] = if has_before {
+            [format!("{symbol}_before"), head(say!("before", "stato\ndi fatto"))]
+        } else {
+            <[String; 2]>::default()
+        };
         let is_refused = self.refused() > 0;
         let refused = if is_refused { head(say!("not checked", "non verificata")) } else { String::new() };
         let table = Table::over(self.walls.iter().map(|(name, verdict)| (*name, verdict.as_ref())))
@@ -165,6 +171,7 @@ impl WallVerdicts<'_> {
                 Some(said(wall.1.ok()?.passed).of(language).to_owned())
             })
             .number(symbol, head(self.code.ratio()), four, |wall| Some(wall.1.ok()?.zeta))
+            .number(before, of_before, four, |wall| Some(wall.1.ok()?.before.as_ref()?.zeta))
             .column(Column::text("governs", ""), |wall| {
                 let check = wall.1.ok()?.governs;
                 Some(in_file(check, &self.title(check)))

@@ -62,19 +62,8 @@ pub(crate) fn check_report(
         let (code, report) = (read(&file)?, file.report()?);
         let verdict = code.check(Subject::from(wall))?;
         let title = title.as_deref().unwrap_or(&wall.scene.title);
-        let (records, report) = (code.records(), &report);
-        page(
-            &verdict,
-            &Origin {
-                title,
-                wall: None,
-                file: &file,
-                set: &[],
-                records,
-                report,
-                program: concat!("rocking_wall ", env!("PACKAGE_VERSION")),
-            },
-        )
+        let program = concat!("rocking_wall ", env!("PACKAGE_VERSION"));
+        page(&verdict, &Origin::new(title, &file, code.records(), &report, program))
     })?;
     made.map_err(of_check)
 }

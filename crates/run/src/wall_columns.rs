@@ -1,12 +1,13 @@
 //! Names of the columns of a table of walls: parameters, what only a check reads, and the Italian of both.
 
 /// Columns that only a check reads, and their keys in its table `[check]`.
-pub(crate) const OF_CHECK: [(&str, &str); 9] = [
+pub(crate) const OF_CHECK: [(&str, &str); 10] = [
     ("height_ratio", "building.height_ratio"),
     ("before_activation", "before_activation"),
     ("young_modulus", "young_modulus"),
     ("overburden_mass", "overburden_mass"),
     ("hinge", "hinge"),
+    ("hinge_levels", "hinge_levels"),
     ("masonry_strength", "masonry_strength"),
     ("confidence_factor", "confidence_factor"),
     ("knowledge_level", "knowledge_level"),
@@ -14,9 +15,10 @@ pub(crate) const OF_CHECK: [(&str, &str); 9] = [
 ];
 
 /// Italian names of columns, in small letters.
-const ITALIAN: [(&str, &str); 24] = [
+const ITALIAN: [(&str, &str); 26] = [
     ("parete", "name"),
     ("nome", "name"),
+    ("scena", "scene"),
     ("meccanismo", "mechanism"),
     ("altezza", "height"),
     ("spessore", "thickness"),
@@ -35,6 +37,7 @@ const ITALIAN: [(&str, &str); 24] = [
     ("modulo di elasticità", "young_modulus"),
     ("massa solidale", "overburden_mass"),
     ("cerniera", "hinge"),
+    ("livelli", "hinge_levels"),
     ("resistenza della muratura", "masonry_strength"),
     ("fattore di confidenza", "confidence_factor"),
     ("livello di conoscenza", "knowledge_level"),

@@ -1,12 +1,12 @@
 //! Tables of walls: CSV with a column `name` and one for each parameter that the walls do not leave at its
-//! default. Thousands of walls take a tenth of the memory that they take as tables of a study file.
+//! default. A column `scene` names scene files; other cells of a row count over its scene. Thousands of walls
+//! take a tenth of the memory that they take as tables of a study file.
 
 use std::path::Path;
 
 use files::{FileError, read_text};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
-use rocking_wall::scene::{KINEMATICS, Scene};
-use rocking_wall::wall::Parameters;
+use rocking_wall::scene::{KINEMATICS, Scene, SceneError};
 
 use crate::named_wall::NamedWall;
 use crate::wall_columns::{choice, column, key_of_check};
@@ -18,6 +18,12 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The column of the walls' names.
 const NAME: &str = "name";
 
+/// The column of scene files, beside the table.
+const SCENE: &str = "scene";
+
+/// A scene and the parameters that its file states.
+pub(crate) type Stated = (Scene, Vec<&'static str>);
+
 /// What stands for no name, and what names summaries below the walls, in small letters.
 const NO_NAMES: &str = "nan na n/a none null total sum mean average count std totale somma media";
 
@@ -25,14 +31,22 @@ const NO_NAMES: &str = "nan na n/a none null total sum mean average count std to
 const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
 
 /// Reads the walls of a table. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
-/// row without any content is skipped, and one with a name and no value refused.
-pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, FileError> {
-    let file = path.display().to_string();
-    parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
+/// row without any content is skipped, and one with a name and no value refused. `scene_of` reads a scene.
+pub(crate) fn read(
+    path: &Path,
+    scene_of: &mut dyn FnMut(&Path) -> Result<Stated, SceneError>,
+) -> Result<Vec<NamedWall>, FileError> {
+    let (file, folder) = (path.display().to_string(), path.parent().unwrap_or(Path::new(".")));
+    let text = read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?;
+    parse(&file, &text, &mut |scene| scene_of(&folder.join(scene)))
 }
 
 /// Reads the walls from the text of a table; `file` stands for it in messages.
-fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
+fn parse(
+    file: &str,
+    text: &str,
+    scene_of: &mut dyn FnMut(&str) -> Result<Stated, SceneError>,
+) -> Result<Vec<NamedWall>, FileError> {
     let fail = |line: usize, message: String| FileError::on_line(file, line, message);
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
     let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
@@ -45,10 +59,16 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
     let mut thousands = vec![Thousands::default(); names.len()];
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
-        scene.parameters = Parameters::default();
-        let (mut wall, mut stated, mut check) = (None, Vec::new(), Vec::new());
-        let cells = names.iter().zip(&mut thousands).zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
-        for ((&column, thousands), cell) in cells {
+        let (mut wall, mut check) = (None, Vec::new());
+        let mut cells = names.iter().zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
+        let of_scene = cells.find(|(name, _)| **name == SCENE).map(|(_, file)| scene_of(&file)).transpose();
+        let (of_scene, mut stated) =
+            of_scene.map_err(|error| fail(row.line, format!("scene: {error}")))?.unwrap_or_default();
+        (scene.parameters, scene.floors) = (of_scene.parameters, of_scene.floors);
+        let cells = names.iter().zip(&mut thousands).zip(row.cells());
+        for ((&column, thousands), cell) in
+            cells.filter(|((name, _), cell)| !cell.is_empty() && **name != SCENE)
+        {
             if column == NAME {
                 wall = Some(cell.into_owned());
                 continue;
@@ -83,7 +103,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
                 format!("the wall {wall:?} has no {gap}; write it, or delete the row or the column");
             return Err(fail(row.line, message));
         }
-        walls.push(NamedWall { check, ..NamedWall::new(wall, scene.parameters.clone()).stating(stated) });
+        let (parameters, floors) = (scene.parameters.clone(), scene.floors.take());
+        walls.push(NamedWall { floors, check, ..NamedWall::new(wall, parameters).stating(stated) });
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;
@@ -115,13 +136,17 @@ fn check_twice(names: &[&str]) -> Result<(), String> {
 /// Refuses columns that are neither parameters nor read by a check, and a table without names of walls.
 fn check_names(names: &[&str]) -> Result<(), String> {
     let of_wall = names.iter().filter(|name| key_of_check(name).is_none());
-    of_wall.copied().try_for_each(|column| check_parameter(column, &[KINEMATICS, NAME]))?;
+    of_wall.copied().try_for_each(|column| check_parameter(column, &[KINEMATICS, NAME, SCENE]))?;
     if names.contains(&NAME) { Ok(()) } else { Err("a table of walls needs a column \"name\"".to_owned()) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::parse;
+    use super::{FileError, NamedWall, Scene};
+
+    fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
+        super::parse(file, text, &mut |scene| Ok((Scene::read(scene.as_ref())?, vec!["height"])))
+    }
 
     #[test]
     fn walls_of_a_table() {

@@ -273,9 +273,17 @@ pub fn walls(
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
-            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", &error))?;
-            inputs.push(path);
-            Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
+            inputs.push(path.clone());
+            let mut scene_of = |scene: &Path| {
+                inputs.push(scene.to_owned());
+                scene_and_stated(scene)
+            };
+            let mut walls = wall_table::read(&path, &mut scene_of)
+                .map_err(|error| at(line, "a table of walls", &error))?;
+            for wall in &mut walls {
+                wall.floors = entry.floors.clone().or(wall.floors.take());
+            }
+            Ok(walls)
         }
         WallSource::Scene(path, line) => {
             let file = folder.join(&path);

@@ -14,6 +14,8 @@ pub struct Before {
     pub title: String,
     /// Whether it passes.
     pub passed: bool,
+    /// Its least ratio of capacity over demand \[-\].
+    pub zeta: f64,
     /// Its verdict in a line.
     pub headline: Sentence,
     /// Its checks, each with the least ratio of its sides.
@@ -32,11 +34,6 @@ pub struct BeforeCheck {
 }
 
 impl Before {
-    /// The state of a scene with a title, its verdict in a line and its checks.
-    pub(crate) fn new(title: &str, passed: bool, headline: Sentence, rows: &[Row]) -> Self {
-        Self { title: title.to_owned(), passed, headline, checks: least(rows) }
-    }
-
     /// Both states, a row for each check that both have.
     fn table(&self, after: &[Row], language: Language) -> Table {
         let head = |heading: Sentence| heading.of(language).to_owned();
@@ -90,7 +87,7 @@ impl Before {
 }
 
 /// The checks of rows, each with the least ratio of its sides.
-fn least(rows: &[Row]) -> Vec<BeforeCheck> {
+pub(super) fn least(rows: &[Row]) -> Vec<BeforeCheck> {
     let mut all: Vec<BeforeCheck> = Vec::new();
     for row in rows {
         match all.iter_mut().find(|own| own.check == row.check) {

@@ -3,7 +3,7 @@
 use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 
-use super::before::Before;
+use super::before::{Before, least};
 use super::row::Row;
 use crate::error::CheckError;
 use crate::sections::drawing;
@@ -176,6 +176,12 @@ impl Verdict<'_> {
         }
         let symbol = self.code.ratio();
         say!(" for {symbol} ≥ {target}", " per {symbol} ≥ {target}", symbol, target = fixed(self.target, 2))
+    }
+
+    /// The state before an intervention that it is, under the title of its scene.
+    pub(crate) fn as_before(&self, title: &str) -> Before {
+        let Self { passed, zeta, ref rows, .. } = *self;
+        Before { title: title.to_owned(), passed, zeta, headline: self.headline(), checks: least(rows) }
     }
 
     /// What every front says besides the rows, by name.

@@ -64,7 +64,18 @@ pub(crate) fn locale(language: Language) -> Locale {
     }
 }
 
-impl Origin<'_> {
+impl<'a> Origin<'a> {
+    /// The wall of a scene, or the walls of a file, whose parameters nothing replaces.
+    pub fn new(
+        title: &'a str,
+        file: &'a CheckFile<'a>,
+        records: &'a Records,
+        report: &'a ReportTable,
+        program: &'a str,
+    ) -> Self {
+        Self { title, wall: None, file, set: &[], records, report, program }
+    }
+
     /// Project, revision and wall for the foot of a page.
     pub(crate) fn footer(&self, wall: Option<&str>) -> String {
         let project = self.report.project.as_deref().unwrap_or(self.title);

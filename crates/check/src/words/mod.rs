@@ -116,6 +116,7 @@ impl Language {
                 "clause" => "punto_norma",
                 "remark" => "osservazione",
                 "governs" => "determinante",
+                "zeta_E_before" => "zeta_E_stato_di_fatto",
                 "not_checked" => "non_verificata",
                 "warnings" => "avvertenze",
                 _ => continue,

@@ -70,16 +70,8 @@ fn every_code_gives_all_of_a_verdict() {
         );
         let text = verdict.text("a wall", Language::En);
         assert!(text.starts_with(&format!("a wall\n{}\n\ncheck", verdict.headline())), "{text}");
-        let records = stated.records();
-        let origin = Origin {
-            title: "a wall",
-            wall: None,
-            file: &file,
-            set: &[],
-            records,
-            report: &ReportTable::default(),
-            program: "wall",
-        };
+        let report = ReportTable::default();
+        let origin = Origin::new("a wall", &file, stated.records(), &report, "wall");
         let page = page(&verdict, &origin).unwrap();
         for part in ["<svg", "Verdict</h2>", "The wall</h2>", "Warnings</h2>", "Document</h2>"] {
             assert!(page.contains(part), "{name}: the report lacks {part}");

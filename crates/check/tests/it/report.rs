@@ -47,16 +47,7 @@ fn report_of_file(name: &str, text: &str, language: Language) -> String {
     let verdicts = check_walls(&codes, &walls, 1);
     let mut report = file.report().unwrap();
     report.language = language;
-    let records = codes.shared().records();
-    let origin = Origin {
-        title: "walls",
-        wall: None,
-        file: &file,
-        set: &[],
-        records,
-        report: &report,
-        program: "wall",
-    };
+    let origin = Origin::new("walls", &file, codes.shared().records(), &report, "wall");
     page_of_walls(&verdicts, &walls, &codes, &origin).unwrap()
 }
 
@@ -67,8 +58,7 @@ pub(crate) fn report_of_one(text: &str) -> String {
     let scene = Scene::parse("one.toml", text, ".".as_ref()).unwrap();
     let verdict = code.check((&scene).into()).unwrap();
     let (records, report) = (code.records(), file.report().unwrap());
-    let origin =
-        Origin { title: "one", wall: None, file: &file, set: &[], records, report: &report, program: "wall" };
+    let origin = Origin::new("one", &file, records, &report, "wall");
     page(&verdict, &origin).unwrap()
 }
 
@@ -290,8 +280,7 @@ fn a_wall_of_no_file_states_everything() {
     let verdict = code.check((&scene).into()).unwrap();
     let (records, report) = (code.records(), file.report().unwrap());
     let width = |wall: Option<&NamedWall>| {
-        let origin =
-            Origin { title: "one", wall, file: &file, set: &[], records, report: &report, program: "wall" };
+        let origin = Origin { wall, ..Origin::new("one", &file, records, &report, "wall") };
         let text = plain(&page(&verdict, &origin).unwrap());
         let (_, after) = text.split_once("Length along the wall\n1 m\n").unwrap();
         after.lines().next().unwrap().to_owned()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use check::{
     CheckFile, Code, Language, Origin, ReportTable, Sentence, Sought, Subject, WallCodes, baseline,
-    check_walls, find, how_to_write, page, page_of_walls, read, with_assignments,
+    baselines, check_walls, find, how_to_write, page, page_of_walls, read, with_assignments,
 };
 use clap::Args;
 use rocking_wall::scene::Scene;
@@ -109,16 +109,8 @@ fn one(
     verdict.before = baseline(file, code)?;
     if let Some(path) = report {
         let report = project(arguments, file)?;
-        let (set, records) = (&arguments.scene.set, code.records());
-        let origin = Origin {
-            title: &scene.title,
-            wall: None,
-            file,
-            set,
-            records,
-            report: &report,
-            program: super::VERSION,
-        };
+        let origin = Origin::new(&scene.title, file, code.records(), &report, super::VERSION);
+        let origin = Origin { set: &arguments.scene.set, ..origin };
         console.write(path, page(&verdict, &origin)?.as_bytes())?;
     }
     console.save(csv.as_ref(), || verdict.csv(language))?;
@@ -168,32 +160,22 @@ fn project(arguments: &Arguments, file: &CheckFile<'_>) -> Result<ReportTable> {
 fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> Result<()> {
     let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
     // a study is one of walls, too
-    if file.baseline().is_some() {
-        bail!("{}: baseline is the state before of one wall; give it in a scene", file.name());
-    }
     let walls = file.walls(StudyFile::keys(), &mut inputs, &mut warnings)?;
     let codes = WallCodes::read(file, &walls)?;
     let code = codes.shared();
     let Arguments { csv, html, report, .. } = arguments;
     let outputs = || html.iter().chain(csv).chain(report);
     console.check_distinct(inputs.iter().chain(&code.records().files), outputs())?;
-    let verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
+    let mut verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
+    baselines(file, &codes, &walls, &mut verdicts)?;
     let language = arguments.language();
     console.save(csv.as_ref(), || verdicts.csv(language))?;
     console.save(html.as_ref(), || verdicts.page(file.name(), language))?;
     if let Some(path) = report {
         let report = project(arguments, file)?;
         let title = Path::new(file.name()).file_stem().unwrap_or_default().to_string_lossy();
-        let (set, records) = (&arguments.scene.set, code.records());
-        let origin = Origin {
-            title: &title,
-            wall: None,
-            file,
-            set,
-            records,
-            report: &report,
-            program: super::VERSION,
-        };
+        let origin = Origin::new(&title, file, code.records(), &report, super::VERSION);
+        let origin = Origin { set: &arguments.scene.set, ..origin };
         console.write(path, page_of_walls(&verdicts, &walls, &codes, &origin)?.as_bytes())?;
     }
     console.warn(&warnings);

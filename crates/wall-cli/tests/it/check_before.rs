@@ -24,9 +24,48 @@ fn before_and_after() {
     let printed = text(&succeed(&folder, &["check", "after.toml"]).stdout);
     assert_has(&printed, &["Before (old): NOT PASSED: SLV governs with zeta_E = 0.856", "difference"]);
     fails(&folder, &["check", "after.toml", "--set", "check.baseline=none.toml"], &["none.toml"]);
-    let walls = format!("walls = [{{ name = \"a\" }}]\n[check]\nbaseline = \"before.toml\"\n{CHECK}");
-    std::fs::write(folder.join("walls.toml"), walls).unwrap();
-    fails(&folder, &["check", "walls.toml"], &["baseline is the state before of one wall"]);
+}
+
+/// Each wall of a file stands beside the wall of its name in the file of the state before.
+#[test]
+fn before_and_after_of_many_walls() {
+    let folder = folder("check_before_walls");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let table = "walls = [{ table = \"walls.csv\" }]\n[check]\nbaseline = \"before.toml\"\n";
+    write("walls.toml", &(table.to_owned() + CHECK));
+    write("walls.csv", "name,height,thickness,density\nlow,4,0.6,1800\ntall,5,0.6,1800\n");
+    let wall = |name: &str, height| {
+        let geometry = format!("{{ height = {height}, thickness = 0.4, density = 1800 }}");
+        format!("[[walls]]\nname = {name:?}\ngeometry = {geometry}\n")
+    };
+    let arguments = ["check", "walls.toml", "--csv", "out.csv", "--report", "out.html"];
+    for check in [String::new(), format!("[check]\n{CHECK}")] {
+        write("before.toml", &(wall("tall", 5) + &wall("low", 4) + &check));
+        let value = json(&folder, &["check", "walls.toml", "--json"]);
+        let low = value.as_array().unwrap().iter().find(|wall| wall["name"] == "low").unwrap();
+        // docs of the library: this wall 0.4 m thick
+        let before = low["verdict"]["before"]["checks"][1]["zeta"].as_f64().unwrap();
+        assert!((before - 0.855_812).abs() < 5e-7, "{low}");
+        assert_has(&text(&succeed(&folder, &arguments).stdout), &["before", "0.8558"]);
+        assert!(content(&folder, "out.csv").starts_with("name,passed,zeta_E,zeta_E_before,"));
+        assert_eq!(content(&folder, "out.html").matches(">Before and after<").count(), 2);
+    }
+    // a row may name its scene, over which its own cells count
+    write("before.csv", "name,scene,height,hinge_levels\nlow,one.toml,,\ntall,one.toml,5,\"[0, 2]\"\n");
+    write("one.toml", WALL);
+    write("before.toml", "walls = [{ table = \"before.csv\" }]\n");
+    let value = json(&folder, &["check", "walls.toml", "--json"]);
+    let zeta = |name: &str| {
+        let wall = value.as_array().unwrap().iter().find(|wall| wall["name"] == name).unwrap();
+        wall["verdict"]["before"]["checks"][1]["zeta"].as_f64().unwrap()
+    };
+    assert!((zeta("low") - 0.855_812).abs() < 5e-7 && zeta("tall") < zeta("low"));
+    write("before.csv", "name,scene\nlow,none.toml\n");
+    fails(&folder, &["check", "walls.toml"], &["before.csv, line 2: scene: ", "none.toml"]);
+    write("before.toml", &wall("low", 4));
+    fails(&folder, &["check", "walls.toml"], &["before.toml", "wall \"tall\" is missing"]);
+    write("before.toml", WALL);
+    fails(&folder, &["check", "walls.toml"], &["before.toml", "a baseline of walls is a file of walls"]);
 }
 
 /// Italian is for terminal, CSV and pages.
