@@ -1,15 +1,16 @@
 //! The scene file as it is written: tables, keys, values, and where they stand.
 
-use files::{FileError, Place, fraction, one_of, tables};
+use files::{FileError, Place, TomlFile, fraction, one_of, tables};
 use fmu_export::VariableId;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
 use crate::variables::RealVariable;
+use crate::wall::Parameters;
 
 use super::keys::{Group, TieTables};
 use super::motion::MotionTable;
-use super::parameter::input_names;
+use super::parameter::{apply_group, input_names};
 use super::storeys::{StoreyTable, SupportsTable};
 use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
 
@@ -68,6 +69,25 @@ tables! {
         /// What the report of that check says of the project.
         pub report: Option<IgnoredAny>,
     }
+
+    /// The shape of a wall without its motion.
+    #[derive(Debug)]
+    struct ShapeDocument {
+        /// Shape, mass and loads.
+        #[serde(default)]
+        geometry: Group,
+    }
+}
+
+/// Reads the default wall with the shape that a text states, which has a table `[geometry]` alone.
+///
+/// # Errors
+/// [`FileError`] with line, value and remedy; `name` stands for the file.
+pub fn read_shape(name: &str, text: &str) -> Result<Parameters, FileError> {
+    let file = TomlFile::new(name, text)?;
+    let (document, mut parameters): (ShapeDocument, _) = (file.read()?, Parameters::default());
+    apply_group(&mut parameters, "geometry", &document.geometry, &file)?;
+    Ok(parameters)
 }
 
 impl Document {

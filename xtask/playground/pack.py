@@ -14,7 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "crates/playground/src/page"
 # Marks of the template, and the files that take their place. Texts are escaped.
-PARTS = {"style": "page.css", "fields": "fields.js", "script": "page.js"}
+PARTS = {"style": "page.css", "fields": "fields.js", "script": "page.js", "language": "language.js",
+         "italian": "italian.txt"}
 # What the pages of the program begin with, how they print, and how they move.
 REPORT = ROOT / "crates/report/src"
 HEAD, PAPER, MOVING = REPORT / "page.html", REPORT / "paper.css", REPORT / "moving.js"

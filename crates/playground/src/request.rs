@@ -50,6 +50,9 @@ pub(crate) struct Inputs {
     pub(crate) check: Fields,
     /// Width of the charts \[px\].
     pub(crate) width: f64,
+    /// Language of the check.
+    #[serde(default)]
+    pub(crate) language: Language,
 }
 
 /// Says what is wrong with one field.

@@ -1,10 +1,10 @@
 //! From a request to a scene, and to its text.
 
 use std::fmt::Write;
-use std::path::Path;
 use std::sync::Arc;
 
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError, to_toml};
+use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape, SyntheticMotion};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, read_shape, to_toml};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Profile, Wall};
@@ -53,8 +53,8 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
 /// Reads the parts of a wall with their openings and loads.
 fn profile(text: &str) -> Result<Profile, Faults> {
     let fault = |message| fault_of("parts", message);
-    let scene = Scene::parse("parts", text, Path::new(".")).map_err(|error| fault(error.to_string()))?;
-    let profile = scene.parameters.profile.map(Arc::unwrap_or_clone);
+    let wall = read_shape("parts", text).map_err(|error| fault(error.to_string()))?;
+    let profile = wall.profile.map(Arc::unwrap_or_clone);
     profile.ok_or_else(|| fault("a wall needs a table [[geometry.part]]".to_owned()))
 }
 
@@ -79,17 +79,13 @@ fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fault
     if kind == "record" {
         return recorded(motion, upload);
     }
-    let text = table(kind, motion)?;
-    let scene = Scene::parse("motion", &format!("[motion]\n{text}"), Path::new("."));
-    let scene = scene.map_err(|error| {
+    let (made, text) = if kind == "synthetic" { synthetic(motion) } else { pulse(kind, motion) }?;
+    let made = made.map_err(|error| {
         let field = error.key().filter(|key| motion.contains_key(*key)).unwrap_or("motion").to_owned();
-        let message = match error {
-            SceneError::File(error) if error.line.is_some() => error.reason,
-            SceneError::Motion { source, .. } => source.to_string(),
-            other => other.to_string(),
-        };
-        fault_of(field, message)
+        fault_of(field, error.to_string())
     })?;
+    let mut scene = Scene::default();
+    scene.shake(Excitation::new(made, None), DEFAULT_TAIL, Vec::new());
     Ok((scene, text))
 }
 
@@ -116,25 +112,42 @@ fn recorded(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fau
     Ok((scene, text))
 }
 
-/// Writes the `[motion]` table of a motion that is made from numbers.
-fn table(kind: &str, motion: &Fields) -> Result<String, Faults> {
+/// A motion that is made from numbers, or what is wrong with them, and the text of its `[motion]` table.
+type Made = Result<(Result<GroundMotion, GroundMotionError>, String), Faults>;
+
+fn synthetic(motion: &Fields) -> Made {
+    let seed = motion.get("seed").map_or("", |seed| seed.trim());
+    let Ok(number_of) = seed.parse::<u32>() else {
+        return Err(fault_of(
+            "seed",
+            format!("seed = {seed:?} is not a whole number from 0 to {}", u32::MAX),
+        ));
+    };
+    let (pga, default) = (number(motion, "pga")?, SyntheticMotion::default());
+    let made = SyntheticMotion { seed: number_of.into(), ..default }.motion();
+    let text = format!("synthetic = {{ seed = {seed} }}\npga = {pga:?}\n");
+    Ok((made.and_then(|made| made.scaled_to_peak(pga)), text))
+}
+
+fn pulse(kind: &str, motion: &Fields) -> Made {
     let value = |key| number(motion, key);
-    let made = match kind {
-        "synthetic" => {
-            let seed = motion.get("seed").map_or("", |seed| seed.trim());
-            if seed.parse::<u32>().is_err() {
-                let message = format!("seed = {seed:?} is not a whole number from 0 to {}", u32::MAX);
-                return Err(fault_of("seed", message));
-            }
-            return Ok(format!("synthetic = {{ seed = {seed} }}\npga = {:?}\n", value("pga")?));
+    let (shape, own) = match kind {
+        "ricker" => {
+            let centre = value("centre")?;
+            (Shape::Ricker { centre }, format!(", centre = {centre:?}"))
         }
-        "ricker" => format!(", centre = {:?}", value("centre")?),
-        "harmonic" => format!(", duration = {:?}", value("duration")?),
-        "sine_cycle" | "half_sine" => String::new(),
+        "harmonic" => {
+            let duration = value("duration")?;
+            let shape = Shape::Harmonic { phase: 0.0, end: Some(duration) };
+            (shape, format!(", duration = {duration:?}"))
+        }
+        "sine_cycle" => (Shape::SineCycle, String::new()),
+        "half_sine" => (Shape::HalfSine, String::new()),
         other => return Err(fault_of("motion", format!("there is no motion {other:?}"))),
     };
     let (amplitude, frequency) = (value("amplitude")?, value("frequency")?);
-    Ok(format!("{kind} = {{ amplitude = {amplitude:?}, frequency = {frequency:?}{made} }}\n"))
+    let text = format!("{kind} = {{ amplitude = {amplitude:?}, frequency = {frequency:?}{own} }}\n");
+    Ok((Pulse { shape, amplitude, frequency }.motion(None), text))
 }
 
 /// A number of the motion.

@@ -81,7 +81,7 @@ impl Session {
             "facts": facts(scene, wall, &response),
             "warnings": warnings,
             "computed": parameters::computed(wall),
-            "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
+            "check": check::checked(inputs, &scene.parameters),
             "charts": inline(charts(wall, &response, inputs.width)),
             "captions": captions(wall, &response),
             "drawing": page::drawing(scene, wall, &response),

@@ -304,3 +304,32 @@ fn a_fragility_comes_from_twenty_motions() {
     assert!(0.05 < medians[0] && medians[0] < medians[1] && medians[1] < 5.0, "{medians:?}");
     assert!(last["answer"]["result"]["figure"].as_str().unwrap().contains("<svg"));
 }
+
+/// Labels of fields and names of choices have their Italian, but for symbols and names that are both.
+#[test]
+fn every_label_has_its_italian() {
+    let fields = include_str!("page/fields.js");
+    let pairs: Vec<_> = include_str!("page/italian.txt").lines().map(|pair| pair.split_once(" | ")).collect();
+    let english: Vec<&str> = pairs.iter().map(|pair| pair.expect("a pair").0).collect();
+    let labels = fields.split("label: \"").skip(1).map(|rest| rest.split('"').next().unwrap());
+    let names = fields.split("names: {").skip(1).map(|rest| rest.split('}').next().unwrap());
+    let names =
+        names.flat_map(|names| names.split(": \"").skip(1)).map(|rest| rest.split('"').next().unwrap());
+    let both = ["q", "g", "m/s²", "cm/s²", "mm/s²", "Circolare 7/2019"];
+    let missing: Vec<_> =
+        labels.chain(names).filter(|label| !both.contains(label) && !english.contains(label)).collect();
+    assert!(missing.is_empty() && english.len() > 150, "{missing:?}");
+}
+
+/// The check answers in the language of the page.
+#[test]
+fn the_check_speaks_italian() {
+    let mut inputs = codes::run_and_check(&json!({}), &json!({}));
+    inputs["run"]["language"] = json!("it");
+    let check = ask(&mut Session::default(), &inputs)["answer"]["check"].clone();
+    let has = |name: &str, words: &str| assert!(check[name].to_string().contains(words), "{check}");
+    has("headline", "VERIFICA NON SODDISFATTA");
+    has("notes", "La parete sopporta a_g = 0,128 g");
+    has("rows", "punto della norma");
+    has("numbers", "grandezza");
+}

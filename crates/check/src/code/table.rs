@@ -76,8 +76,8 @@ impl Verdict<'_> {
     }
 
     /// The rows as markup, with classes for those that decide and for those that fail.
-    pub fn html(&self) -> String {
-        self.table().html_with(|index| self.class(index))
+    pub fn html(&self, language: Language) -> String {
+        self.table_in(language).html_with(|index| self.class(index))
     }
 
     /// The rows as markup of a report, with formulas; remarks stand below, each once.
@@ -123,13 +123,13 @@ impl Verdict<'_> {
     }
 
     /// The numbers of the sides as a table.
-    pub fn numbers(&self) -> Table {
-        numbers(&self.details.ledgers(), Language::En)
+    pub fn numbers(&self, language: Language) -> Table {
+        language.table(numbers(&self.details.ledgers(), language))
     }
 
     /// The verdict for a terminal: title, headline, rows, numbers and notes.
     pub fn text(&self, title: &str, language: Language) -> String {
-        let numbers = language.table(numbers(&self.details.ledgers(), language)).text();
+        let numbers = self.numbers(language).text();
         let (headline, rows) = (self.headline(), self.table_in(language).text());
         let mut text = format!("{title}\n{}\n\n{rows}\n{numbers}\n", headline.of(language));
         if let Some(before) = &self.before {

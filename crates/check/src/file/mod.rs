@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use files::{Described, Fault, FileError, TomlFile, overlay, read_text};
 use rocking_wall::scene::{OF_BODY, Scene, SceneError};
 use rocking_wall::wall::OF_RECTANGLE;
-use run::records::{NamedRecord, RecordsTable, all_records, copies, inputs, record_files, records};
+use run::records::{NamedRecord, RecordsTable, copies};
 use run::walls::{NamedWall, assumed, read_walls};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -19,7 +19,7 @@ use crate::error::CheckError;
 use crate::words::Sentence;
 use project::ReportTable;
 use project::SiteOfProject;
-use site::Records;
+use site::{RecordReader, Records, read_records};
 
 /// What a file with a table `[check]` has beside its wall or walls.
 const KEYS: &[&str] = &["title", "check", "report"];
@@ -60,8 +60,8 @@ pub struct CheckFile<'a> {
     own: usize,
     folder: PathBuf,
     records: Vec<NamedRecord>,
-    /// Whether the records that the table names are read.
-    reads_records: bool,
+    /// How the records that the table names are read; they are left unread without.
+    reader: Option<RecordReader>,
 }
 
 impl<'a> CheckFile<'a> {
@@ -76,7 +76,20 @@ impl<'a> CheckFile<'a> {
     /// Takes a file that is parsed already.
     pub fn new(file: TomlFile<'a>) -> Self {
         let folder = Path::new(file.place().name()).parent().unwrap_or(Path::new(".")).to_owned();
-        Self { own: file.place().text().len(), file, folder, records: Vec::new(), reads_records: true }
+        Self { folder, reader: Some(read_records), ..Self::alone(file) }
+    }
+
+    /// Parses a text that names no other files, as [`parse`](Self::parse) does.
+    ///
+    /// # Errors
+    /// [`FileError`] where the text is not TOML.
+    pub fn parse_alone(name: &'a str, text: &'a str) -> Result<Self, FileError> {
+        Ok(Self::alone(TomlFile::new(name, text)?))
+    }
+
+    fn alone(file: TomlFile<'a>) -> Self {
+        let own = file.place().text().len();
+        Self { file, own, folder: PathBuf::new(), records: Vec::new(), reader: None }
     }
 
     /// Parses a text that has `own` bytes of its own, and assignments behind them: see [`with_assignments`].
@@ -194,7 +207,7 @@ impl<'a> CheckFile<'a> {
     /// Leaves the records that the table names unread, where only its other statements count.
     #[must_use]
     pub fn without_records(self) -> Self {
-        Self { reads_records: false, ..self }
+        Self { reader: None, ..self }
     }
 
     /// The name of the file.
@@ -323,21 +336,14 @@ impl<'a> CheckFile<'a> {
     /// # Errors
     /// [`CheckError::File`] of what the table cannot state, [`CheckError::Scene`] of a record.
     pub(crate) fn records(&self, table: Option<&Spanned<RecordsTable>>) -> Result<Records, CheckError> {
-        let (mut files, mut warnings, mut named) = (Vec::new(), Vec::new(), self.records.clone());
-        if let (Some(table), true) = (table, self.reads_records && named.is_empty()) {
-            let entry = records(table, Vec::new(), self.file.place())?;
-            let found = record_files(&entry, &self.folder, self.name())?;
-            named = all_records(&entry, &found, &self.folder, self.name(), &mut warnings)?;
-            files = inputs(&entry, found, &self.folder);
-            if named.iter().any(|record| record.listed.weight != named[0].listed.weight) {
-                let message = "the list of records has weights, and a code takes records alike; delete its \
-                               column of weights";
-                return Err(self.file.place().error(table.span(), message).into());
+        let mut found = match (table, self.reader) {
+            (Some(table), Some(read)) if self.records.is_empty() => {
+                read(table, self.file.place(), &self.folder)?
             }
-        }
-        warnings.extend(copies(&named));
-        let warnings = warnings.into_iter().map(Sentence::same).collect();
-        Ok(Records { named, files, warnings })
+            _ => Records { named: self.records.clone(), ..Records::default() },
+        };
+        found.warnings.extend(copies(&found.named).into_iter().map(Sentence::same));
+        Ok(found)
     }
 
     /// Adds the file to an error, and the line of the key that it is about.

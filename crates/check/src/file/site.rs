@@ -1,12 +1,14 @@
 //! What acts on a wall at its place: records of the ground, motions of floors, spectra given by points.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use files::Place;
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::wall::Body;
-use run::records::NamedRecord;
+use run::records::{NamedRecord, RecordsTable, all_records, inputs, record_files, records};
 use run::shaking::felt;
+use toml::Spanned;
 
 use crate::error::CheckError;
 use crate::words::Sentence;
@@ -20,6 +22,30 @@ pub struct Records {
     pub files: Vec<PathBuf>,
     /// Warnings of a quick check of the records and of a grid of the hazard.
     pub warnings: Vec<Sentence>,
+}
+
+/// Reads the records of a table; their files are in a folder.
+pub(super) type RecordReader = fn(&Spanned<RecordsTable>, &Place<'_>, &Path) -> Result<Records, CheckError>;
+
+/// Reads the records that a table names, or makes the synthetic ones.
+///
+/// # Errors
+/// [`CheckError::File`] of what the table cannot state, [`CheckError::Scene`] of a record.
+pub(super) fn read_records(
+    table: &Spanned<RecordsTable>,
+    place: &Place<'_>,
+    folder: &Path,
+) -> Result<Records, CheckError> {
+    let (entry, mut warnings) = (records(table, Vec::new(), place)?, Vec::new());
+    let found = record_files(&entry, folder, place.name())?;
+    let named = all_records(&entry, &found, folder, place.name(), &mut warnings)?;
+    let files = inputs(&entry, found, folder);
+    if named.iter().any(|record| record.listed.weight != named[0].listed.weight) {
+        let message = "the list of records has weights, and a code takes records alike; delete its column of \
+                       weights";
+        return Err(place.error(table.span(), message).into());
+    }
+    Ok(Records { named, files, warnings: warnings.into_iter().map(Sentence::same).collect() })
 }
 
 /// The level of shaking of a limit state.

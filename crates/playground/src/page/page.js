@@ -93,7 +93,8 @@ function row(field, about) {
   } else {
     const input = make("input", { type: "text", id, inputMode: "decimal", title: meaning });
     input.setAttribute("aria-describedby", fault.id);
-    input.addEventListener("input", () => set(field.name, input.value));
+    // a decimal comma is a point
+    input.addEventListener("input", () => set(field.name, input.value.replace(/^(-?\d*),(\d+)$/, "$1.$2")));
     field.computable = about.computable;
     element.append(input, make("small", { textContent: (field.unit ?? about.unit ?? "").replace("2", "²")
       .replace("m3", "m³") }));
@@ -169,7 +170,8 @@ function inputs(width) {
     if (field.computable && values[field.name] === "") { continue; }
     (field.parameter ? parameters : field.check ? check : motion)[field.name] = values[field.name];
   }
-  return { parameters, motion, check, parts: rectangle(values) ? "" : values.parts, width };
+  const { lang: language } = document.documentElement;
+  return { parameters, motion, check, parts: rectangle(values) ? "" : values.parts, width, language };
 }
 let waiting = false;
 function schedule() {
@@ -323,7 +325,8 @@ function fragility() {
 // ---- files and links
 function hash() {
   const changed = FIELDS.filter(({ name }) => !rows[name].hidden && values[name] !== starts[name]);
-  return new URLSearchParams(changed.map(({ name }) => [name, values[name]])).toString();
+  const pairs = changed.map(({ name }) => [name, values[name]]);
+  return new URLSearchParams(isItalian() ? [...pairs, ["lang", "it"]] : pairs).toString();
 }
 let remembering = null;
 function remember() {
@@ -332,12 +335,13 @@ function remember() {
 }
 function recall() {
   Object.assign(values, starts);
-  for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
+  const given = new URLSearchParams(location.hash.slice(1));
+  for (const [name, value] of given) {
     if (Object.hasOwn(values, name)) { values[name] = value; }
   }
   if (!rectangle(values) && values.parts === "") { fillIn(values.shape); }
   refresh();
-  schedule();
+  speak(given.get("lang") === "it" ? "it" : "en");
 }
 async function copy(text, what) {
   try {
@@ -365,6 +369,7 @@ function save(kind, name, type) {
 function listen() {
   at("controls").addEventListener("submit", event => event.preventDefault());
   time = player(() => shown.frames.t, pose);
+  at("language").addEventListener("click", () => speak(isItalian() ? "en" : "it"));
   at("fragility").addEventListener("click", fragility);
   at("copy_scene").addEventListener("click", () => copy(shown?.toml ?? "", "Scene file"));
   for (const language of ["en", "it"]) {

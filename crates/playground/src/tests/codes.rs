@@ -7,7 +7,7 @@ fn checked(parameters: &Value, more: &Value) -> Value {
     ask(&mut Session::default(), &run_and_check(parameters, more))["answer"].clone()
 }
 
-fn run_and_check(parameters: &Value, more: &Value) -> Value {
+pub(super) fn run_and_check(parameters: &Value, more: &Value) -> Value {
     let mut check = json!({
         "code": "circolare-2019", "before_activation": "law", "soil": "B", "confidence_factor": "1.35",
         "SLV.ag": "0.15", "SLV.F0": "2.45", "SLV.TC": "0.32",
@@ -85,15 +85,7 @@ fn the_report_of_a_check_opens() {
         let (code, report) = (check::read(&file).unwrap(), &file.report().unwrap());
         let scene = Scene::parse("scene", &text, "".as_ref()).unwrap();
         let (title, records) = (&*scene.title, code.records());
-        let origin = check::Origin {
-            title,
-            wall: None,
-            file: &file,
-            set: &[],
-            records,
-            report,
-            program: concat!("playground ", env!("CARGO_PKG_VERSION")),
-        };
+        let origin = check::Origin::new(title, &file, records, report, crate::check::PROGRAM);
         let page = check::page(&code.check((&scene).into()).unwrap(), &origin).unwrap();
         let without = |page: &str| page.split(">Document").next().unwrap().to_owned();
         assert_eq!(without(answer["answer"].as_str().unwrap()), without(&page));
