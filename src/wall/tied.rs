@@ -19,7 +19,8 @@ impl Wall {
             let limit = if broken { tie.fracture_displacement() } else { tie.strength_displacement() }?;
             let (limit, elongation) = (limit.copysign(u_start), tie.elongation(yielded));
             let is_stretched = tie.ultimate.is_some() && yielded >= limit.abs();
-            is_stretched.then_some(Warning::StretchedStart { u_start, limit, elongation, broken })
+            let height = self.ties().told(tie.height);
+            is_stretched.then_some(Warning::StretchedStart { u_start, limit, elongation, broken, height })
         };
         // a broken tie is worse than one that has got longer
         let warnings = || self.ties().of_side(u_start).filter_map(of_tie);

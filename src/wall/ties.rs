@@ -48,6 +48,11 @@ impl Ties {
         self.iter().filter(move |tie| tie.holds(sign))
     }
 
+    /// Returns the height of a tie by which a message tells it from the others; none of one alone \[m\].
+    pub(super) fn told(&self, height: f64) -> Option<f64> {
+        (self.len() > 1).then_some(height)
+    }
+
     /// Returns the ties of the side of `sign` as they are with a memory, those that are left.
     pub(crate) fn holds(&self, sign: f64, memory: TieMemory) -> impl Iterator<Item = Hold> + Clone {
         self.iter().filter_map(move |tie| tie.hold(sign, &memory))

@@ -58,19 +58,24 @@ pub enum Warning {
     Fast { omega1: f64 },
     /// A tie that holds the wall beyond its instability.
     #[error(
-        "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins of the \
-         wall without its tie, not a collapse; compare tie_force with what the tie resists"
+        "the tie{} pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins of the \
+         wall without its tie, not a collapse; compare tie_force with what the tie resists",
+        at_height(*height)
     )]
-    TieHolds { u_ins: f64 },
+    TieHolds { u_ins: f64, height: Option<f64> },
     /// A start that has stretched a tie, or broken it, and the plastic elongation that it has then \[m\].
     #[error(
-        "u_start = {u_start} m is beyond {} m, where the tie {}: it starts {} by {} m",
+        "u_start = {u_start} m is beyond {} m, where the tie{} {}: it starts {} by {} m",
         six_digits(*limit),
+        at_height(*height),
         if *broken { "breaks" } else { "yields" },
         if *broken { "broken, stretched" } else { "stretched" },
         six_digits(*elongation)
     )]
-    StretchedStart { u_start: f64, limit: f64, elongation: f64, broken: bool },
+    StretchedStart { u_start: f64, limit: f64, elongation: f64, broken: bool, height: Option<f64> },
+    /// A tie that never pulls, since its side never moves away.
+    #[error("the tie{} holds u {side} 0, where the wall never moves: see rocking and tie_side", at_height(*height))]
+    NeverPulls { side: &'static str, height: Option<f64> },
     /// A number that walls rarely have: probably a typing error or another unit.
     #[error("{}", unusual(name, *value, unit, *usual, *meant))]
     Unusual {
@@ -81,6 +86,11 @@ pub enum Warning {
         /// How it was perhaps meant, such as "in cm", and the number in its own unit then.
         meant: Option<(&'static str, f64)>,
     },
+}
+
+/// The height of one of several ties \[m\].
+fn at_height(height: Option<f64>) -> String {
+    height.map_or_else(String::new, |height| format!(" at {} m", six_digits(height)))
 }
 
 fn unusual(name: &str, value: f64, unit: &str, usual: [f64; 2], meant: Option<(&str, f64)>) -> String {

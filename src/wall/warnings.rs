@@ -62,7 +62,14 @@ pub(super) fn collect(
     }
     let held = |sign: f64| ties.steady(force, body, sign);
     if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {
-        warnings.push(Warning::TieHolds { u_ins: body.instability.of(sign) });
+        // of several, the highest
+        let height = ties.of_side(sign).map(|tie| tie.height).reduce(f64::max).and_then(|z| ties.told(z));
+        warnings.push(Warning::TieHolds { u_ins: body.instability.of(sign), height });
+    }
+    if let Some(free) = parameters.rocking.free_side() {
+        let never = parameters.ties().filter(|tie| tie.stiffness > 0.0 && !tie.holds(free));
+        let side = if free > 0.0 { "below" } else { "above" };
+        warnings.extend(never.map(|tie| Warning::NeverPulls { side, height: ties.told(tie.height) }));
     }
     let omega1 = force.omega1(body.effective_mass);
     if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {

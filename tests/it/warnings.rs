@@ -7,8 +7,10 @@ use std::sync::{Arc, Mutex};
 use fmu_export::{Category, Experiment, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::{DampingModel, Impact, IntegerVariable, Mechanism, RealVariable, Solver};
-use rocking_wall::wall::{Kinematics, Parameters, Wall, usage};
+use rocking_wall::variables::{
+    DampingModel, Impact, IntegerVariable, Mechanism, RealVariable, Rocking, Solver, TieSide,
+};
+use rocking_wall::wall::{Kinematics, Parameters, TieNumbers, Wall, usage};
 
 use crate::instantiated;
 
@@ -96,6 +98,25 @@ fn a_start_that_has_stretched_a_tie_is_warned_of() {
     );
     let elastic = Wall::new(&Parameters { tie_ultimate: -1.0, ..tied.clone() }).unwrap();
     assert_eq!(elastic.start_warning(0.1), None);
+    // of several ties the one that is meant
+    let low = tied.ties().map(|tie| TieNumbers { height: 2.0, ..tie }).next().unwrap();
+    let several = Parameters { further_ties: vec![low], ..tied.clone() };
+    let message = Wall::new(&several).unwrap().start_warning(0.1).unwrap().to_string();
+    assert!(message.contains("where the tie at 4 m breaks"), "{message}");
+    // a side that transverse walls keep from moving away
+    let held = Parameters {
+        rocking: Rocking::OneSidedNegative,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        restitution: 0.5,
+        tie_side: TieSide::Positive,
+        ..several
+    };
+    let warnings: Vec<_> = Wall::new(&held).unwrap().warnings().iter().map(ToString::to_string).collect();
+    for height in [4, 2] {
+        let told = format!("the tie at {height} m holds u above 0, where the wall never moves");
+        assert!(warnings.iter().any(|warning| warning.starts_with(&told)), "{warnings:?}");
+    }
     let ties = [
         (RealVariable::TieHeight, 4.0),
         (RealVariable::TieStiffness, 2e5),

@@ -70,6 +70,9 @@ impl Description {
         let indices: Indices = old.zip(1..).collect();
         if let Some(variables) = root.child_mut("ModelVariables") {
             retain_variables(variables, &indices, reduction.starts);
+            for variable in &mut variables.children {
+                retain_conditions(variable, &kept);
+            }
         }
         if let Some(structure) = root.child_mut("ModelStructure") {
             retain_unknowns(structure, &indices, &renumbered(&self.variables, &indices));
@@ -110,6 +113,17 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
         if let Some((_, start)) = starts.iter().find(|(of, _)| *of == name) {
             typed.set_attribute("start", start.as_str());
         }
+    }
+}
+
+/// Removes conditions that name a parameter which the description no longer has.
+fn retain_conditions(variable: &mut Element, kept: &HashSet<&str>) {
+    let tools =
+        |own: &Element| own.children.iter().flat_map(|tool| tool.children.clone()).collect::<Vec<_>>();
+    let conditions = variable.child("Annotations").map(tools).unwrap_or_default();
+    let mut names = conditions.iter().flat_map(|condition| &condition.attributes);
+    if names.any(|(name, _)| !kept.contains(name.as_str())) {
+        variable.children.retain(|child| child.name != "Annotations");
     }
 }
 

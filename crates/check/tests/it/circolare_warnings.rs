@@ -110,7 +110,7 @@ fn walls_without_a_curve_for_the_limit_state_are_refused() {
                 "[force_law]",
                 "[tie]\ntie_height = 3\ntie_stiffness = 5e6\ntie_strength = 10e3\n[force_law]",
             ),
-            "a check counts the ties of one body: leave [tie] out of a strip",
+            "by levers that change with the hinge that is searched; leave [tie] out",
         ),
     ] {
         let error = Scene::parse("scene.toml", &text, ".".as_ref()).map(|_| checked(&text));

@@ -20,6 +20,20 @@ fn reduce(
     Description::parse(text).unwrap().reduced(&reduction, "{a-b}")
 }
 
+/// A condition goes with the parameter that it names.
+#[test]
+fn conditions_name_no_parameter_that_is_left_out() {
+    let condition =
+        "<Annotations><Tool name=\"t\"><Where surface=\"sand\"/></Tool></Annotations></ScalarVariable>";
+    let at = BLOCK.find("name=\"layers\"").unwrap();
+    let end = at + BLOCK[at..].find("</ScalarVariable>").unwrap();
+    let text = BLOCK[..end].to_owned() + condition + &BLOCK[end + "</ScalarVariable>".len()..];
+    let has_condition = |left_out: &str| {
+        reduce(&text, &|name| name != left_out, &[]).unwrap().to_xml().contains("<Where surface")
+    };
+    assert!(has_condition("weight") && !has_condition("surface"));
+}
+
 #[test]
 fn what_is_left_out_leaves_no_trace() {
     let keep = |name: &str| !["force", "x_dot", "surface"].contains(&name);

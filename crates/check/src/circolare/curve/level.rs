@@ -128,7 +128,8 @@ pub(crate) fn check_body(parameters: &Parameters) -> Result<(), CheckError> {
     let has_tie = parameters.ties().any(|tie| tie.stiffness > 0.0);
     if has_tie && parameters.mechanism == Mechanism::VerticalSpanning {
         return Err(CheckError::wall(
-            "a check counts the ties of one body: leave [tie] out of a strip, or check it as a parapet",
+            "a check counts the ties of one body: those of a strip act on both, by levers that change with \
+             the hinge that is searched; leave [tie] out, check it as a parapet, or run it under records",
         ));
     }
     for (index, load) in loads(parameters).iter().enumerate() {
