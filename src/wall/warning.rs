@@ -74,7 +74,11 @@ pub enum Warning {
     )]
     StretchedStart { u_start: f64, limit: f64, elongation: f64, broken: bool, height: Option<f64> },
     /// A tie that never pulls, since its side never moves away.
-    #[error("the tie{} holds u {side} 0, where the wall never moves: see rocking and tie_side", at_height(*height))]
+    #[error(
+        "the tie{} has no effect: it holds u {side} 0, and the wall rocks to the other side only; check \
+         rocking and tie_side",
+        at_height(*height)
+    )]
     NeverPulls { side: &'static str, height: Option<f64> },
     /// A number that walls rarely have: probably a typing error or another unit.
     #[error("{}", unusual(name, *value, unit, *usual, *meant))]

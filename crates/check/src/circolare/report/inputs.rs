@@ -170,7 +170,7 @@ fn rocking(rocks: Rocks, is_dynamic: bool) -> Sentence {
 /// The strain at which the bar tears, and where that number comes from.
 fn ultimate_strain(case: &Checked<'_>, tie: &TieNumbers) -> Option<Sentence> {
     let strain = at_most(tie.bar?.ultimate_strain?, 6);
-    let which = of_tie(&case.parameters, tie);
+    let which = of_tie(case, tie);
     let source = case.statement.table.tie.as_ref().and_then(|tie| tie.ultimate_strain_source.clone());
     let source =
         source.map_or_else(|| say!("its source is not stated", "fonte non dichiarata"), Sentence::same);
@@ -195,7 +195,8 @@ fn of_ties(case: &Checked<'_>) -> Vec<Sentence> {
             "All'attivazione la catena è in tensione e agisce con la propria resistenza."
         },
     };
-    let strains = case.parameters.ties().filter_map(|tie| ultimate_strain(case, &tie));
+    let whole = case.lowest();
+    let strains = whole.parameters.ties().filter_map(|tie| ultimate_strain(whole, &tie));
     [at_activation].into_iter().chain(strains).collect()
 }
 

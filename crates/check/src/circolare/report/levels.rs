@@ -20,6 +20,16 @@ impl Checked<'_> {
         self.outcome.alike && self.statement.hinge_levels.len() == 1
     }
 
+    /// The body above the lowest level: the others are parts of it.
+    pub(super) fn lowest(&self) -> &Self {
+        self.beside.iter().fold(self, |lowest, other| if other.level < lowest.level { other } else { lowest })
+    }
+
+    /// A height above the level as one above the base of the wall \[m\].
+    pub(super) fn above_base(&self, height: f64) -> f64 {
+        height + self.stated_level().unwrap_or(0.0)
+    }
+
     /// A side, and the level above which the wall turns where levels are stated.
     pub(super) fn told(&self, side: Side) -> Sentence {
         above(crate::words::side(self.which(side)), self.stated_level())

@@ -16,8 +16,7 @@ type Row = [String; 3];
 /// The loads: own weight, overburden, parts, openings, loads and thrusts; of several bodies those of the
 /// lowest, which has all.
 pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
-    let levels = case.levels();
-    let parameters = &levels.first().unwrap_or(&case).parameters;
+    let parameters = &case.lowest().parameters;
     let Parameters { height, thickness, width, density, gravity, mechanism, .. } = *parameters;
     let mut rows = Vec::new();
     if let Some(profile) = &parameters.profile {
@@ -111,11 +110,12 @@ fn of_load(load: &Load, language: Language) -> Row {
 }
 
 /// Which of several ties is meant; nothing of one alone.
-pub(super) fn of_tie(parameters: &Parameters, tie: &TieNumbers) -> Sentence {
-    if parameters.ties().count() < 2 {
+pub(super) fn of_tie(case: &Checked<'_>, tie: &TieNumbers) -> Sentence {
+    if case.parameters.ties().count() < 2 {
         return Sentence::default();
     }
-    say!(" of the tie at {height} m", " della catena a {height} m", height = written(tie.height))
+    let height = written(case.above_base(tie.height));
+    say!(" of the tie at {height} m", " della catena a {height} m", height)
 }
 
 /// The materials, and the level of knowledge with its factor.
@@ -136,9 +136,10 @@ pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
         let words = say!("Young's modulus `E`", "Modulo di elasticità `E`");
         rows.push(row(&words, stated(), 1e-6 * modulus, "MPa", language));
     }
-    for tie in parameters.ties() {
+    let whole = case.lowest();
+    for tie in whole.parameters.ties() {
         let Some(bar) = tie.bar else { continue };
-        let which = of_tie(parameters, &tie);
+        let which = of_tie(whole, &tie);
         let words =
             say!("Yield stress of the bar{which}", "Tensione di snervamento della barra{which}", which);
         rows.push(row(&words, stated(), 1e-6 * bar.yield_stress, "MPa", language));

@@ -141,8 +141,8 @@ impl Checked<'_> {
             }));
         }
         for tie in &side.ties {
-            let name =
-                say!("the tie at {height} m", "la catena a {height} m", height = at_most(tie.height, 4));
+            let height = at_most(self.above_base(tie.height), 4);
+            let name = say!("the tie at {height} m", "la catena a {height} m", height);
             notes.extend(tie.limits.iter().map(|(state, at)| {
                 let [force, later] = [at.force, at.force_at_demand].map(|force| at_most(1e-3 * force, 4));
                 say! {

@@ -1,5 +1,6 @@
 //! The tie: what its bar makes of it, where it yields and breaks, and the forces of its anchors.
 
+use super::loads::of_tie;
 use super::{SideLedger, by_side};
 use crate::circolare::checks::sides::SideVerdict;
 use crate::circolare::curve::tie::{TieState, add_bar};
@@ -29,10 +30,16 @@ pub(super) fn section(case: &Checked<'_>, sides: &[SideLedger<'_>], language: La
         "The plate, the masonry around it and the connections are verified apart for these forces.",
         "Il capochiave, la muratura circostante e i collegamenti si verificano a parte per questi tiri."
     };
-    let bars = case.parameters.ties().map(|tie| {
+    let whole = case.lowest();
+    let bars = whole.parameters.ties().map(|tie| {
         let mut bar = Ledger::default();
-        add_bar(&case.parameters.tied_by(tie), &mut bar);
-        bar.markup("", language)
+        add_bar(&whole.parameters.tied_by(tie), &mut bar);
+        let (which, bar) = (of_tie(whole, &tie), bar.markup("", language));
+        if which.is_empty() || bar.is_empty() {
+            return bar;
+        }
+        let head = say!("Bar{which}", "Barra{which}", which);
+        format!("<h3>{}</h3>{bar}", head.markup(language))
     });
     bars.collect::<String>() + &of_sides + &paragraph(&apart, language)
 }
@@ -42,7 +49,7 @@ fn of_several(one: &SideLedger<'_>, language: Language) -> String {
     let mut rows = Vec::new();
     for tie in &one.verdict.ties {
         let mut row = |place: Sentence, force: f64, state: Sentence| {
-            let height = language.shown(tie.height);
+            let height = language.shown(one.level.above_base(tie.height));
             let force = language.shown(1e-3 * force);
             rows.push([height, place.markup(language), force, state.markup(language)]);
         };
