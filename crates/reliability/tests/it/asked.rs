@@ -251,7 +251,7 @@ fn what_cannot_be_answered_is_refused() {
             "cloud",
             own(["{ method = \"hunt\", first = 0.05, increase = 0.05, top = 5 }", "{ method = \"cloud\" }"]),
             &[
-                "method = \"cloud\"",
+                "method of [levels]",
                 "clouds and stripes run each record once",
                 "such as levels = { method = \"hunt\", first = 0.05",
             ],
