@@ -72,3 +72,14 @@ def test_an_oscillator_needs_no_geometry():
 def test_what_is_no_curve_is_refused(parameters, words):
     with pytest.raises(ValueError, match=words):
         rw.Wall(**parameters)
+
+
+def test_the_pulse_of_a_record_is_that_of_its_wall():
+    pulses = rw.Wall().record_pulses(rw.sine_cycle(1.0, 1.0))
+    assert list(pulses["pulse"]) == ["sine_cycle", "ricker", "cosine_cycle"]
+    assert pulses["amplitude_m_s2"][0] == pytest.approx(1.0, abs=1e-3)
+    assert pulses["misfit"][0] < 1e-5 < pulses["misfit"][1]
+    with pytest.raises(ValueError, match="stays at rest under the record"):
+        rw.Wall().record_pulses(rw.Record(0.01, [0.0] * 50))
+    with pytest.raises(TypeError):
+        rw.Wall().record_pulses([0.1, 0.2])

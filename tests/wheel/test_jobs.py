@@ -261,7 +261,7 @@ def test_a_spectrum_over_walls(program, tmp_path, axes):
     assert "<svg" in found._repr_svg_() and "slenderness" in found._repr_svg_()
 
 
-@pytest.mark.parametrize("form", ["sine_cycle", "rectangle", "triangle", "falling_triangle"])
+@pytest.mark.parametrize("form", ["sine_cycle", "cosine_cycle", "rectangle", "triangle", "falling_triangle"])
 def test_a_spectrum_over_pulses(program, tmp_path, form):
     out = tmp_path / "spectrum.csv"
     options = ["--frequency-ratios", "1:9:9", "--amplitude-ratios", "1:6:6"]

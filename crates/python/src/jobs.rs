@@ -16,7 +16,8 @@ use study::calibration::figure::charts;
 use study::calibration::{self, CalibrationError, Grid, calibrate, calibrated_models, model_named};
 use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
-    PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion, over_pulses, over_walls,
+    PulseForm, RecordPulses, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion, over_pulses,
+    over_walls,
 };
 use study::tie::{self, Outcome, Row, TieError, TieStudy};
 
@@ -130,6 +131,21 @@ pub(crate) fn spectrum_over_pulses<'py>(
     let form = PulseForm::from_name(form).map_err(|message| refused(format!("form = {message}")))?;
     let (parameters, threads) = (&wall.scene.parameters, threads_of(threads)?.get());
     spectrum(py, [columns, rows], |columns, rows| over_pulses(parameters, form, columns, rows, threads))
+}
+
+/// Finds the pulses of a record for a wall; returns their table.
+#[pyfunction]
+pub(crate) fn record_pulses<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    record: Motion,
+    threads: Option<i64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (mut scene, threads) = (wall.scene.clone(), threads_of(threads)?.get());
+    scene.shake(Excitation::new(record.0, None), DEFAULT_TAIL, Vec::new());
+    let motion = common_motion(&scene).map_err(of_scene)?;
+    let found = stoppable(py, || RecordPulses::new(&scene.parameters, motion, threads))?;
+    table(py, found.map_err(refused)?.table())
 }
 
 /// Computes a spectrum along the values of its axes.

@@ -48,8 +48,8 @@ mod _native {
         buildings::Building,
         folders::Folder,
         jobs::{
-            calibrate_wall, check_report, check_wall, spectrum_over_pulses, spectrum_over_walls, tie_of_wall,
-            verify_formulas,
+            calibrate_wall, check_report, check_wall, record_pulses, spectrum_over_pulses,
+            spectrum_over_walls, tie_of_wall, verify_formulas,
         },
         many::simulate_many,
         motions::{

@@ -327,7 +327,9 @@ class Wall(Given):
 
     def pulse_spectrum(
         self,
-        form: Literal["ricker", "sine_cycle", "half_sine", "rectangle", "triangle", "falling_triangle"],
+        form: Literal[
+            "ricker", "sine_cycle", "cosine_cycle", "half_sine", "rectangle", "triangle", "falling_triangle"
+        ],
         *,
         frequency_ratios: ArrayLike | None = None,
         amplitude_ratios: ArrayLike | None = None,
@@ -351,6 +353,21 @@ class Wall(Given):
         rows = PULSES if amplitude_ratios is None else amplitude_ratios
         across, up, table, picture = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
         return RockingSpectrum(across, up, Table(table), picture)
+
+    def record_pulses(self, record: Record, *, threads: int | None = None) -> Table:
+        """Finds the sine, the cosine and the Ricker pulse in a record, the one that fits best first. The
+        amplitude of each is that with which this wall has its peak under the record. Ctrl-C stops the work.
+
+        Columns are those of `wall study spectrum --pulse-of RECORD --csv FILE`.
+
+        :param threads: Number of threads; by default one for each core.
+
+        >>> from rocking_wall import sine_cycle
+        >>> pulses = Wall().record_pulses(sine_cycle(1.0, 1.0))
+        >>> str(pulses["pulse"][0]), float(pulses["amplitude_m_s2"][0].round(2))
+        ('sine_cycle', 1.0)
+        """
+        return Table(_native.record_pulses(self._native, motion_of(record), threads))
 
     def tie(
         self,

@@ -1,6 +1,6 @@
 //! Axes of a rocking spectrum, and errors of their values.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
 use rocking_wall::solver::SolverError;
@@ -56,6 +56,8 @@ pub enum PulseForm {
     Ricker,
     /// One cycle of a sine.
     SineCycle,
+    /// One cycle of a cosine.
+    CosineCycle,
     /// Half a cycle of a sine.
     HalfSine,
     /// A constant acceleration.
@@ -91,6 +93,9 @@ pub enum SpectrumError {
     /// A run of the wall of a height and thickness \[m\] failed.
     #[error("wall of {height} m by {thickness} m: {source}")]
     Run { height: f64, thickness: f64, source: SolverError },
+    /// The wall does not move.
+    #[error("the wall stays at rest under the record, so that every pulse has its peak: scale the record up")]
+    AtRest,
     /// A pulse is invalid.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
@@ -130,14 +135,20 @@ impl Slenderness {
 
 impl PulseForm {
     /// All forms with their names.
-    const NAMED: [(&'static str, Self); 6] = [
+    const NAMED: [(&'static str, Self); 7] = [
         ("ricker", Self::Ricker),
         ("sine_cycle", Self::SineCycle),
+        ("cosine_cycle", Self::CosineCycle),
         ("half_sine", Self::HalfSine),
         ("rectangle", Self::Rectangle),
         ("triangle", Self::Triangle),
         ("falling_triangle", Self::FallingTriangle),
     ];
+
+    /// Returns its name.
+    pub fn name(self) -> &'static str {
+        Self::NAMED.into_iter().find(|(_, form)| *form == self).map_or("", |(name, _)| name)
+    }
 
     /// Returns the form of a name.
     ///
@@ -170,6 +181,7 @@ impl PulseForm {
         match self {
             Self::Ricker => curved(Shape::Ricker { centre: 6.5 / (0.5 * TAU * frequency) }),
             Self::SineCycle => curved(Shape::SineCycle),
+            Self::CosineCycle => curved(Shape::Harmonic { phase: FRAC_PI_2, end: Some(1.0 / frequency) }),
             Self::HalfSine => curved(Shape::HalfSine),
             Self::Rectangle => straight(|_| 1.0),
             Self::Triangle => straight(|part| 1.0 - (2.0 * part - 1.0).abs()),

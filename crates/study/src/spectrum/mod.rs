@@ -26,6 +26,7 @@
 mod axes;
 pub mod figure;
 pub mod page;
+mod record_pulse;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -43,6 +44,7 @@ use run::free_motion::{advance, peak_is_final};
 use run::parallel;
 
 pub use axes::{MOST_POINTS, PulseForm, QUANTITIES, Quantity, Size, Slenderness, SpectrumError};
+pub use record_pulse::{RecordPulse, RecordPulses};
 
 /// Step of the free motion after the record, over 1/p.
 const FREE_STEP: f64 = 0.25;

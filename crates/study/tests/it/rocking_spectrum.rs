@@ -1,13 +1,16 @@
 //! Rocking spectra: closed-form overturning thresholds, dimensionless groups, rest and threads.
 
+use std::f64::consts::{PI, TAU};
+
 use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Wall};
 use study::spectrum::{
-    PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, over_pulses, over_walls,
+    PulseForm, RecordPulses, RockingSpectrum, Size, Slenderness, SpectrumError, onset, over_pulses,
+    over_walls,
 };
 
 use crate::uplift::{Uplift, root, straight};
@@ -280,4 +283,76 @@ fn what_is_no_wall_is_refused_by_name() {
     assert!(matches!(error, Err(SpectrumError::ParapetOnly { .. })));
     let error = over_pulses(&bilinear(), PulseForm::Ricker, &[0.0], &[1.0], 1).unwrap_err().to_string();
     assert!(error.contains("ω_p/p = 0"), "{error}");
+}
+
+/// A pulse over the time \[s\].
+type At = fn(f64) -> f64;
+
+/// A record of pulses with the amplitude 1 m/s² at times, 0 elsewhere, in steps of 0.01 s.
+fn record(pulses: &[(At, f64, f64)]) -> GroundMotion {
+    let at = |time: f64| pulses.iter().map(|(pulse, from, scale)| scale * pulse(time - from)).sum();
+    GroundMotion::new(0.01, (0..800).map(|index| at(0.01 * f64::from(index))).collect()).unwrap()
+}
+
+fn sine(time: f64) -> f64 {
+    if (0.0..=1.0).contains(&time) { libm::sin(TAU * time) } else { 0.0 }
+}
+
+fn cosine(time: f64) -> f64 {
+    if (0.0..=1.0).contains(&time) { libm::cos(TAU * time) } else { 0.0 }
+}
+
+fn ricker(time: f64) -> f64 {
+    let square = (PI * (time - 2.0)).powi(2);
+    (1.0 - 2.0 * square) * (-square).exp()
+}
+
+/// A record that is a pulse of 1 s has this pulse, for the record and for the wall, with its sign: samples
+/// are 1 % of the period, so that the period is known to less.
+#[test]
+fn a_pulse_is_its_own_pulse() {
+    let forms: [(PulseForm, At); 3] =
+        [(PulseForm::SineCycle, sine), (PulseForm::CosineCycle, cosine), (PulseForm::Ricker, ricker)];
+    for ((form, pulse), scale) in forms.into_iter().zip([1.2, -1.2, 1.2]) {
+        let found = RecordPulses::new(&bilinear(), record(&[(pulse, 3.0, scale)]), 1).unwrap();
+        let [best, second, _] = found.pulses[..] else { panic!("three forms") };
+        assert_eq!(best.form, form);
+        assert!(best.index > 0.999 && best.index > second.index, "{found:?}");
+        for (found, expected) in [(best.period, 1.0), (best.fitted, scale), (best.amplitude.unwrap(), scale)]
+        {
+            assert!((found - expected).abs() < 0.01 * expected.abs(), "{form:?}: {found} for {expected}");
+        }
+    }
+}
+
+/// The index is that of energies: of two sine cycles of one period with amplitudes 3 and 1 the larger one is
+/// found, with √(9/10) of the root of the energy. Twice the record is twice the fitted amplitude.
+#[test]
+fn the_misfit_is_the_energy_that_is_left() {
+    let [once, twice] = [1.0, 2.0].map(|scale| {
+        let record = record(&[(sine, 2.0, 3.0 * scale), (sine, 5.0, scale)]);
+        RecordPulses::new(&bilinear(), record, 2).unwrap().pulses[0]
+    });
+    assert_eq!(once.form, PulseForm::SineCycle);
+    // the optimum may lie between samples
+    assert!((once.index - 0.9_f64.sqrt()).abs() < 1e-3 && (once.centre - 2.5).abs() < 0.005, "{once:?}");
+    assert!((twice.fitted - 2.0 * once.fitted).abs() < 1e-12 && twice.index == once.index);
+}
+
+/// The amplitude just overturns the wall where the record does: 1e-6 less does not.
+#[test]
+fn the_amplitude_just_does_what_the_record_does() {
+    let wall = rigid(0.9);
+    let found = RecordPulses::new(&wall, record(&[(sine, 2.0, 9.0), (cosine, 5.0, 1.0)]), 1).unwrap();
+    assert!(found.point.overturning.is_some());
+    let pulse = found.pulses.iter().find(|pulse| pulse.form == PulseForm::SineCycle).unwrap();
+    let body = Wall::new(&wall).unwrap();
+    let frequency = TAU / (pulse.period * body.rocking_rate());
+    let amplitude = pulse.amplitude.unwrap() / onset(&body);
+    let rows = [1.0 - 1e-6, 1.0 + 1e-6].map(|factor| factor * amplitude);
+    let spectrum = over_pulses(&wall, PulseForm::SineCycle, &[frequency], &rows, 1).unwrap();
+    let overturns = [0, 1].map(|row: usize| spectrum.points[row][0].overturning.is_some());
+    assert_eq!(overturns, [false, true]);
+    let still = RecordPulses::new(&wall, record(&[(sine, 2.0, 0.5)]), 1).unwrap_err();
+    assert!(still.to_string().contains("stays at rest under the record"), "{still}");
 }

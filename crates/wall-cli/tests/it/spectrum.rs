@@ -4,7 +4,9 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
 use study::spectrum::{Size, Slenderness, over_walls};
 
-use crate::command_line::{args, assert_has, content, folder, printed, refused, rows, setting, succeed};
+use crate::command_line::{
+    args, assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed,
+};
 
 #[test]
 fn the_program_writes_a_table_and_a_page() {
@@ -98,4 +100,74 @@ fn bad_requests_are_refused() {
     for (arguments, words) in cases {
         refused(&folder, &[arguments, &["--csv", "out.csv", "--html", "out.html"]].concat(), words);
     }
+}
+
+/// The pulses of a record as text, JSON, CSV and picture.
+#[test]
+fn the_pulses_of_a_record_are_found() {
+    let folder = folder("pulse_of");
+    succeed(&folder, &["record", "--synthetic", "--samples", "r.csv"]);
+    let command = ["study", "spectrum", "--pulse-of", "r.csv", "--scale", "0.8"];
+    let text = printed(&folder, &[&command[..], &["--csv", "p.csv", "--svg", "p.svg"]].concat());
+    assert_has(
+        &text,
+        &["record r.csv", "amplitudes with the same peak", "misfit", "written p.csv", "written p.svg"],
+    );
+    let pulses = json(&folder, &[&command[..], &["--json"]].concat());
+    let pulses = pulses["pulses"].as_array().unwrap();
+    assert_eq!((pulses.len(), rows(&folder, "p.csv").len()), (3, 3));
+    let index = |at: usize| pulses[at]["index"].as_f64().unwrap();
+    assert!(index(0) >= index(1) && index(1) >= index(2) && index(2) > 0.0);
+    assert!(content(&folder, "p.svg").contains("ricker, T = "));
+}
+
+#[test]
+fn what_has_no_pulses_is_refused() {
+    let folder = folder("no_pulse_of");
+    succeed(&folder, &["record", "--synthetic", "--samples", "r.csv"]);
+    std::fs::write(folder.join("zeros.txt"), "0\n".repeat(50)).unwrap();
+    std::fs::write(folder.join("small.txt"), "0.1\n-0.1\n".repeat(50)).unwrap();
+    std::fs::write(folder.join("words.txt"), "one two\n").unwrap();
+    let of = |more: &[&'static str]| [&["study", "spectrum", "--pulse-of"], more].concat();
+    for (arguments, words) in [
+        (of(&["none.csv"]), "none.csv"),
+        (of(&["words.txt"]), "words.txt"),
+        (of(&["zeros.txt", "--unit", "m/s2", "--record-step", "0.01"]), "zeros.txt"),
+        (of(&["r.csv", "--csv", "r.csv"]), "r.csv"),
+        (of(&["r.csv", "--scale", "nan"]), "scale"),
+        (of(&["r.csv", "--unit", "furlong"]), "furlong"),
+        (of(&["r.csv", "--set", "heigth=3"]), "did you mean"),
+        (
+            of(&[
+                "small.txt",
+                "--unit",
+                "m/s2",
+                "--record-step",
+                "0.01",
+                "--set",
+                "force_law=rigid_linear",
+                "--set",
+                "damping_model=none",
+            ]),
+            "stays at rest under the record",
+        ),
+    ] {
+        fails(&folder, &arguments, &[words]);
+    }
+    for more in [
+        &["--record", "r.csv"][..],
+        &["--pulse", "ricker"],
+        &["--heights", "1:2:3"],
+        &["--ratios", "5:9:2"],
+        &["--radii", "1:2:3"],
+        &["--angles", "0.1:0.2:3"],
+        &["--html", "a.html"],
+        &["--synthetic"],
+        &["--frequency-ratios", "1:2:3"],
+        &["--frequency", "2"],
+        &["--svg", "a.png"],
+    ] {
+        fails(&folder, &[&of(&["r.csv"])[..], more].concat(), &["--"]);
+    }
+    fails(&folder, &["study", "spectrum", "--json"], &["--pulse-of"]);
 }

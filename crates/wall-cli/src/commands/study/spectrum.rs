@@ -1,6 +1,6 @@
 //! `wall study spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
@@ -10,9 +10,10 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
 use run::parallel;
+use serde_json::json;
 use study::spectrum::figure::{Shown, own_words, svg};
 use study::spectrum::{
-    PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
+    PulseForm, RecordPulses, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
 use crate::args::{RecordArguments, SceneArguments, apply_set, refuse, svg_file};
@@ -25,11 +26,26 @@ pub(crate) struct Arguments {
     scene: SceneArguments,
     #[command(flatten)]
     record: RecordArguments,
-    /// Pulse instead of a record: ricker, `sine_cycle`, `half_sine`, rectangle, triangle or
+    /// Pulse instead of a record: ricker, `sine_cycle`, `cosine_cycle`, `half_sine`, rectangle, triangle or
     /// `falling_triangle`; by itself it gives the dimensionless spectrum over `omega_p/p` and `a_p/a_0`. All
     /// from `half_sine` on last half a period, 1/(2 f)
     #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
     pulse: Option<String>,
+    /// Find the record's own pulse in place of a spectrum: for a sine, a cosine and a Ricker pulse the period
+    /// that fits the record best, and the amplitude with which the wall has the same peak
+    #[arg(
+        long,
+        value_name = "RECORD",
+        group = "recorded",
+        conflicts_with_all = [
+            "pulse", "frequency", "amplitude", "heights", "radii", "ratios", "angles", "frequency_ratios",
+            "amplitude_ratios", "html"
+        ]
+    )]
+    pulse_of: Option<PathBuf>,
+    /// Print the pulses of a record as JSON
+    #[arg(long, requires = "pulse_of")]
+    json: bool,
     /// Frequency of the pulse in Hz, for a spectrum over walls
     #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
     frequency: Option<f64>,
@@ -75,10 +91,14 @@ const MOST_VALUES: usize = 500;
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load(console)?;
     apply_set(&arguments.scene.set, &mut scene)?;
-    let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
+    let records = arguments.record.record.iter().chain(&arguments.pulse_of);
+    let inputs = arguments.scene.inputs(&scene).chain(records);
     let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let threads = parallel::threads(arguments.threads).get();
+    if let Some(path) = &arguments.pulse_of {
+        return pulses_of(console, arguments, scene, path, threads);
+    }
     let pulse = arguments.pulse.as_deref().map(Pulse::named).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
         (Some(pulse), None, None) => pulses(console, arguments, &scene.parameters, &pulse, threads)?,
@@ -97,6 +117,34 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.save(arguments.html.as_ref(), || page(&shown))?;
     console.save(arguments.svg.as_ref(), || svg(&shown))?;
     console.print(&(summary(&shown) + &output::written("written    ", outputs.into_iter().flatten())))
+}
+
+/// Finds the pulses of a record.
+fn pulses_of(
+    console: &Console<'_>,
+    arguments: &Arguments,
+    mut scene: Scene,
+    path: &Path,
+    threads: usize,
+) -> Result<()> {
+    let (motion, note) = arguments.record.read(console, path)?;
+    let motion = arguments.record.motion.scaled(console, motion)?;
+    scene.shake(Excitation::new(motion, None), DEFAULT_TAIL, Vec::new());
+    let found = RecordPulses::new(&scene.parameters, common_motion(&scene)?, threads)?;
+    let (table, point) = (found.table(), found.point);
+    console.save(arguments.csv.as_ref(), || table.csv())?;
+    console.save(arguments.svg.as_ref(), || found.plot().picture())?;
+    if arguments.json {
+        return console.json(&json!({
+            "u_ratio_max": point.ratio, "overturn_time_s": point.overturning, "pulses": table.json()
+        }));
+    }
+    let peak = match point.overturning {
+        Some(time) => format!("the wall overturns at {time:.3} s"),
+        None => format!("largest |u| {:.4} u_ins", point.ratio),
+    };
+    let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.svg));
+    console.print(&format!("{note}, {peak}; amplitudes with the same peak\n\n{}{written}", table.text()))
 }
 
 fn pulses(
